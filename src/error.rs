@@ -1,0 +1,79 @@
+//! The one error type. Every message names the thing, the value, what is allowed and what to do next.
+
+use std::path::PathBuf;
+
+/// Shorthand for results of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Everything that can go wrong, one variant per exit code family.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The scene file is wrong; the text holds file, line, key and what is allowed (all findings, not only the first).
+    #[error("{0}")]
+    Scene(String),
+    /// The command line asks for something that does not exist.
+    #[error("{0}")]
+    Usage(String),
+    /// No adapter, or none that matches `--device`.
+    #[error("{0}")]
+    NoAdapter(String),
+    /// The scene needs more memory than the device has, or a larger binding than it allows.
+    #[error("{0}")]
+    DoesNotFit(String),
+    /// A stage met a value it cannot continue from.
+    #[error("diverged in step {step}, stage {stage}, cell {cell:?}: {reason}")]
+    Diverged {
+        /// Step number, from 1.
+        step: u64,
+        /// Name of the stage that raised the flag.
+        stage: &'static str,
+        /// Cell index, or the particle index in the first entry for particle stages.
+        cell: [i32; 3],
+        /// What was seen and what to try.
+        reason: String,
+    },
+    /// A shader does not compile; file and line are those of the source folder.
+    #[error("{0}")]
+    Shader(String),
+    /// The driver reported an error or lost the device.
+    #[error("GPU: {0}")]
+    Gpu(String),
+    /// A check of a scene's `[expect]` table failed.
+    #[error("{0}")]
+    Expectation(String),
+    /// A file could not be read or written.
+    #[error("{path}: {source}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The user pressed Ctrl-C; everything written so far is valid.
+    #[error("interrupted; all files written so far are complete")]
+    Interrupted,
+}
+
+impl Error {
+    /// Process exit code: 1 internal, 2 usage, 3 scene, 4 no adapter, 5 does not fit, 7 diverged, 8 expectation, 9 disk, 75 device lost, 130 interrupted.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Error::Usage(_) => 2,
+            Error::Scene(_) => 3,
+            Error::NoAdapter(_) => 4,
+            Error::DoesNotFit(_) => 5,
+            Error::Diverged { .. } => 7,
+            Error::Expectation(_) => 8,
+            Error::Io { .. } => 9,
+            Error::Gpu(_) => 75,
+            Error::Interrupted => 130,
+            Error::Shader(_) => 1,
+        }
+    }
+
+    /// Wraps an I/O error with the file it belongs to.
+    pub fn io(path: impl Into<PathBuf>, source: std::io::Error) -> Self {
+        Error::Io { path: path.into(), source }
+    }
+}

@@ -1,0 +1,1 @@
+//! glam re-exports and small pure helpers.
