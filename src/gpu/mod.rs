@@ -1,1 +1,21 @@
-//! Placeholder: see ARCHITECTURE.
+//! The GPU without physics: device, buffers, shaders, kernels, passes, readback.
+//!
+//! The usual order: [`Gpu::new`] picks a device, [`Buffer::new`] allocates, [`Kernel::new`] compiles one entry point and
+//! reflects its bindings, [`Kernel::bind`] connects buffers by name, a [`Pass`] records dispatches and submits them,
+//! [`readback::read`] brings numbers back. Nothing here panics on a driver error: the first one is kept and
+//! [`Gpu::check`] hands it out.
+
+mod buffer;
+mod device;
+mod kernel;
+mod pass;
+pub mod readback;
+mod shader;
+mod sources;
+
+pub use buffer::Buffer;
+pub use device::{AdapterSummary, Gpu, GpuOptions};
+pub use kernel::{Access, Binding, Bound, Constants, Extent, Kernel, MAX_STORAGE_BUFFERS, WORKGROUP, group_counts};
+pub use pass::Pass;
+pub use shader::{Compiled, Folder, Shader};
+pub use sources::SOURCES;

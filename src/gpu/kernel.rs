@@ -1,0 +1,270 @@
+//! Compute kernels whose bindings are read from the WGSL: Rust names buffers, never binding numbers.
+
+use std::num::NonZeroU64;
+use std::sync::Arc;
+
+use wgpu::naga;
+
+use super::buffer::Buffer;
+use super::device::{Gpu, lock};
+use super::shader::Compiled;
+use crate::error::{Error, Result};
+
+/// Threads of a workgroup, flat along x; every shader sees it as `const WORKGROUP`.
+pub const WORKGROUP: u32 = 64;
+
+/// Storage buffers one kernel may use: what every WebGPU device offers.
+pub const MAX_STORAGE_BUFFERS: usize = 8;
+
+/// What is fixed when a shader is compiled.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Constants<'a> {
+    /// Values of `override` declarations. Those the shader does not declare are left out, so that one list serves all.
+    pub overrides: &'a [(&'a str, f64)],
+    /// WGSL declarations put before the source.
+    pub source: &'a str,
+}
+
+/// How a kernel uses a binding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Access {
+    /// `var<uniform>`.
+    Uniform,
+    /// `var<storage, read>`.
+    Read,
+    /// `var<storage, read_write>`.
+    ReadWrite,
+}
+
+/// One variable of group 0 that an entry point uses, directly or through functions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Binding {
+    /// Name of the variable.
+    pub name: String,
+    /// Its `@binding`.
+    pub index: u32,
+    /// Its address space and access mode.
+    pub access: Access,
+    /// Bytes the buffer must have at least.
+    pub min_bytes: u64,
+}
+
+/// One compiled entry point.
+#[derive(Clone, Debug)]
+pub struct Kernel {
+    label: String,
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    bindings: Vec<Binding>,
+    threads_per_group: u32,
+}
+
+/// A kernel with its buffers: what a [`super::Pass`] dispatches.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    pub(super) pipeline: wgpu::ComputePipeline,
+    pub(super) group: wgpu::BindGroup,
+    pub(super) threads_per_group: u32,
+}
+
+/// How many threads a dispatch runs.
+#[derive(Clone, Copy, Debug)]
+pub enum Extent<'a> {
+    /// At least this many threads, in whole workgroups; the shader checks its index.
+    Threads(u64),
+    /// Exactly these workgroups.
+    Groups([u32; 3]),
+    /// The three group counts at this byte offset of a [`Buffer::indirect`]; zeros skip the dispatch.
+    Indirect(&'a Buffer<u32>, u64),
+}
+
+/// Workgroups for `groups` in a row, at most `limit` per axis: x first, then y, then z. The product is at least `groups`.
+#[must_use]
+pub fn group_counts(groups: u64, limit: u32) -> [u32; 3] {
+    let limit = u64::from(limit);
+    let z = groups.div_ceil(limit * limit).max(1);
+    let y = groups.div_ceil(limit * z).max(1);
+    let x = groups.div_ceil(y * z);
+    [x as u32, y as u32, z as u32]
+}
+
+impl Kernel {
+    /// Compiles one entry point of a shader. The shader itself is read, checked and given to the driver once per constants.
+    ///
+    /// # Errors
+    /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings.
+    pub fn new(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
+        let compiled = compiled(gpu, shader, constants.source)?;
+        let label = format!("shaders/{shader}: {entry}");
+        let (bindings, threads_per_group) =
+            reflect(&compiled, entry).map_err(|reason| Error::Shader(format!("{label}: {reason}")))?;
+        let entries: Vec<_> = bindings.iter().map(layout_entry).collect();
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let layout = gpu
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(&label), entries: &entries });
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(&label),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let declared =
+            |name: &str| compiled.module.overrides.iter().any(|(_, item)| item.name.as_deref() == Some(name));
+        let overrides: Vec<_> = constants.overrides.iter().copied().filter(|(name, _)| declared(name)).collect();
+        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(&label),
+            layout: Some(&pipeline_layout),
+            module: &compiled.raw,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &overrides, ..Default::default() },
+            cache: None,
+        });
+        match pollster::block_on(scope.pop()) {
+            Some(error) => Err(Error::Shader(format!("{label}: {error}"))),
+            None => Ok(Kernel { label, pipeline, layout, bindings, threads_per_group }),
+        }
+    }
+
+    /// The variables of group 0 this entry point uses, by binding number.
+    #[must_use]
+    pub fn bindings(&self) -> &[Binding] {
+        &self.bindings
+    }
+
+    /// Connects buffers by the names of the shader's variables. All that the entry point uses must be given, and nothing else.
+    ///
+    /// # Errors
+    /// [`Error::Shader`] for unknown, missing, doubled and too small buffers, and for one buffer under two names of which one
+    /// is written.
+    pub fn bind(&self, gpu: &Gpu, buffers: &[(&str, &wgpu::Buffer)]) -> Result<Bound> {
+        self.check(buffers).map_err(|reason| Error::Shader(format!("{}: {reason}", self.label)))?;
+        let entries: Vec<_> = buffers
+            .iter()
+            .filter_map(|(name, buffer)| {
+                let binding = self.bindings.iter().find(|binding| binding.name == *name)?;
+                Some(wgpu::BindGroupEntry { binding: binding.index, resource: buffer.as_entire_binding() })
+            })
+            .collect();
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&self.label),
+            layout: &self.layout,
+            entries: &entries,
+        });
+        gpu.check()?;
+        Ok(Bound { pipeline: self.pipeline.clone(), group, threads_per_group: self.threads_per_group })
+    }
+
+    /// Compares the given names with the declared ones, both ways.
+    fn check(&self, buffers: &[(&str, &wgpu::Buffer)]) -> std::result::Result<(), String> {
+        let declared = || self.bindings.iter().map(|binding| binding.name.as_str()).collect::<Vec<_>>().join(", ");
+        for (index, (name, buffer)) in buffers.iter().enumerate() {
+            let Some(binding) = self.bindings.iter().find(|binding| binding.name == *name) else {
+                return Err(format!("uses no variable `{name}`; it uses {}", declared()));
+            };
+            if buffer.size() < binding.min_bytes {
+                return Err(format!("`{name}` needs {} bytes, the buffer has {}", binding.min_bytes, buffer.size()));
+            }
+            for (other_name, other) in &buffers[..index] {
+                if other_name == name {
+                    return Err(format!("`{name}` is given twice"));
+                }
+                let written = |wanted: &str| {
+                    self.bindings.iter().any(|item| item.name == wanted && item.access == Access::ReadWrite)
+                };
+                if other == buffer && (written(name) || written(other_name)) {
+                    return Err(format!("`{other_name}` and `{name}` are one buffer, and one of them is written"));
+                }
+            }
+        }
+        let given = |binding: &&Binding| buffers.iter().any(|(name, _)| *name == binding.name);
+        match self.bindings.iter().find(|binding| !given(binding)) {
+            Some(binding) => Err(format!("no buffer for `{}`; it uses {}", binding.name, declared())),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The shader from the device's cache, or compiled now.
+fn compiled(gpu: &Gpu, name: &str, constants: &str) -> Result<Arc<Compiled>> {
+    let key = (name.to_owned(), constants.to_owned());
+    if let Some(compiled) = lock(&gpu.shaders).get(&key) {
+        return Ok(Arc::clone(compiled));
+    }
+    let shader = gpu.shader(name, constants)?;
+    let (module, uses) = shader.compile()?;
+    let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let raw = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(name),
+        source: wgpu::ShaderSource::Wgsl(shader.text.as_str().into()),
+    });
+    if let Some(error) = pollster::block_on(scope.pop()) {
+        return Err(Error::Shader(format!("shaders/{name}: {error}")));
+    }
+    let compiled = Arc::new(Compiled { shader, module, uses, raw });
+    lock(&gpu.shaders).insert(key, Arc::clone(&compiled));
+    Ok(compiled)
+}
+
+/// The bindings an entry point uses and the threads of its workgroup.
+fn reflect(compiled: &Compiled, entry: &str) -> std::result::Result<(Vec<Binding>, u32), String> {
+    let module = &compiled.module;
+    let Some(position) = module.entry_points.iter().position(|point| point.name == entry) else {
+        let names: Vec<_> = module.entry_points.iter().map(|point| point.name.as_str()).collect();
+        return Err(format!("no such entry point; there are {}", names.join(", ")));
+    };
+    let point = &module.entry_points[position];
+    if point.workgroup_size_overrides.is_some() {
+        return Err("the workgroup size must be a constant such as WORKGROUP, not an override".to_owned());
+    }
+    let uses = compiled.uses.get_entry_point(position);
+    let mut bindings = Vec::new();
+    for (handle, variable) in module.global_variables.iter() {
+        let Some(place) = variable.binding.filter(|_| !uses[handle].is_empty()) else { continue };
+        bindings.push(reflect_variable(module, variable, place)?);
+    }
+    bindings.sort_by_key(|binding| binding.index);
+    let storage = bindings.iter().filter(|binding| binding.access != Access::Uniform).count();
+    if storage > MAX_STORAGE_BUFFERS {
+        return Err(format!("uses {storage} storage buffers, at most {MAX_STORAGE_BUFFERS} are allowed"));
+    }
+    Ok((bindings, point.workgroup_size.iter().product()))
+}
+
+/// Reads one variable's declaration.
+fn reflect_variable(
+    module: &naga::Module,
+    variable: &naga::GlobalVariable,
+    place: naga::ResourceBinding,
+) -> std::result::Result<Binding, String> {
+    let name = variable.name.clone().unwrap_or_default();
+    if place.group != 0 {
+        return Err(format!("`{name}` is in group {}, only group 0 is used", place.group));
+    }
+    let access = match variable.space {
+        naga::AddressSpace::Uniform => Access::Uniform,
+        naga::AddressSpace::Storage { access } if access.contains(naga::StorageAccess::STORE) => Access::ReadWrite,
+        naga::AddressSpace::Storage { .. } => Access::Read,
+        _ => return Err(format!("`{name}` is no buffer; kernels bind buffers only")),
+    };
+    let min_bytes = u64::from(module.types[variable.ty].inner.size(module.to_ctx()));
+    Ok(Binding { name, index: place.binding, access, min_bytes })
+}
+
+/// One line of the explicit layout.
+fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
+    let ty = match binding.access {
+        Access::Uniform => wgpu::BufferBindingType::Uniform,
+        Access::Read => wgpu::BufferBindingType::Storage { read_only: true },
+        Access::ReadWrite => wgpu::BufferBindingType::Storage { read_only: false },
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding: binding.index,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: NonZeroU64::new(binding.min_bytes),
+        },
+        count: None,
+    }
+}

@@ -1,0 +1,190 @@
+//! Recording: one submission of dispatches, in stages that carry names and, on request, times.
+
+use super::buffer::Buffer;
+use super::device::Gpu;
+use super::kernel::{Bound, Extent, group_counts};
+use super::readback;
+use crate::error::{Error, Result};
+
+/// Work recorded for one submission. Dispatches run in order; each sees what the earlier ones wrote.
+#[derive(Debug)]
+pub struct Pass {
+    gpu: Gpu,
+    encoder: wgpu::CommandEncoder,
+    /// The open compute pass. A timed one spans a single stage, because only pass borders carry timestamps everywhere.
+    open: Option<wgpu::ComputePass<'static>>,
+    stage: String,
+    in_group: bool,
+    clock: Option<Clock>,
+}
+
+/// Timestamps of a timed pass: two per span.
+#[derive(Debug)]
+struct Clock {
+    queries: wgpu::QuerySet,
+    /// Stage of each span, in order.
+    spans: Vec<String>,
+}
+
+impl Pass {
+    /// Starts recording.
+    #[must_use]
+    pub fn new(gpu: &Gpu, label: &str) -> Pass {
+        let encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) });
+        Pass { gpu: gpu.clone(), encoder, open: None, stage: label.to_owned(), in_group: false, clock: None }
+    }
+
+    /// Starts recording with a stopwatch per stage; without one if the device has none ([`Gpu::timestamps`]).
+    #[must_use]
+    pub fn timed(gpu: &Gpu, label: &str) -> Pass {
+        let mut pass = Pass::new(gpu, label);
+        pass.clock = gpu.timestamps.then(|| Clock {
+            queries: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some(label),
+                ty: wgpu::QueryType::Timestamp,
+                count: wgpu::QUERY_SET_MAX_QUERIES,
+            }),
+            spans: Vec::new(),
+        });
+        pass
+    }
+
+    /// Names what follows, for debuggers and the stopwatch.
+    pub fn stage(&mut self, name: &str) {
+        self.close_group();
+        if self.clock.is_some() {
+            self.open = None;
+        }
+        name.clone_into(&mut self.stage);
+    }
+
+    /// Records one dispatch. Extents of no threads record nothing.
+    pub fn dispatch(&mut self, bound: &Bound, extent: &Extent<'_>) {
+        let limit = self.gpu.limits.max_compute_workgroups_per_dimension;
+        let pass = self.compute();
+        pass.set_pipeline(&bound.pipeline);
+        pass.set_bind_group(0, &bound.group, &[]);
+        match extent {
+            Extent::Threads(threads) => {
+                let [x, y, z] = group_counts(threads.div_ceil(u64::from(bound.threads_per_group)), limit);
+                if x > 0 {
+                    pass.dispatch_workgroups(x, y, z);
+                }
+            }
+            Extent::Groups([x, y, z]) => pass.dispatch_workgroups(*x, *y, *z),
+            Extent::Indirect(buffer, offset) => pass.dispatch_workgroups_indirect(buffer.raw(), *offset),
+        }
+    }
+
+    /// Sets a buffer to zero.
+    pub fn clear<T: bytemuck::Pod>(&mut self, buffer: &Buffer<T>) {
+        self.encoder().clear_buffer(buffer.raw(), 0, None);
+    }
+
+    /// Copies `len` elements between two buffers.
+    pub fn copy<T: bytemuck::Pod>(&mut self, from: (&Buffer<T>, usize), to: (&Buffer<T>, usize), len: usize) {
+        let bytes = |count: usize| (count * size_of::<T>()) as u64;
+        self.encoder().copy_buffer_to_buffer(from.0.raw(), bytes(from.1), to.0.raw(), bytes(to.1), bytes(len));
+    }
+
+    /// The encoder itself, between compute passes, for commands that are neither dispatch, copy nor clear.
+    pub fn encoder(&mut self) -> &mut wgpu::CommandEncoder {
+        self.close_group();
+        self.open = None;
+        &mut self.encoder
+    }
+
+    /// Hands the work to the device and does not wait.
+    ///
+    /// # Errors
+    /// What the driver found wrong while recording, see [`Gpu::check`].
+    pub fn submit(self) -> Result<wgpu::SubmissionIndex> {
+        let Pass { gpu, encoder, .. } = self.finish();
+        let submission = gpu.queue.submit([encoder.finish()]);
+        gpu.check()?;
+        Ok(submission)
+    }
+
+    /// Submits, waits, and returns the milliseconds of each stage in order of first appearance; equal names are added up.
+    /// Empty if the device has no timestamps.
+    ///
+    /// # Errors
+    /// As [`Pass::submit`]; [`Error::Gpu`] if there were more stages than timestamps.
+    pub fn submit_timed(self) -> Result<Vec<(String, f64)>> {
+        let Pass { gpu, mut encoder, clock, .. } = self.finish();
+        let Some(Clock { queries, spans }) = clock.filter(|clock| !clock.spans.is_empty()) else {
+            let submission = gpu.queue.submit([encoder.finish()]);
+            return gpu.wait(Some(submission)).map(|()| Vec::new());
+        };
+        if spans.len() > MAX_SPANS {
+            return Err(Error::Gpu(format!("{} timed stages, at most {MAX_SPANS} in one submission", spans.len())));
+        }
+        let count = 2 * spans.len() as u32;
+        let size = u64::from(count) * 8;
+        let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("timestamps"),
+            size,
+            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        encoder.resolve_query_set(&queries, 0..count, &resolved, 0);
+        gpu.queue.submit([encoder.finish()]);
+        let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&readback::read_bytes(&gpu, &resolved, 0, size)?);
+        let milliseconds_per_tick = f64::from(gpu.queue.get_timestamp_period()) * 1e-6;
+        let mut times: Vec<(String, f64)> = Vec::new();
+        for (name, ends) in spans.into_iter().zip(ticks.chunks_exact(2)) {
+            let time = ends[1].saturating_sub(ends[0]) as f64 * milliseconds_per_tick;
+            match times.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, sum)) => *sum += time,
+                None => times.push((name, time)),
+            }
+        }
+        Ok(times)
+    }
+
+    /// The open compute pass of the current stage.
+    fn compute(&mut self) -> &mut wgpu::ComputePass<'static> {
+        let Pass { encoder, open, stage, in_group, clock, .. } = self;
+        let pass = open.get_or_insert_with(|| {
+            let timestamp_writes = clock.as_mut().and_then(|clock| clock.span(stage));
+            let descriptor = wgpu::ComputePassDescriptor { label: Some(stage), timestamp_writes };
+            encoder.begin_compute_pass(&descriptor).forget_lifetime()
+        });
+        if !*in_group {
+            pass.push_debug_group(stage);
+            *in_group = true;
+        }
+        pass
+    }
+
+    /// Ends the debug group of a stage that dispatched something.
+    fn close_group(&mut self) {
+        if let Some(pass) = self.open.as_mut().filter(|_| self.in_group) {
+            pass.pop_debug_group();
+        }
+        self.in_group = false;
+    }
+
+    /// Ends the compute pass.
+    fn finish(mut self) -> Pass {
+        self.close_group();
+        self.open = None;
+        self
+    }
+}
+
+/// Spans one query set can time.
+const MAX_SPANS: usize = wgpu::QUERY_SET_MAX_QUERIES as usize / 2;
+
+impl Clock {
+    /// Opens a span; none once the queries are used up, which [`Pass::submit_timed`] reports.
+    fn span(&mut self, stage: &str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+        let first = 2 * self.spans.len() as u32;
+        self.spans.push(stage.to_owned());
+        (self.spans.len() <= MAX_SPANS).then(|| wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(first),
+            end_of_pass_write_index: Some(first + 1),
+        })
+    }
+}
