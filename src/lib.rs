@@ -9,6 +9,7 @@ pub mod numerics;
 pub mod render;
 pub mod scene;
 pub mod simulation;
+pub mod snapshot;
 pub mod stage;
 pub mod state;
 #[cfg(feature = "viewer")]

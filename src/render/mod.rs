@@ -1,1 +1,5 @@
-//! Placeholder: see ARCHITECTURE.
+//! Pictures of the state, drawn on the GPU through compute shaders.
+
+mod frame;
+
+pub use frame::{Frame, Picture};

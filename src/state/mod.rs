@@ -1,1 +1,5 @@
-//! Placeholder: see ARCHITECTURE.
+//! Buffers and their host mirrors, no algorithms.
+
+pub mod grid;
+
+pub use grid::Grid;

@@ -1,0 +1,203 @@
+//! Text, rectangles and lines on a finished frame.
+
+use embedded_graphics::mono_font::{MonoFont, MonoTextStyle, iso_8859_1 as fonts};
+use embedded_graphics::pixelcolor::Rgb888;
+use embedded_graphics::prelude::{DrawTarget, Drawable, OriginDimensions, Pixel, Point, RgbColor, Size};
+use embedded_graphics::text::{Baseline, Text};
+
+use super::frame::Frame;
+
+/// Where a text stands relative to its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    /// The point is the left end.
+    Left,
+    /// The point is the middle.
+    Middle,
+    /// The point is the right end.
+    Right,
+}
+
+/// A rectangle in pixels, from its top left corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Rectangle {
+    pub(crate) x: i32,
+    pub(crate) y: i32,
+    pub(crate) width: i32,
+    pub(crate) height: i32,
+}
+
+impl Rectangle {
+    pub(crate) fn right(&self) -> i32 {
+        self.x + self.width
+    }
+
+    pub(crate) fn bottom(&self) -> i32 {
+        self.y + self.height
+    }
+}
+
+/// A font and how many pixels one of its dots covers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lettering {
+    font: &'static MonoFont<'static>,
+    scale: i32,
+}
+
+impl Lettering {
+    /// Letters that stay legible at this picture size.
+    pub(crate) fn for_size(width: u32, height: u32) -> Self {
+        let (font, scale) = match height.min(width * 9 / 16) {
+            0..220 => (&fonts::FONT_5X8, 1),
+            220..400 => (&fonts::FONT_6X10, 1),
+            400..600 => (&fonts::FONT_8X13, 1),
+            600..1000 => (&fonts::FONT_10X20, 1),
+            1000..1900 => (&fonts::FONT_9X15, 2),
+            _ => (&fonts::FONT_10X20, 3),
+        };
+        Self { font, scale }
+    }
+
+    /// Pixels from one letter to the next.
+    pub(crate) fn advance(&self) -> i32 {
+        self.font.character_size.width as i32 * self.scale
+    }
+
+    /// Height of a line in pixels.
+    pub(crate) fn line(&self) -> i32 {
+        self.font.character_size.height as i32 * self.scale
+    }
+
+    /// Width of a thin line, and the unit of small distances, in pixels.
+    pub(crate) fn unit(&self) -> i32 {
+        self.scale
+    }
+
+    /// Width of a text in pixels.
+    pub(crate) fn width(&self, text: &str) -> i32 {
+        text.chars().count() as i32 * self.advance()
+    }
+}
+
+/// Draws on a frame.
+pub(crate) struct Canvas<'a> {
+    pub(crate) frame: &'a mut Frame,
+    pub(crate) lettering: Lettering,
+}
+
+impl<'a> Canvas<'a> {
+    pub(crate) fn new(frame: &'a mut Frame) -> Self {
+        let lettering = Lettering::for_size(frame.width, frame.height);
+        Self { frame, lettering }
+    }
+
+    /// Mixes `color` over a pixel; outside of the frame nothing happens.
+    pub(crate) fn blend(&mut self, x: i32, y: i32, color: [u8; 3], coverage: f32) {
+        if x < 0 || y < 0 || x >= self.frame.width as i32 || y >= self.frame.height as i32 {
+            return;
+        }
+        let first = 4 * (y as usize * self.frame.width as usize + x as usize);
+        for (old, new) in self.frame.rgba[first..first + 3].iter_mut().zip(color) {
+            let mixed = f32::from(*old) + (f32::from(new) - f32::from(*old)) * coverage.clamp(0.0, 1.0);
+            *old = (mixed + 0.5) as u8;
+        }
+    }
+
+    /// Fills a rectangle.
+    pub(crate) fn fill(&mut self, area: Rectangle, color: [u8; 3], coverage: f32) {
+        for y in area.y..area.bottom() {
+            for x in area.x..area.right() {
+                self.blend(x, y, color, coverage);
+            }
+        }
+    }
+
+    /// Draws a frame of unit width just outside a rectangle.
+    pub(crate) fn outline(&mut self, area: Rectangle, color: [u8; 3]) {
+        let unit = self.lettering.unit();
+        let (x, y) = (area.x - unit, area.y - unit);
+        let (width, height) = (area.width + 2 * unit, area.height + 2 * unit);
+        self.fill(Rectangle { x, y, width, height: unit }, color, 1.0);
+        self.fill(Rectangle { x, y: area.bottom(), width, height: unit }, color, 1.0);
+        self.fill(Rectangle { x, y: area.y, width: unit, height: area.height }, color, 1.0);
+        self.fill(Rectangle { x: area.right(), y: area.y, width: unit, height: area.height }, color, 1.0);
+    }
+
+    /// Writes one line of text; `y` is the middle of the line. Text that is too long loses its end.
+    pub(crate) fn text(&mut self, x: i32, y: i32, anchor: Anchor, text: &str, color: [u8; 3]) {
+        let room = ((self.frame.width as i32 - self.lettering.advance()) / self.lettering.advance()).max(0) as usize;
+        let text: String = text.chars().take(room).collect();
+        let width = self.lettering.width(&text);
+        let left = match anchor {
+            Anchor::Left => x,
+            Anchor::Middle => x - width / 2,
+            Anchor::Right => x - width,
+        };
+        let style = MonoTextStyle::new(self.lettering.font, Rgb888::new(color[0], color[1], color[2]));
+        let top = y - self.lettering.line() / 2;
+        let scale = self.lettering.scale;
+        let mut letters = Letters { canvas: self, left, top, scale };
+        // Drawing into memory cannot fail: the error type has no values.
+        let Ok(_) = Text::with_baseline(&text, Point::zero(), style, Baseline::Top).draw(&mut letters);
+    }
+
+    /// Draws a smooth line through points given in pixels, inside `clip`.
+    pub(crate) fn curve(&mut self, points: &[[f32; 2]], clip: Rectangle, color: [u8; 3], width: f32) {
+        let mut coverage = vec![0.0_f32; (clip.width * clip.height).max(0) as usize];
+        for pair in points.windows(2) {
+            if pair.iter().flatten().all(|coordinate| coordinate.is_finite()) {
+                cover_segment(&mut coverage, clip, [pair[0], pair[1]], width);
+            }
+        }
+        for (index, &amount) in coverage.iter().enumerate().filter(|(_, amount)| **amount > 0.0) {
+            let (x, y) = (index as i32 % clip.width, index as i32 / clip.width);
+            self.blend(clip.x + x, clip.y + y, color, amount);
+        }
+    }
+}
+
+/// Raises the coverage of the pixels near a segment to their share under a round pen.
+fn cover_segment(coverage: &mut [f32], clip: Rectangle, segment: [[f32; 2]; 2], width: f32) {
+    let [from, to] = segment.map(|[x, y]| glam::Vec2::new(x - clip.x as f32, y - clip.y as f32));
+    let reach = 0.5 * width + 1.0;
+    let (low, high) = (from.min(to) - reach, from.max(to) + reach);
+    let along = to - from;
+    let length_squared = along.length_squared().max(f32::MIN_POSITIVE);
+    for y in (low.y.max(0.0) as i32)..(high.y.ceil().min(clip.height as f32) as i32) {
+        for x in (low.x.max(0.0) as i32)..(high.x.ceil().min(clip.width as f32) as i32) {
+            let point = glam::Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+            let nearest = from + along * ((point - from).dot(along) / length_squared).clamp(0.0, 1.0);
+            let amount = (reach - 0.5 - point.distance(nearest)).clamp(0.0, 1.0);
+            let pixel = &mut coverage[(y * clip.width + x) as usize];
+            *pixel = pixel.max(amount);
+        }
+    }
+}
+
+/// The place of one text: each dot of the font becomes a square.
+struct Letters<'a, 'b> {
+    canvas: &'a mut Canvas<'b>,
+    left: i32,
+    top: i32,
+    scale: i32,
+}
+
+impl OriginDimensions for Letters<'_, '_> {
+    fn size(&self) -> Size {
+        Size::new(self.canvas.frame.width, self.canvas.frame.height)
+    }
+}
+
+impl DrawTarget for Letters<'_, '_> {
+    type Color = Rgb888;
+    type Error = std::convert::Infallible;
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(&mut self, pixels: I) -> Result<(), Self::Error> {
+        for Pixel(point, color) in pixels {
+            let (x, y) = (self.left + point.x * self.scale, self.top + point.y * self.scale);
+            let square = Rectangle { x, y, width: self.scale, height: self.scale };
+            self.canvas.fill(square, [color.r(), color.g(), color.b()], 1.0);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,76 @@
+//! The grid: cells per axis, spacing, origin; and the padded index space every buffer shares.
+
+/// A uniform grid of cubic cells with 1, 2 or 3 active axes (x, then y, then z).
+///
+/// Buffers hold one ring of cells around the active axes. Inactive axes have one cell and no ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Active axes, 1 to 3.
+    pub dimension: u32,
+    /// Cells per axis without the ring; 1 on inactive axes.
+    pub cells: [u32; 3],
+    /// Low corner of cell (0, 0, 0) \[m\].
+    pub origin: [f32; 3],
+    /// Edge of a cell \[m\].
+    pub spacing: f32,
+}
+
+impl Grid {
+    /// Cells of the ring on each side: 1 on active axes, 0 elsewhere.
+    #[must_use]
+    pub fn padding(&self) -> [u32; 3] {
+        std::array::from_fn(|axis| u32::from((axis as u32) < self.dimension))
+    }
+
+    /// Stored cells per axis, ring included.
+    #[must_use]
+    pub fn strides(&self) -> [u32; 3] {
+        let padding = self.padding();
+        std::array::from_fn(|axis| self.cells[axis] + 2 * padding[axis])
+    }
+
+    /// Length of every array over cells, nodes or vertices.
+    #[must_use]
+    pub fn slots(&self) -> usize {
+        self.strides().iter().map(|&n| n as usize).product()
+    }
+
+    /// Position of cell `cell` in such an array; -1 and `cells[d]` name the ring on active axes.
+    #[must_use]
+    pub fn slot(&self, cell: [i32; 3]) -> usize {
+        let (stride, padding) = (self.strides(), self.padding());
+        let at = |axis: usize| (cell[axis] + padding[axis] as i32) as usize;
+        at(0) + stride[0] as usize * (at(1) + stride[1] as usize * at(2))
+    }
+
+    /// Cells without the ring.
+    #[must_use]
+    pub fn cell_count(&self) -> usize {
+        self.cells.iter().map(|&n| n as usize).product()
+    }
+
+    /// Centre of a cell \[m\].
+    #[must_use]
+    pub fn centre(&self, cell: [i32; 3]) -> [f32; 3] {
+        std::array::from_fn(|axis| self.origin[axis] + (cell[axis] as f32 + 0.5) * self.spacing)
+    }
+
+    /// Edge lengths of the domain \[m\].
+    #[must_use]
+    pub fn extent(&self) -> [f32; 3] {
+        std::array::from_fn(|axis| self.cells[axis] as f32 * self.spacing)
+    }
+
+    /// The unpadded part of a padded array, x fastest.
+    #[must_use]
+    pub fn unpadded<T: Copy>(&self, padded: &[T]) -> Vec<T> {
+        let mut out = Vec::with_capacity(self.cell_count());
+        for z in 0..self.cells[2] as i32 {
+            for y in 0..self.cells[1] as i32 {
+                let first = self.slot([0, y, z]);
+                out.extend_from_slice(&padded[first..first + self.cells[0] as usize]);
+            }
+        }
+        out
+    }
+}
