@@ -1,1 +1,7 @@
-//! Placeholder: see ARCHITECTURE.
+//! Algorithms on buffers, without physics: reduction and prefix sum.
+
+mod reduce;
+mod scan;
+
+pub use reduce::{Operator, Reduce};
+pub use scan::Scan;
