@@ -32,10 +32,18 @@ impl Scan {
             let (input, output) = (input.len(), output.len());
             return Err(Error::Gpu(format!("a scan of {n} elements from a buffer of {input} into one of {output}")));
         }
+        let outputs = n + u32::from(output.len() > n as usize);
+        Scan::over(gpu, input.raw(), output.raw(), n, outputs)
+    }
+
+    /// The same over buffers of any type whose first `n` and `outputs` words are meant.
+    ///
+    /// # Errors
+    /// Those of [`Buffer::new`] and [`Kernel::new`].
+    pub fn over(gpu: &Gpu, input: &wgpu::Buffer, output: &wgpu::Buffer, n: u32, outputs: u32) -> Result<Scan> {
         let constants = Constants { overrides: &[("SCAN_ITEMS", f64::from(SCAN_ITEMS))], source: "" };
         let blocks_kernel = Kernel::new(gpu, "scan.wgsl", "scan_blocks", &constants)?;
         let offsets_kernel = Kernel::new(gpu, "scan.wgsl", "scan_offsets", &constants)?;
-        let outputs = n + u32::from(output.len() > n as usize);
         let mut scan = Scan { dispatches: Vec::new(), scratch: Vec::new() };
         let mut down = Vec::new();
         let mut inputs = n;
@@ -50,19 +58,28 @@ impl Scan {
             let [totals, offsets] = [&scan.scratch[2 * level], &scan.scratch[2 * level + 1]];
             let [from, to] = match level {
                 0 => [input, output],
-                _ => [&scan.scratch[2 * level - 2], &scan.scratch[2 * level - 1]],
+                _ => [scan.scratch[2 * level - 2].raw(), scan.scratch[2 * level - 1].raw()],
             };
             let params = ("params", params.raw());
-            let up = [params, ("input", from.raw()), ("output", to.raw()), ("totals", totals.raw())];
+            let up = [params, ("input", from), ("output", to), ("totals", totals.raw())];
             scan.dispatches.push((blocks_kernel.bind(gpu, &up)?, groups));
             if blocks > 1 {
-                let names = [params, ("output", to.raw()), ("offsets", offsets.raw())];
+                let names = [params, ("output", to), ("offsets", offsets.raw())];
                 down.push((offsets_kernel.bind(gpu, &names)?, groups));
             }
             inputs = blocks;
         }
         scan.dispatches.extend(down.into_iter().rev());
         Ok(scan)
+    }
+
+    /// Workgroups of each dispatch of a scan with this many outputs, known before it is built.
+    #[must_use]
+    pub fn plan(outputs: u32) -> Vec<[u32; 3]> {
+        let blocks = level_lengths(outputs).into_iter().map(|length| length.div_ceil(BLOCK).max(1));
+        let up: Vec<_> = blocks.map(|blocks| group_counts(u64::from(blocks), MAX_GROUPS)).collect();
+        let down = up.iter().rev().filter(|groups| **groups != [1, 1, 1]).copied();
+        up.iter().copied().chain(down.collect::<Vec<_>>()).collect()
     }
 
     /// Workgroups of each dispatch: what [`Scan::record_with`] runs when nothing is to be skipped.
