@@ -10,8 +10,15 @@ macro_rules! sources {
 /// All embedded shaders: path below `shaders/`, text.
 #[rustfmt::skip]
 pub const SOURCES: &[(&str, &str)] = sources![
+    "field.wgsl",
+    "points.wgsl",
     "reduce.wgsl",
     "scan.wgsl",
+    "shared/color.wgsl",
     "shared/reduce.wgsl",
+    "shared/surface.wgsl",
     "shared/thread.wgsl",
+    "shared/view.wgsl",
+    "slice.wgsl",
+    "volume.wgsl",
 ];

@@ -141,6 +141,18 @@ impl<'a> Canvas<'a> {
         let Ok(_) = Text::with_baseline(&text, Point::zero(), style, Baseline::Top).draw(&mut letters);
     }
 
+    /// Draws a smooth round dot around a point given in pixels, inside `clip`.
+    pub(crate) fn dot(&mut self, point: [f32; 2], clip: Rectangle, color: [u8; 3], width: f32) {
+        let reach = 0.5 * width + 1.0;
+        let [x, y] = point;
+        for row in ((y - reach) as i32).max(clip.y)..((y + reach) as i32 + 1).min(clip.bottom()) {
+            for column in ((x - reach) as i32).max(clip.x)..((x + reach) as i32 + 1).min(clip.right()) {
+                let distance = (column as f32 + 0.5 - x).hypot(row as f32 + 0.5 - y);
+                self.blend(column, row, color, reach - 0.5 - distance);
+            }
+        }
+    }
+
     /// Draws a smooth line through points given in pixels, inside `clip`.
     pub(crate) fn curve(&mut self, points: &[[f32; 2]], clip: Rectangle, color: [u8; 3], width: f32) {
         let mut coverage = vec![0.0_f32; (clip.width * clip.height).max(0) as usize];
