@@ -1,1 +1,387 @@
-//! Placeholder: see ARCHITECTURE.
+//! Materials: parameters, limits and the names of their WGSL functions. Pure data and text, no device.
+//!
+//! A material kind is one line in [`KINDS`]. The line names a file here and a file `shaders/materials/<name>.wgsl` with the
+//! functions `stress_<name>`, `return_<name>`, `energy_<name>` and `wave_speed_<name>`; keyword, checks, index and the
+//! WGSL switch follow from it.
+
+mod neo_hookean;
+#[cfg(test)]
+mod tests;
+mod von_mises;
+
+use std::fmt::Write as _;
+
+use bytemuck::{Pod, Zeroable};
+use serde::de::{self, MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// All kinds of material. The position is the number that shaders see.
+pub const KINDS: [&Kind; 2] = [&neo_hookean::KIND, &von_mises::KIND];
+
+/// A constitutive law.
+#[derive(Debug)]
+pub struct Kind {
+    /// Keyword in scenes and suffix of the WGSL functions.
+    pub name: &'static str,
+    /// One sentence for documentation.
+    pub summary: &'static str,
+    /// Parameters in the order in which [`Kind::constants`] takes them.
+    pub parameters: &'static [Parameter],
+    /// Constants of the law from checked parameter values.
+    pub constants: fn(&[f64]) -> Constants,
+}
+
+/// A parameter of a law.
+#[derive(Debug)]
+pub struct Parameter {
+    /// Key in scenes.
+    pub name: &'static str,
+    /// Dimension, "1" for a pure number.
+    pub unit: &'static str,
+    /// Value when left out; `None` if it must be given.
+    pub default: Option<f64>,
+    /// The value must lie above this.
+    pub above: f64,
+    /// The value must lie below this.
+    pub below: f64,
+    /// One sentence for documentation.
+    pub summary: &'static str,
+}
+
+/// Young's modulus, shared by the elastic laws.
+const YOUNG_MODULUS: Parameter = Parameter {
+    name: "young_modulus",
+    unit: "Pa",
+    default: None,
+    above: 0.0,
+    below: f64::INFINITY,
+    summary: "Young's modulus: stress over strain of a thin rod.",
+};
+
+/// Poisson's ratio, shared by the elastic laws; at 0.5 lambda has no finite value.
+const POISSON_RATIO: Parameter = Parameter {
+    name: "poisson_ratio",
+    unit: "1",
+    default: None,
+    above: -1.0,
+    below: 0.5,
+    summary: "Poisson's ratio: lateral over axial strain of a thin rod.",
+};
+
+/// Constants that every law is built from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constants {
+    /// Shear modulus mu [Pa].
+    pub mu: f64,
+    /// First Lame constant lambda [Pa].
+    pub lambda: f64,
+    /// Yield stress [Pa]; infinite for laws that do not yield.
+    pub yield_stress: f64,
+}
+
+impl Constants {
+    /// Lame constants of an isotropic elastic law: mu = E / (2 (1 + nu)), lambda = E nu / ((1 + nu) (1 - 2 nu)).
+    fn elastic(young_modulus: f64, poisson_ratio: f64) -> Self {
+        let mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
+        let lambda = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio));
+        Constants { mu, lambda, yield_stress: f64::INFINITY }
+    }
+}
+
+/// A material of a scene: a kind and the values of its parameters. In TOML `shell.von_mises = { young_modulus = ... }`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    kind: usize,
+    values: Vec<f64>,
+}
+
+/// A material as the device sees it, 32 bytes; mirror of `MaterialParams` in `shaders/shared/material.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct MaterialParams {
+    /// Shear modulus [Pa].
+    pub mu: f32,
+    /// First Lame constant of the elastic stress [Pa].
+    pub lambda: f32,
+    /// Yield stress [Pa]; `f32::MAX` for laws that do not yield.
+    pub yield_stress: f32,
+    /// Lowest density of the bodies made of it [kg m^-3].
+    pub density: f32,
+    /// Position in [`KINDS`].
+    pub kind: u32,
+    /// Modulus of the ghost pressure, q = -ghost_modulus (J - 1) [Pa]; equal to lambda.
+    pub ghost_modulus: f32,
+    /// Unused.
+    pub pad0: f32,
+    /// Unused.
+    pub pad1: f32,
+}
+
+impl Material {
+    /// A material of the given kind; parameters that are left out take their default.
+    ///
+    /// # Errors
+    /// A sentence that names the unknown kind, the unknown or the missing parameter. Limits are checked by [`Material::findings`].
+    pub fn new(kind: &str, given: &[(String, f64)]) -> Result<Self, String> {
+        let Some(index) = KINDS.iter().position(|k| k.name == kind) else {
+            return Err(format!("unknown material kind `{kind}`, expected one of {}", kind_names()));
+        };
+        let parameters = KINDS[index].parameters;
+        let names = parameters.iter().map(|p| format!("`{}`", p.name)).collect::<Vec<_>>().join(", ");
+        if let Some((name, _)) = given.iter().find(|(name, _)| parameters.iter().all(|p| p.name != name)) {
+            return Err(format!("unknown parameter `{name}` of material kind `{kind}`, expected {names}"));
+        }
+        let value = |p: &Parameter| {
+            let entry = given.iter().find(|(name, _)| name == p.name).map(|(_, value)| *value);
+            entry
+                .or(p.default)
+                .ok_or_else(|| format!("missing parameter `{}` [{}] of material kind `{kind}`", p.name, p.unit))
+        };
+        Ok(Material { kind: index, values: parameters.iter().map(value).collect::<Result<_, _>>()? })
+    }
+
+    /// Position of the kind in [`KINDS`].
+    #[must_use]
+    pub fn kind_index(&self) -> u32 {
+        self.kind as u32
+    }
+
+    /// The kind.
+    #[must_use]
+    pub fn kind(&self) -> &'static Kind {
+        KINDS[self.kind]
+    }
+
+    /// Value of a parameter by name.
+    #[must_use]
+    pub fn parameter(&self, name: &str) -> Option<f64> {
+        self.kind().parameters.iter().position(|p| p.name == name).map(|index| self.values[index])
+    }
+
+    /// Shear modulus mu [Pa].
+    #[must_use]
+    pub fn mu(&self) -> f64 {
+        self.constants().mu
+    }
+
+    /// First Lame constant lambda [Pa].
+    #[must_use]
+    pub fn lambda(&self) -> f64 {
+        self.constants().lambda
+    }
+
+    /// Yield stress [Pa]; infinite for laws that do not yield.
+    #[must_use]
+    pub fn yield_stress(&self) -> f64 {
+        self.constants().yield_stress
+    }
+
+    /// Speed of pressure waves at rest, sqrt((lambda + 2 mu) / rho) [m s^-1].
+    #[must_use]
+    pub fn wave_speed(&self, density: f64) -> f64 {
+        ((self.lambda() + 2.0 * self.mu()) / density).sqrt()
+    }
+
+    /// The material as the device sees it, for a body of the given density [kg m^-3].
+    #[must_use]
+    pub fn params(&self, density: f64) -> MaterialParams {
+        let Constants { mu, lambda, yield_stress } = self.constants();
+        MaterialParams {
+            mu: mu as f32,
+            lambda: lambda as f32,
+            yield_stress: yield_stress.min(f64::from(f32::MAX)) as f32,
+            density: density as f32,
+            kind: self.kind_index(),
+            ghost_modulus: lambda as f32,
+            pad0: 0.0,
+            pad1: 0.0,
+        }
+    }
+
+    /// Parameters outside their limits: name, value and what is allowed.
+    #[must_use]
+    pub fn findings(&self) -> Vec<(&'static str, f64, String)> {
+        let pairs = self.kind().parameters.iter().zip(&self.values);
+        let outside = pairs.filter(|(p, value)| !(**value > p.above && **value < p.below));
+        outside.map(|(p, value)| (p.name, *value, p.allowed())).collect()
+    }
+
+    fn constants(&self) -> Constants {
+        (self.kind().constants)(&self.values)
+    }
+}
+
+impl Parameter {
+    /// The limits in words.
+    #[must_use]
+    pub fn allowed(&self) -> String {
+        let unit = if self.unit == "1" { String::new() } else { format!(" [{}]", self.unit) };
+        match (self.above.is_finite(), self.below.is_finite()) {
+            (true, true) => format!("a number above {} and below {}{unit}", self.above, self.below),
+            (true, false) => format!("a finite number above {}{unit}", self.above),
+            (false, true) => format!("a finite number below {}{unit}", self.below),
+            (false, false) => format!("a finite number{unit}"),
+        }
+    }
+}
+
+/// The names of all kinds, quoted, for messages.
+#[must_use]
+pub fn kind_names() -> String {
+    KINDS.iter().map(|kind| format!("`{}`", kind.name)).collect::<Vec<_>>().join(", ")
+}
+
+impl Serialize for Material {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let parameters = self.kind().parameters.iter().map(|p| p.name).zip(self.values.iter().copied());
+        let mut map = serializer.serialize_map(Some(1))?;
+        map.serialize_entry(self.kind().name, &parameters.collect::<std::collections::BTreeMap<_, _>>())?;
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for Material {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(MaterialVisitor)
+    }
+}
+
+struct MaterialVisitor;
+
+impl<'de> Visitor<'de> for MaterialVisitor {
+    type Value = Material;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(formatter, "a table with one material kind: {}", kind_names())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Material, A::Error> {
+        let missing = || de::Error::custom(format!("no material kind, expected one of {}", kind_names()));
+        let (kind, given) = map.next_entry::<String, std::collections::BTreeMap<String, f64>>()?.ok_or_else(missing)?;
+        if let Some(second) = map.next_key::<String>()? {
+            let message = format!("two material kinds, `{kind}` and `{second}`; a material has one, remove the other");
+            return Err(de::Error::custom(message));
+        }
+        Material::new(&kind, &given.into_iter().collect::<Vec<_>>()).map_err(de::Error::custom)
+    }
+}
+
+impl schemars::JsonSchema for Material {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Material".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let parameter = |p: &Parameter| {
+            let text = format!("{} Allowed: {}.", p.summary, p.allowed());
+            let mut schema = serde_json::json!({ "type": "number", "description": text });
+            if p.above.is_finite() {
+                schema["exclusiveMinimum"] = p.above.into();
+            }
+            if p.below.is_finite() {
+                schema["exclusiveMaximum"] = p.below.into();
+            }
+            (p.name.to_owned(), schema)
+        };
+        let kind = |kind: &&Kind| {
+            let properties = kind.parameters.iter().map(parameter).collect::<serde_json::Map<_, _>>();
+            let required = kind.parameters.iter().filter(|p| p.default.is_none()).map(|p| p.name).collect::<Vec<_>>();
+            let parameters = serde_json::json!({
+                "type": "object", "properties": properties, "required": required, "additionalProperties": false,
+            });
+            serde_json::json!({
+                "type": "object", "description": kind.summary, "properties": { kind.name: parameters },
+                "required": [kind.name], "additionalProperties": false,
+            })
+        };
+        let kinds = KINDS.iter().map(kind).collect::<Vec<_>>();
+        schemars::json_schema!({ "description": "A material: one kind with its parameters.", "oneOf": kinds })
+    }
+}
+
+/// The files with the functions of all kinds, as `#include` lines.
+#[must_use]
+pub fn wgsl_includes() -> String {
+    KINDS.iter().map(|kind| format!("#include \"materials/{}.wgsl\"\n", kind.name)).collect()
+}
+
+/// WGSL functions that ask the material `kind` (its number in [`KINDS`]): `stress`, `return_map`, `elastic_energy`, `wave_speed`.
+/// They need the files of [`wgsl_includes`].
+#[must_use]
+pub fn wgsl_switch() -> String {
+    let mut text = String::new();
+    for (index, kind) in KINDS.iter().enumerate() {
+        // writing to a String cannot fail
+        let _ = writeln!(text, "const MATERIAL_{}: u32 = {index}u;", kind.name.to_uppercase());
+    }
+    for question in &QUESTIONS {
+        let _ = writeln!(text, "\n// {}", question.summary);
+        let _ = writeln!(
+            text,
+            "fn {}(kind: u32, {}) -> {} {{\n    switch kind {{",
+            question.name, question.parameters, question.result
+        );
+        for kind in KINDS {
+            let label = kind.name.to_uppercase();
+            let _ = writeln!(
+                text,
+                "        case MATERIAL_{label}: {{ return {}_{}({}); }}",
+                question.function, kind.name, question.arguments
+            );
+        }
+        let _ = writeln!(text, "        default: {{ return {}; }}\n    }}\n}}", question.otherwise);
+    }
+    text
+}
+
+/// A question that shaders ask a material.
+struct Question {
+    summary: &'static str,
+    name: &'static str,
+    function: &'static str,
+    parameters: &'static str,
+    arguments: &'static str,
+    result: &'static str,
+    /// Answer for a number that no kind has; never used.
+    otherwise: &'static str,
+}
+
+const QUESTIONS: [Question; 4] = [
+    Question {
+        summary: "Kirchhoff stress [Pa] of the deformation gradient f.",
+        name: "stress",
+        function: "stress",
+        parameters: "f: mat3x3f, m: MaterialParams",
+        arguments: "f, m",
+        result: "mat3x3f",
+        otherwise: "mat3x3f()",
+    },
+    Question {
+        summary: "Elastic part of the deformation gradient f after plastic flow, and the plastic strain that the flow added.",
+        name: "return_map",
+        function: "return",
+        parameters: "f: mat3x3f, m: MaterialParams",
+        arguments: "f, m",
+        result: "PlasticReturn",
+        otherwise: "PlasticReturn(f, 0.0)",
+    },
+    Question {
+        summary: "Elastic energy per reference volume [J m^-3] of the deformation gradient f.",
+        name: "elastic_energy",
+        function: "energy",
+        parameters: "f: mat3x3f, m: MaterialParams",
+        arguments: "f, m",
+        result: "f32",
+        otherwise: "0.0",
+    },
+    Question {
+        summary: "Fastest elastic wave [m s^-1] at a density [kg m^-3].",
+        name: "wave_speed",
+        function: "wave_speed",
+        parameters: "m: MaterialParams, density: f32",
+        arguments: "m, density",
+        result: "f32",
+        otherwise: "0.0",
+    },
+];

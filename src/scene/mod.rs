@@ -1,1 +1,306 @@
-//! Placeholder: see ARCHITECTURE.
+//! What the user asks for: one TOML file is one experiment. Pure data, no device.
+//!
+//! A scene is read by [`Scene::load`], which reports every mistake with file, line and key, and is turned into cells and
+//! particles by [`Scene::initial_gas`], [`Scene::obstacle_cells`] and [`Scene::seed_particles`].
+//!
+//! Units are consistent and chosen by the scene: every field names its dimension in brackets, in kg, m, s for example.
+
+mod boundary;
+mod check;
+mod distance;
+mod fill;
+mod load;
+mod settings;
+mod shape;
+mod source;
+#[cfg(test)]
+mod tests;
+mod vector;
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use crate::material::Material;
+pub use boundary::{Boundaries, Boundary};
+pub use fill::Seed;
+pub use settings::{
+    Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Output, Pair, Power, RenderMode,
+    RenderSettings, Time, Transfer,
+};
+pub use shape::Shape;
+
+/// One experiment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Name of the experiment, one line.
+    pub title: String,
+    /// What it shows and where its numbers come from.
+    #[serde(default)]
+    pub description: String,
+    /// The grid.
+    pub domain: Domain,
+    /// The gas and its state at the start.
+    pub gas: Gas,
+    /// What happens at the sides of the domain.
+    #[serde(default)]
+    pub boundary: Boundaries,
+    /// Materials of the bodies, by name.
+    #[serde(default)]
+    pub materials: BTreeMap<String, Material>,
+    /// Deformable solids, moved by the material point method.
+    #[serde(default)]
+    pub bodies: Vec<Body>,
+    /// Static obstacles: cells whose centre lies inside are walls.
+    #[serde(default)]
+    pub obstacles: Vec<Obstacle>,
+    /// Acceleration of gravity [m s^-2].
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub gravity: [f64; 3],
+    /// How long and how finely in time.
+    pub time: Time,
+    /// Choices of the method; the defaults are what the method recommends.
+    #[serde(default)]
+    pub numerics: Numerics,
+    /// Points whose gas state is written every step.
+    #[serde(default)]
+    pub probes: Vec<Probe>,
+    /// Which files a run leaves.
+    #[serde(default)]
+    pub output: Output,
+    /// How the pictures look.
+    #[serde(default)]
+    pub render: RenderSettings,
+    /// What the result must satisfy; checked by the tests and reported by `run`.
+    #[serde(default)]
+    pub expect: Expect,
+}
+
+/// The grid: cubes of edge `size / cells`. Axes beyond `dimension` have one cell and unit thickness.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Number of active axes, 1 to 3.
+    pub dimension: u32,
+    /// Cells per axis, `dimension` entries.
+    #[serde(deserialize_with = "vector::counts")]
+    #[schemars(with = "Vec<u32>")]
+    pub cells: [u32; 3],
+    /// Low corner [m].
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub origin: [f64; 3],
+    /// Edge lengths [m], `dimension` entries.
+    #[serde(deserialize_with = "vector::lengths")]
+    #[schemars(with = "Vec<f64>")]
+    pub size: [f64; 3],
+}
+
+/// An ideal gas, p = (gamma - 1) rho e.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Gas {
+    /// Ratio of specific heats, above 1.
+    #[serde(default = "default_gamma")]
+    pub gamma: f64,
+    /// State wherever no region says otherwise.
+    pub ambient: GasState,
+    /// Regions with their own state; a later one covers an earlier one.
+    #[serde(default)]
+    pub regions: Vec<Region>,
+}
+
+fn default_gamma() -> f64 {
+    1.4
+}
+
+/// Density, velocity and pressure of a gas.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GasState {
+    /// Density [kg m^-3], positive.
+    pub density: f64,
+    /// Velocity [m s^-1].
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub velocity: [f64; 3],
+    /// Pressure [Pa], positive.
+    pub pressure: f64,
+}
+
+/// A part of the domain with its own gas state at the start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "RegionKeys", into = "RegionKeys")]
+pub struct Region {
+    /// Where.
+    pub shape: Shape,
+    /// The state inside; its keys stand next to `shape` in the file.
+    pub state: GasState,
+}
+
+/// The keys of a [`Region`] as they stand in the file.
+#[derive(Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Region")]
+struct RegionKeys {
+    /// Where.
+    shape: Shape,
+    /// Density [kg m^-3], positive.
+    density: f64,
+    /// Velocity [m s^-1].
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    velocity: [f64; 3],
+    /// Pressure [Pa], positive.
+    pressure: f64,
+}
+
+impl From<RegionKeys> for Region {
+    fn from(keys: RegionKeys) -> Self {
+        let state = GasState { density: keys.density, velocity: keys.velocity, pressure: keys.pressure };
+        Region { shape: keys.shape, state }
+    }
+}
+
+impl From<Region> for RegionKeys {
+    fn from(region: Region) -> Self {
+        let GasState { density, velocity, pressure } = region.state;
+        RegionKeys { shape: region.shape, density, velocity, pressure }
+    }
+}
+
+/// A deformable solid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name in tables and messages, unique.
+    pub name: String,
+    /// What it fills.
+    pub shape: Shape,
+    /// Name of an entry of `materials`.
+    pub material: String,
+    /// Density [kg m^-3], positive.
+    pub density: f64,
+    /// Velocity at the start [m s^-1].
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub velocity: [f64; 3],
+    /// Particles per cell along each axis, 1 to 8; 4 in 1D and 2 otherwise when left out.
+    #[serde(default, deserialize_with = "particle_count")]
+    pub particles_per_cell: u32,
+}
+
+/// Refuses an explicit 0, which stands for "left out" until [`Scene::load`] has put the default in.
+fn particle_count<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+    match u32::deserialize(deserializer)? {
+        0 => Err(serde::de::Error::custom("particles_per_cell is 0; it counts particles along one axis, 1 to 8")),
+        count => Ok(count),
+    }
+}
+
+/// A static obstacle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Obstacle {
+    /// Name in messages, unique.
+    pub name: String,
+    /// What it fills.
+    pub shape: Shape,
+}
+
+/// A point whose gas state is recorded.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Probe {
+    /// Name of its column in `probes.csv`, unique.
+    pub name: String,
+    /// Where [m].
+    #[serde(deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub position: [f64; 3],
+}
+
+impl Domain {
+    /// Edge of a cell [m].
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.size[0] / f64::from(self.cells[0])
+    }
+
+    /// Number of active axes, as an index bound.
+    #[must_use]
+    pub fn axes(&self) -> usize {
+        self.dimension as usize
+    }
+
+    /// Number of cells, without padding.
+    #[must_use]
+    pub fn cell_count(&self) -> usize {
+        self.cells.iter().map(|&n| n as usize).product()
+    }
+
+    /// Volume of a cell [m^3]: spacing^dimension times the unit thickness of the inactive axes.
+    #[must_use]
+    pub fn cell_volume(&self) -> f64 {
+        self.spacing().powi(self.dimension as i32)
+    }
+
+    /// Centre of a cell [m]; 0 along inactive axes.
+    #[must_use]
+    pub fn cell_center(&self, cell: [u32; 3]) -> [f64; 3] {
+        let center = |d: usize| self.origin[d] + (f64::from(cell[d]) + 0.5) * self.spacing();
+        std::array::from_fn(|d| if d < self.axes() { center(d) } else { 0.0 })
+    }
+}
+
+impl GasState {
+    /// Density, momentum and total energy, each per volume: (rho, rho u, E), E = p / (gamma - 1) + rho u^2 / 2.
+    #[must_use]
+    pub fn conserved(&self, gamma: f64) -> [f64; 5] {
+        let [u, v, w] = self.velocity;
+        let kinetic = 0.5 * self.density * (u * u + v * v + w * w);
+        let energy = self.pressure / (gamma - 1.0) + kinetic;
+        [self.density, self.density * u, self.density * v, self.density * w, energy]
+    }
+
+    /// Speed of sound [m s^-1].
+    #[must_use]
+    pub fn sound_speed(&self, gamma: f64) -> f64 {
+        (gamma * self.pressure / self.density).sqrt()
+    }
+}
+
+impl Scene {
+    /// Position of a material among the sorted names: the index that particles carry.
+    #[must_use]
+    pub fn material_index(&self, name: &str) -> Option<u32> {
+        self.materials.keys().position(|key| key == name).map(|index| index as u32)
+    }
+
+    /// The parameters of all materials in the order of [`Scene::material_index`], as the device sees them. The density is
+    /// the lowest of the bodies made of the material, which bounds the wave speed from above.
+    #[must_use]
+    pub fn material_parameters(&self) -> Vec<crate::material::MaterialParams> {
+        let lightest = |name: &str| {
+            let densities = self.bodies.iter().filter(|body| body.material == name).map(|body| body.density);
+            densities.fold(f64::INFINITY, f64::min)
+        };
+        let finite = |density: f64| if density.is_finite() { density } else { 1.0 };
+        self.materials.iter().map(|(name, material)| material.params(finite(lightest(name)))).collect()
+    }
+
+    /// The JSON schema of scene files (draft 2020-12).
+    #[must_use]
+    pub fn schema() -> schemars::Schema {
+        schemars::schema_for!(Scene)
+    }
+}
+
+/// The JSON schema of scene files, indented: what `brisance schema` prints.
+#[must_use]
+pub fn schema() -> String {
+    format!("{:#}", Scene::schema().to_value())
+}

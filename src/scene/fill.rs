@@ -1,0 +1,155 @@
+//! From shapes to cells and particles.
+
+use super::{GasState, Scene, Shape};
+
+/// Sub-samples per axis in cells that the surface of a region crosses.
+const SAMPLES: u32 = 4;
+
+/// A particle at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seed {
+    /// Position [m].
+    pub position: [f64; 3],
+    /// Velocity [m s^-1].
+    pub velocity: [f64; 3],
+    /// Volume [m^3], with unit thickness along inactive axes.
+    pub volume: f64,
+    /// Density [kg m^-3].
+    pub density: f64,
+    /// Index of the body in the scene.
+    pub body: u32,
+    /// Index of the material among the sorted names.
+    pub material: u32,
+}
+
+impl Scene {
+    /// Density, momentum and energy per volume of every cell, x fastest, without padding.
+    ///
+    /// A cell that the surface of a region crosses holds the mean over 4^dimension points; every other cell is exact.
+    #[must_use]
+    pub fn initial_gas(&self) -> Vec<[f64; 5]> {
+        let gamma = self.gas.gamma;
+        let ambient = self.gas.ambient.conserved(gamma);
+        let states = self.gas.regions.iter().map(|region| region.state.conserved(gamma)).collect::<Vec<_>>();
+        let reach = 0.5 * self.domain.spacing() * f64::from(self.domain.dimension).sqrt();
+        self.each_cell(|center| {
+            let mut state = ambient;
+            let mut mixed = false;
+            for (region, inside) in self.gas.regions.iter().zip(&states) {
+                let distance = region.shape.distance(center);
+                mixed = if distance < -reach { false } else { mixed || distance < reach };
+                if distance < 0.0 {
+                    state = *inside;
+                }
+            }
+            if mixed { self.mean_state(center, &ambient, &states) } else { state }
+        })
+    }
+
+    /// Mean over regular points of a cell, the last region at each point.
+    fn mean_state(&self, center: [f64; 3], ambient: &[f64; 5], states: &[[f64; 5]]) -> [f64; 5] {
+        let mut sum = [0.0; 5];
+        let points = lattice(self.domain.axes(), SAMPLES);
+        for offset in &points {
+            let point = std::array::from_fn(|d| center[d] + offset[d] * self.domain.spacing());
+            let last = self.gas.regions.iter().zip(states).rev().find(|(region, _)| region.shape.distance(point) < 0.0);
+            let state = last.map_or(ambient, |(_, state)| state);
+            for (total, entry) in sum.iter_mut().zip(state) {
+                *total += entry;
+            }
+        }
+        sum.map(|total| total / points.len() as f64)
+    }
+
+    /// Which cells are obstacle: those whose centre lies inside one. x fastest, without padding.
+    #[must_use]
+    pub fn obstacle_cells(&self) -> Vec<bool> {
+        self.each_cell(|center| self.inside_obstacle(center))
+    }
+
+    /// The particles of all bodies on a regular lattice. A point in several bodies belongs to the first; obstacles come before bodies.
+    #[must_use]
+    pub fn seed_particles(&self) -> Vec<Seed> {
+        let mut seeds = Vec::new();
+        for (index, body) in self.bodies.iter().enumerate() {
+            let earlier = &self.bodies[..index];
+            let free =
+                |point| earlier.iter().all(|other| other.shape.distance(point) >= 0.0) && !self.inside_obstacle(point);
+            let per_cell = f64::from(body.particles_per_cell).powi(self.domain.dimension as i32);
+            let seed = |position| Seed {
+                position,
+                velocity: body.velocity,
+                volume: self.domain.cell_volume() / per_cell,
+                density: body.density,
+                body: index as u32,
+                material: self.material_index(&body.material).unwrap_or(0),
+            };
+            self.each_point(&body.shape, body.particles_per_cell, |point| {
+                if body.shape.distance(point) < 0.0 && free(point) {
+                    seeds.push(seed(point));
+                }
+            });
+        }
+        seeds
+    }
+
+    fn inside_obstacle(&self, point: [f64; 3]) -> bool {
+        self.obstacles.iter().any(|obstacle| obstacle.shape.distance(point) < 0.0)
+    }
+
+    /// One value per cell from its centre, x fastest.
+    fn each_cell<T>(&self, mut value: impl FnMut([f64; 3]) -> T) -> Vec<T> {
+        let [nx, ny, nz] = self.domain.cells;
+        let mut values = Vec::with_capacity(self.domain.cell_count());
+        for z in 0..nz {
+            for y in 0..ny {
+                for x in 0..nx {
+                    values.push(value(self.domain.cell_center([x, y, z])));
+                }
+            }
+        }
+        values
+    }
+
+    /// Visits the lattice points of all cells that the bounds of a shape touch.
+    fn each_point(&self, shape: &Shape, per_axis: u32, mut visit: impl FnMut([f64; 3])) {
+        let (low, high) = shape.bounds();
+        let spacing = self.domain.spacing();
+        let range = |d: usize| {
+            if d >= self.domain.axes() {
+                return 0..1;
+            }
+            let cell = |x: f64| {
+                ((x - self.domain.origin[d]) / spacing).floor().clamp(0.0, f64::from(self.domain.cells[d] - 1)) as u32
+            };
+            cell(low[d])..cell(high[d]) + 1
+        };
+        let offsets = lattice(self.domain.axes(), per_axis);
+        for z in range(2) {
+            for y in range(1) {
+                for x in range(0) {
+                    let center = self.domain.cell_center([x, y, z]);
+                    for offset in &offsets {
+                        visit(std::array::from_fn(|d| center[d] + offset[d] * spacing));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Initial state at a point.
+    #[must_use]
+    pub fn gas_at(&self, point: [f64; 3]) -> GasState {
+        let last = self.gas.regions.iter().rev().find(|region| region.shape.distance(point) < 0.0);
+        last.map_or(self.gas.ambient, |region| region.state)
+    }
+}
+
+/// `count` regular points per axis of the unit cell around 0; 0 along inactive axes. x fastest.
+fn lattice(axes: usize, count: u32) -> Vec<[f64; 3]> {
+    let total = count.pow(axes as u32);
+    let offset = |index: u32, d: usize| {
+        if d < axes { (f64::from(index / count.pow(d as u32) % count) + 0.5) / f64::from(count) - 0.5 } else { 0.0 }
+    };
+    (0..total).map(|index| std::array::from_fn(|d| offset(index, d))).collect()
+}

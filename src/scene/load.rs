@@ -1,0 +1,138 @@
+//! Reading scenes: parse, override, fill in defaults, check. All findings are reported at once.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
+
+use super::source::{self, Finding, Source};
+use super::{Scene, check};
+use crate::{Error, Result};
+
+impl Scene {
+    /// Reads a scene file and applies overrides of the form `key=value`, such as `gas.ambient.density=2` or
+    /// `bodies[0].material=rubber`. Values are TOML; what is no TOML value is taken as a string.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with every mistake, its file, line, key and what is allowed.
+    pub fn load(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(|source| Error::io(path, source))?;
+        Scene::parse(&text, &path.display().to_string(), overrides)
+    }
+
+    /// Like [`Scene::load`] with the text at hand; `file_name` appears in messages.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with every mistake.
+    pub fn parse(text: &str, file_name: &str, overrides: &[String]) -> Result<Scene> {
+        let mut source = Source::new(text, file_name, overrides);
+        read(&mut source).map_err(|findings| Error::Scene(source.report(&findings)))
+    }
+
+    /// The same scene with `cells` cells along its longest axis.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if the other axes would not get whole numbers of cubic cells, or the result is no valid scene.
+    pub fn with_resolution(&self, cells: u32) -> Result<Scene> {
+        let longest = self.domain.cells.iter().copied().max().unwrap_or(1);
+        let mut scene = self.clone();
+        for axis in 0..self.domain.axes() {
+            let scaled = u64::from(self.domain.cells[axis]) * u64::from(cells);
+            if scaled % u64::from(longest) != 0 {
+                let step = (0..self.domain.axes())
+                    .map(|d| longest / greatest_divisor(longest, self.domain.cells[d]))
+                    .fold(1, least_multiple);
+                return Err(Error::Usage(format!(
+                    "resolution {cells} does not divide the domain of {:?} cells into cubes; use a multiple of {step}",
+                    &self.domain.cells[..self.domain.axes()]
+                )));
+            }
+            scene.domain.cells[axis] = u32::try_from(scaled / u64::from(longest)).unwrap_or(u32::MAX);
+        }
+        let findings = check::findings(&scene);
+        match findings.first() {
+            None => Ok(scene),
+            Some(first) => {
+                Err(Error::Usage(format!("resolution {cells}: {}: {}; {}", first.path, first.message, first.help)))
+            }
+        }
+    }
+
+    /// Puts in the defaults that depend on other keys.
+    fn resolve(&mut self) {
+        let default = if self.domain.dimension == 1 { 4 } else { 2 };
+        for body in self.bodies.iter_mut().filter(|body| body.particles_per_cell == 0) {
+            body.particles_per_cell = default;
+        }
+    }
+}
+
+fn greatest_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { greatest_divisor(b, a % b) }
+}
+
+fn least_multiple(a: u32, b: u32) -> u32 {
+    a / greatest_divisor(a, b) * b
+}
+
+fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
+    let text = source.text().to_owned();
+    let (root, errors) = DeTable::parse_recoverable(&text);
+    if !errors.is_empty() {
+        return Err(errors.iter().map(|error| syntax(error)).collect());
+    }
+    let place = root.span();
+    let mut root = root.into_inner();
+    let documents = override_documents(source)?;
+    let mut findings = Vec::new();
+    for (index, (key, texts)) in documents.iter().enumerate() {
+        let applied = parse_value(texts).and_then(|value| source::set(&mut root, key, value));
+        if let Err(message) = applied {
+            let help = "name an existing key or entry, for example gas.ambient.density=2 or bodies[0].density=3";
+            findings.push(Finding {
+                span: Some(source.override_place(index)),
+                ..Finding::new("", format!("--set {message}"), help)
+            });
+        }
+    }
+    source.index(&root);
+    check::numbers(&root, &mut findings);
+    match Scene::deserialize(Deserializer::from(Spanned::new(place, root))) {
+        Err(error) => {
+            findings.push(located(source, &error));
+            Err(findings)
+        }
+        Ok(mut scene) => {
+            scene.resolve();
+            findings.extend(check::findings(&scene));
+            if findings.is_empty() { Ok(scene) } else { Err(findings) }
+        }
+    }
+}
+
+/// Key and value documents of all overrides.
+fn override_documents(source: &Source) -> std::result::Result<Vec<(String, Vec<String>)>, Vec<Finding>> {
+    let (good, bad): (Vec<_>, Vec<_>) =
+        (0..source.override_count()).map(|index| source.override_document(index)).partition(|d| d.is_ok());
+    let bad = bad.into_iter().filter_map(std::result::Result::err).collect::<Vec<_>>();
+    if bad.is_empty() { Ok(good.into_iter().flatten().collect()) } else { Err(bad) }
+}
+
+/// The value of the first document that is TOML: the value as written, or as a string.
+fn parse_value<'a>(texts: &'a [String]) -> std::result::Result<Spanned<DeValue<'a>>, String> {
+    let value = texts.iter().find_map(|text| DeTable::parse(text).ok()?.into_inner().remove("v"));
+    value.ok_or_else(|| "value is neither TOML nor text".to_owned())
+}
+
+fn syntax(error: &toml::de::Error) -> Finding {
+    let help = "scenes are TOML, see docs/scenes.md";
+    Finding { span: error.span(), ..Finding::new("", error.message(), help) }
+}
+
+fn located(source: &Source, error: &toml::de::Error) -> Finding {
+    let path = error.span().map(|span| source.path_at(&span)).unwrap_or_default();
+    let help = "docs/scenes.md lists every key; `brisance schema` prints the schema";
+    Finding { span: error.span(), ..Finding::new(path, error.message(), help) }
+}

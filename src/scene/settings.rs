@@ -1,0 +1,337 @@
+//! Sections of a scene that say how to compute, what to write and what to expect.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::vector;
+
+/// How long, and how finely in time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// End of the run [s].
+    pub until: f64,
+    /// Fraction of the advective time step, above 0 and at most 1.
+    #[serde(default = "Time::default_cfl")]
+    pub cfl: f64,
+    /// Pictures per run, evenly spaced, besides the one of the start.
+    #[serde(default = "Time::default_frames")]
+    pub frames: u32,
+    /// A step moves sound by at most this many cells.
+    #[serde(default = "Time::default_max_courant")]
+    pub max_courant: f64,
+    /// A step is at most this many times the one before.
+    #[serde(default = "Time::default_max_growth")]
+    pub max_growth: f64,
+    /// Constant step [s] instead of the rules above; for measurements.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fixed_step: Option<f64>,
+}
+
+impl Time {
+    fn default_cfl() -> f64 {
+        0.5
+    }
+    fn default_frames() -> u32 {
+        24
+    }
+    fn default_max_courant() -> f64 {
+        2.0
+    }
+    fn default_max_growth() -> f64 {
+        2.0
+    }
+}
+
+/// Choices of the method. The defaults are the recommended method; the others are the paper's forms and ablations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Numerics {
+    /// Finite element pair of velocity and pressure in the coupled solve.
+    pub pair: Pair,
+    /// Relative residual at which the pressure solve stops, above 0 and below 1.
+    pub tolerance: f64,
+    /// The pressure solve gives up after this many iterations.
+    pub max_iterations: u32,
+    /// Advect with the pressure of the step before (consistent predictor).
+    pub predictor: bool,
+    /// Pressure unknowns where gas and solid meet.
+    pub interface: InterfacePressure,
+    /// A cell is solid when bodies fill more than this fraction of it, above 0 and at most 1.
+    pub solid_threshold: f64,
+    /// Pressure of the gas film between a body and a wall of the domain.
+    pub film: Film,
+    /// Velocity in the power that the gas gives to bodies.
+    pub power: Power,
+    /// Keep the gas of covered cells in a ledger and give it back when cells are uncovered.
+    pub ledger: bool,
+    /// Limit fluxes so that density and internal energy stay positive.
+    pub limiter: bool,
+    /// Blend reflective and passing ghost states by the blocked fraction of partly filled cells.
+    pub blending: bool,
+    /// Fraction of a cell that elastic waves cross in one sub-step, above 0 and at most 1.
+    pub elastic_cfl: f64,
+    /// Elastic sub-steps per step at most; the step is shortened to fit.
+    pub max_substeps: u32,
+    /// How particles give their momentum to the grid.
+    pub transfer: Transfer,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Numerics {
+            pair: Pair::default(),
+            tolerance: 1e-5,
+            max_iterations: 500,
+            predictor: true,
+            interface: InterfacePressure::default(),
+            solid_threshold: 0.5,
+            film: Film::default(),
+            power: Power::default(),
+            ledger: true,
+            limiter: true,
+            blending: true,
+            elastic_cfl: 0.4,
+            max_substeps: 64,
+            transfer: Transfer::default(),
+        }
+    }
+}
+
+/// Finite element pair of the coupled solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Pair {
+    /// Velocity constant per cell, pressure linear: fastest.
+    #[default]
+    #[serde(rename = "b1b0")]
+    B1b0,
+    /// Velocity quadratic, pressure linear: the paper's pair.
+    #[serde(rename = "b2b1")]
+    B2b1,
+}
+
+/// Pressure unknowns where gas and solid meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InterfacePressure {
+    /// One pressure where the solid is resolved, three (gas, solid, interface) at fragments.
+    #[default]
+    Resolved,
+    /// Gas, solid and interface pressure at every touched vertex: the paper's form.
+    H,
+    /// One pressure everywhere.
+    Single,
+}
+
+/// Pressure of the gas film between a body and a wall of the domain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Film {
+    /// That of the nearest gas along the wall.
+    #[default]
+    Nearest,
+    /// The ghost pressure of the body itself.
+    Ghost,
+}
+
+/// Velocity in the power that the gas gives to bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Power {
+    /// Mean of the velocities before and after the solve.
+    #[default]
+    Midpoint,
+    /// Velocity after the solve.
+    End,
+}
+
+/// How particles give their momentum to the grid; all ways leave the same bits on every run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Transfer {
+    /// Scatter on a GPU, gather on a software device.
+    #[default]
+    Auto,
+    /// Integer atomics.
+    Scatter,
+    /// Sums over sorted particles.
+    Gather,
+}
+
+/// Which files a run leaves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Output {
+    /// Fields shown in the pictures, one picture each; in 3D the first one is ray marched.
+    pub fields: Vec<Field>,
+    /// Also write VTK files of all fields and particles.
+    pub vtk: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Output { fields: vec![Field::Density], vtk: false }
+    }
+}
+
+/// A quantity of the gas that can be shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    /// Density [kg m^-3].
+    Density,
+    /// Pressure [Pa].
+    Pressure,
+    /// Speed [m s^-1].
+    Velocity,
+    /// Pressure over density, the temperature times the gas constant [m^2 s^-2].
+    Temperature,
+    /// Shades of the density gradient, like the optical method.
+    Schlieren,
+    /// Speed over the speed of sound.
+    Mach,
+    /// Magnitude of the curl of the velocity [s^-1].
+    Vorticity,
+}
+
+/// How the pictures look.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RenderSettings {
+    /// Width and height in pixels, 16 to 8192 each.
+    pub size: [u32; 2],
+    /// Where the eye is, in 3D; a view from the side and above when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Camera>,
+    /// What the ray march through a 3D domain shows.
+    pub mode: RenderMode,
+    /// Values at the ends of the colour bar; those of each picture when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+    /// Colour map.
+    pub colormap: Colormap,
+    /// Draw the particles.
+    pub particles: bool,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        RenderSettings {
+            size: [1280, 720],
+            camera: None,
+            mode: RenderMode::default(),
+            range: None,
+            colormap: Colormap::default(),
+            particles: true,
+        }
+    }
+}
+
+/// A pinhole camera.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Camera {
+    /// Position of the eye [m].
+    pub eye: [f64; 3],
+    /// The point in the middle of the picture [m].
+    pub target: [f64; 3],
+    /// Direction that is up in the picture.
+    #[serde(default = "Camera::default_up")]
+    pub up: [f64; 3],
+    /// Vertical opening angle [degrees], 1 to 170.
+    #[serde(default = "Camera::default_fov")]
+    pub fov_degrees: f64,
+}
+
+impl Camera {
+    fn default_up() -> [f64; 3] {
+        [0.0, 0.0, 1.0]
+    }
+    fn default_fov() -> f64 {
+        40.0
+    }
+}
+
+/// What the ray march shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RenderMode {
+    /// Shades of the density gradient.
+    #[default]
+    Schlieren,
+    /// Density through the colour map.
+    Density,
+}
+
+/// Colour map; all but gray are perceptually uniform in hue and lightness.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Colormap {
+    /// Blue, green, yellow.
+    #[default]
+    Viridis,
+    /// Black, red, pale yellow.
+    Inferno,
+    /// Black, purple, pale yellow.
+    Magma,
+    /// Blue, pink, yellow.
+    Plasma,
+    /// Blue, gray, yellow; for colour-blind readers.
+    Cividis,
+    /// Black to white.
+    Gray,
+}
+
+/// What the result must satisfy at the end of the run, at the scene's own resolution. Every entry is optional.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[serde(rename_all = "snake_case")]
+pub struct Expect {
+    /// Largest relative change of the gas mass, ledger included; for closed domains.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gas_mass_drift: Option<f64>,
+    /// Largest relative change of the energy of gas and solids together; for closed domains.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_drift: Option<f64>,
+    /// Largest speed of gas or particles, in units of the ambient speed of sound; for scenes at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_speed: Option<f64>,
+    /// Largest L1 error of the density against the exact Riemann solution along x [kg m^-2], in 1D.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density_l1: Option<f64>,
+    /// Lowest and highest value allowed for the largest density [kg m^-3].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_density: Option<[f64; 2]>,
+    /// The density stays above this [kg m^-3].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_density: Option<f64>,
+    /// The pressure stays above this [Pa].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_pressure: Option<f64>,
+    /// Most iterations of any pressure solve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_iterations: Option<u32>,
+    /// Most steps of the run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_steps: Option<u32>,
+    /// Fewest separate pieces that the bodies have broken into.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pieces: Option<u32>,
+    /// Where bodies must be.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<ExpectedBody>,
+}
+
+/// Where a body must be at the end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExpectedBody {
+    /// Name of the body.
+    pub body: String,
+    /// Its centre of mass [m].
+    #[serde(deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub center: [f64; 3],
+    /// Distance allowed [m].
+    pub tolerance: f64,
+}

@@ -1,0 +1,219 @@
+//! The text of a scene with its `--set` overrides: which key stands where, and how a finding is shown.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use codespan_reporting::diagnostic::{Diagnostic, Label};
+use codespan_reporting::files::SimpleFiles;
+use codespan_reporting::term;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Something wrong with a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Finding {
+    /// Key path, `bodies[0].shape.sphere.radius`; empty for the whole scene.
+    pub path: String,
+    /// What is wrong, with the value.
+    pub message: String,
+    /// What is allowed and what to do.
+    pub help: String,
+    /// Where in [`Source::buffer`]; found by the path when absent.
+    pub span: Option<Range<usize>>,
+}
+
+impl Finding {
+    /// A finding at a key.
+    pub(super) fn new(path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Finding { path: path.into(), message: message.into(), help: help.into(), span: None }
+    }
+}
+
+/// A scene file and its overrides, laid out in one buffer so that a position names the line of either.
+pub(super) struct Source {
+    /// Name of the scene file.
+    name: String,
+    /// The file, a newline, and one line per override.
+    buffer: String,
+    /// Where the file and each override line lie in the buffer.
+    parts: Vec<Range<usize>>,
+    /// Every key path with the place of its value.
+    places: Vec<(String, Range<usize>)>,
+}
+
+impl Source {
+    /// Lays out a scene file and its overrides.
+    pub(super) fn new(text: &str, name: &str, overrides: &[String]) -> Self {
+        let mut buffer = text.to_owned();
+        let mut parts = vec![0..text.len()];
+        for line in overrides {
+            buffer.push('\n');
+            let start = buffer.len();
+            buffer.push_str(line);
+            parts.push(start..buffer.len());
+        }
+        Source { name: name.to_owned(), buffer, parts, places: Vec::new() }
+    }
+
+    /// The text of the scene file alone.
+    pub(super) fn text(&self) -> &str {
+        &self.buffer[self.parts[0].clone()]
+    }
+
+    /// Number of overrides.
+    pub(super) fn override_count(&self) -> usize {
+        self.parts.len() - 1
+    }
+
+    /// Splits an override at its first `=`: key, TOML document `v = value` whose positions are those of the buffer.
+    pub(super) fn override_document(&self, index: usize) -> Result<(String, Vec<String>), Finding> {
+        let range = self.parts[index + 1].clone();
+        let line = &self.buffer[range.clone()];
+        let Some((key, value)) = line.split_once('=') else {
+            let help = "write key=value, for example gas.ambient.density=2 or bodies[0].density=3";
+            return Err(Finding { span: Some(range), ..Finding::new("", format!("--set {line} has no `=`"), help) });
+        };
+        let start = range.start + key.len() + 1;
+        // "v=" takes two places in front of the value; the key and its "=" leave at least that many
+        let padded = |value: &str| format!("{:width$}v={value}", "", width = start - 2);
+        let quoted = format!("\"{}\"", value.trim().replace('\\', "\\\\").replace('"', "\\\""));
+        let key = key.trim().replace('[', ".").replace(']', "");
+        if key.is_empty() || key.split('.').any(str::is_empty) {
+            let help = "name keys as in gas.ambient.density or bodies[0].density";
+            return Err(Finding { span: Some(range), ..Finding::new("", format!("--set {line} names no key"), help) });
+        }
+        Ok((key, vec![padded(value), padded(&quoted)]))
+    }
+
+    /// Place of an override line.
+    pub(super) fn override_place(&self, index: usize) -> Range<usize> {
+        self.parts[index + 1].clone()
+    }
+
+    /// Remembers where every key of the document stands.
+    pub(super) fn index(&mut self, root: &DeTable<'_>) {
+        self.places.clear();
+        walk(root, &mut |path, place, _| self.places.push((path.to_owned(), place)));
+    }
+
+    /// The innermost key whose place holds the given one.
+    pub(super) fn path_at(&self, span: &Range<usize>) -> String {
+        let holds = |place: &Range<usize>| place.start <= span.start && span.end <= place.end;
+        let inner = self.places.iter().filter(|(_, place)| holds(place)).min_by_key(|(_, place)| place.len());
+        inner.map(|(path, _)| path.clone()).unwrap_or_default()
+    }
+
+    /// The place of a key, or of its nearest parent that is written down.
+    fn place_of(&self, path: &str) -> Range<usize> {
+        let mut path = path;
+        loop {
+            if let Some((_, place)) = self.places.iter().find(|(known, _)| known == path) {
+                return place.clone();
+            }
+            match path.rfind(['.', '[']) {
+                Some(end) => path = &path[..end],
+                None => return 0..0,
+            }
+        }
+    }
+
+    /// All findings as text, with the lines they belong to.
+    pub(super) fn report(&self, findings: &[Finding]) -> String {
+        let mut files = SimpleFiles::new();
+        for (index, part) in self.parts.iter().enumerate() {
+            let name = if index == 0 { self.name.clone() } else { "--set".to_owned() };
+            files.add(name, &self.buffer[part.clone()]);
+        }
+        let config = term::Config { chars: term::Chars::ascii(), ..term::Config::default() };
+        let mut text = String::new();
+        for finding in findings {
+            let span = finding.span.clone().unwrap_or_else(|| self.place_of(&finding.path));
+            let index = self.parts.iter().rposition(|part| part.start <= span.start).unwrap_or(0);
+            let part = &self.parts[index];
+            let local = span.start - part.start..span.end.clamp(span.start, part.end.max(span.start)) - part.start;
+            let key = if finding.path.is_empty() { String::new() } else { format!("{}: ", finding.path) };
+            let diagnostic = Diagnostic::error()
+                .with_message(format!("{key}{}", finding.message))
+                .with_label(Label::primary(index, local))
+                .with_note(finding.help.clone());
+            // the only error is a place outside the file, which the clamp excludes
+            let shown =
+                term::emit_into_string(&config, &files, &diagnostic).unwrap_or_else(|_| finding.message.clone());
+            text.push_str(shown.trim_end());
+            text.push_str("\n\n");
+        }
+        text.push_str(&format!("{}: {} in this scene", self.name, count(findings.len())));
+        text
+    }
+}
+
+fn count(findings: usize) -> String {
+    if findings == 1 { "1 error".to_owned() } else { format!("{findings} errors") }
+}
+
+/// Calls `visit` with path, place and value of every key.
+pub(super) fn walk<'a>(root: &DeTable<'a>, visit: &mut impl FnMut(&str, Range<usize>, &DeValue<'a>)) {
+    for (key, value) in root {
+        walk_value(key.get_ref(), Some(key.span()), value, visit);
+    }
+}
+
+fn walk_value<'a>(
+    path: &str,
+    key: Option<Range<usize>>,
+    value: &Spanned<DeValue<'a>>,
+    visit: &mut impl FnMut(&str, Range<usize>, &DeValue<'a>),
+) {
+    // a table or array written over several lines is shown by its key
+    let place = match (value.get_ref(), key) {
+        (DeValue::Table(_) | DeValue::Array(_), Some(key)) if value.span().is_empty() => key,
+        _ => value.span(),
+    };
+    visit(path, place, value.get_ref());
+    match value.get_ref() {
+        DeValue::Table(table) => {
+            for (key, inner) in table {
+                walk_value(&format!("{path}.{}", key.get_ref()), Some(key.span()), inner, visit);
+            }
+        }
+        DeValue::Array(array) => {
+            for (index, inner) in array.iter().enumerate() {
+                walk_value(&format!("{path}[{index}]"), None, inner, visit);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Puts a value at a key path (`bodies.0.density`), creating tables on the way.
+pub(super) fn set<'a>(root: &mut DeTable<'a>, path: &str, value: Spanned<DeValue<'a>>) -> Result<(), String> {
+    let place = value.span();
+    let (first, mut rest) = split(path);
+    let mut node = slot(root, first, &place);
+    while let Some(current) = rest {
+        let (key, next) = split(current);
+        node = match node.get_mut() {
+            DeValue::Table(table) => slot(table, key, &place),
+            DeValue::Array(array) => {
+                let length = array.len();
+                let index = key.parse::<usize>().ok().filter(|index| *index < length);
+                let index =
+                    index.ok_or_else(|| format!("`{key}` is no entry of a list of {length}; entries count from 0"))?;
+                &mut (**array)[index]
+            }
+            other => return Err(format!("`{key}` lies inside a {}, which has no keys", other.type_str())),
+        };
+        rest = next;
+    }
+    *node = value;
+    Ok(())
+}
+
+fn split(path: &str) -> (&str, Option<&str>) {
+    path.split_once('.').map_or((path, None), |(first, rest)| (first, Some(rest)))
+}
+
+fn slot<'t, 'a>(table: &'t mut DeTable<'a>, key: &str, place: &Range<usize>) -> &'t mut Spanned<DeValue<'a>> {
+    let name = Spanned::new(place.clone(), Cow::Owned(key.to_owned()));
+    table.entry(name).or_insert_with(|| Spanned::new(place.clone(), DeValue::Table(DeTable::new())))
+}

@@ -1,0 +1,37 @@
+//! Vectors in scene files: one to three numbers. A scene of `dimension` axes may leave the inactive ones out.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// Reads one to three numbers; the missing ones become 0.
+pub(super) fn point<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
+    filled(deserializer, 0.0)
+}
+
+/// Reads one to three sizes; along the missing axes the thing has no end.
+pub(super) fn extent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
+    filled(deserializer, f64::INFINITY)
+}
+
+/// Reads one to three lengths; the missing ones become 1, the unit thickness of an inactive axis.
+pub(super) fn lengths<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
+    filled(deserializer, 1.0)
+}
+
+/// Reads one to three cell counts; an inactive axis has one cell.
+pub(super) fn counts<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[u32; 3], D::Error> {
+    filled(deserializer, 1)
+}
+
+/// Writes the finite entries of an extent: what [`extent`] reads back.
+pub(super) fn write_extent<S: Serializer>(value: &[f64; 3], serializer: S) -> Result<S::Ok, S::Error> {
+    value.iter().take_while(|v| v.is_finite()).collect::<Vec<_>>().serialize(serializer)
+}
+
+fn filled<'de, D: Deserializer<'de>, T: Deserialize<'de> + Copy>(deserializer: D, rest: T) -> Result<[T; 3], D::Error> {
+    let entries = Vec::<T>::deserialize(deserializer)?;
+    if entries.is_empty() || entries.len() > 3 {
+        let message = format!("expected 1 to 3 numbers, one per axis, found {}", entries.len());
+        return Err(serde::de::Error::custom(message));
+    }
+    Ok(std::array::from_fn(|d| entries.get(d).copied().unwrap_or(rest)))
+}
