@@ -115,8 +115,7 @@ impl<'a> Canvas<'a> {
     /// Draws a frame of unit width just outside a rectangle.
     pub(crate) fn outline(&mut self, area: Rectangle, color: [u8; 3]) {
         let unit = self.lettering.unit();
-        let (x, y) = (area.x - unit, area.y - unit);
-        let (width, height) = (area.width + 2 * unit, area.height + 2 * unit);
+        let (x, y, width) = (area.x - unit, area.y - unit, area.width + 2 * unit);
         self.fill(Rectangle { x, y, width, height: unit }, color, 1.0);
         self.fill(Rectangle { x, y: area.bottom(), width, height: unit }, color, 1.0);
         self.fill(Rectangle { x, y: area.y, width: unit, height: area.height }, color, 1.0);

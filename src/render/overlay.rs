@@ -33,11 +33,13 @@ impl Layout {
         let (line, advance) = (letters.line(), letters.advance());
         let bar_width = 2 * advance;
         let right = bar_width + (LABEL_LETTERS + 2) * advance;
-        let area = Rectangle { x: advance * 2, y: line * 3, width: width - advance * 3 - right, height: height - line * 4 };
+        let area =
+            Rectangle { x: advance * 2, y: line * 3, width: width - advance * 3 - right, height: height - line * 4 };
         let Some(aspect) = aspect else {
             let plot = Rectangle { x: 0, y: 0, width, height };
             let bar_height = area.height * 6 / 10;
-            let bar = Rectangle { x: width - right, y: (height - bar_height) / 2, width: bar_width, height: bar_height };
+            let bar =
+                Rectangle { x: width - right, y: (height - bar_height) / 2, width: bar_width, height: bar_height };
             return Self { plot, bar };
         };
         let plot_width = ((area.height as f32 * aspect) as i32).min(area.width).max(1);

@@ -31,12 +31,15 @@ pub(crate) struct Line {
 impl Line {
     /// Least and largest gas value of a panel, widened until it can be drawn.
     pub(crate) fn range(&self, panel: usize) -> [f64; 2] {
-        let gas = self.gas[panel].iter().zip(&self.kind).filter(|(_, cell)| **cell == kind::GAS).map(|(value, _)| *value);
+        let gas =
+            self.gas[panel].iter().zip(&self.kind).filter(|(_, cell)| **cell == kind::GAS).map(|(value, _)| *value);
         let velocity = self.particles.iter().map(|particle| particle.1).filter(|_| panel == 1);
         let (low, high) = gas
             .chain(velocity)
             .filter(|value| value.is_finite())
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value.into()), high.max(value.into())));
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value.into()), high.max(value.into()))
+            });
         if low > high {
             return [0.0, 1.0];
         }

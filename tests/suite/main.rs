@@ -1,1 +1,4 @@
 //! One test binary: see the modules.
+
+mod export;
+mod render;
