@@ -160,5 +160,5 @@ fn shade_surface(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroup
     color /= max(seen, 1.0);
     depth /= max(seen, 1.0);
     let coverage = seen / f32(SAMPLES * SAMPLES);
-    surface[i] = vec4u(bitcast<u32>(depth), bitcast<u32>(coverage), pack2x16float(color.rg), pack2x16float(vec2f(color.b, 0.0)));
+    surface[i] = vec4u(bitcast<u32>(depth), bitcast<u32>(coverage), pack2x16unorm(color.rg), pack2x16unorm(vec2f(color.b, 0.0)));
 }
