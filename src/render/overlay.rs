@@ -33,8 +33,9 @@ impl Layout {
         let (line, advance) = (letters.line(), letters.advance());
         let bar_width = 2 * advance;
         let right = bar_width + (LABEL_LETTERS + 2) * advance;
+        let (top, bottom) = (7 * line / 2, line);
         let area =
-            Rectangle { x: advance * 2, y: line * 3, width: width - advance * 3 - right, height: height - line * 4 };
+            Rectangle { x: 2 * advance, y: top, width: width - 3 * advance - right, height: height - top - bottom };
         let Some(aspect) = aspect else {
             let plot = Rectangle { x: 0, y: 0, width, height };
             let bar_height = area.height * 6 / 10;
@@ -45,8 +46,9 @@ impl Layout {
         let plot_width = ((area.height as f32 * aspect) as i32).min(area.width).max(1);
         let plot_height = ((plot_width as f32 / aspect) as i32).clamp(1, area.height.max(1));
         let plot = Rectangle {
-            x: area.x + (area.width - plot_width) / 2,
-            y: area.y + (area.height - plot_height) / 2,
+            // On very small frames the margins give way.
+            x: (area.x + (area.width - plot_width) / 2).clamp(0, width - plot_width),
+            y: (area.y + (area.height - plot_height) / 2).clamp(0, height - plot_height),
             width: plot_width,
             height: plot_height,
         };
@@ -106,6 +108,6 @@ pub(crate) fn color_bar(
         canvas.fill(Rectangle { x: bar.right(), y, width: advance / 2, height: unit }, FAINT, 1.0);
         canvas.text(bar.right() + advance, y, Anchor::Left, &label, INK);
     }
-    let right = canvas.frame.width as i32 - advance;
-    canvas.text(right, bar.y - line, Anchor::Right, caption, INK);
+    let room = canvas.frame.width as i32 - advance - canvas.lettering.width(caption);
+    canvas.text(bar.x.min(room), bar.y - line, Anchor::Left, caption, INK);
 }

@@ -7,13 +7,16 @@ use crate::scene::{Camera, Scene};
 use crate::state::Grid;
 
 /// Diameter of a drawn particle over the edge of its volume: neighbours overlap, so that a body has no holes.
-const PARTICLE_OVERLAP: f32 = 1.2;
+/// Discs of a square lattice must reach the middle of its diagonals; spheres hide each other's gaps.
+fn particle_overlap(dimension: u32) -> f32 {
+    if dimension == 3 { 1.25 } else { std::f32::consts::SQRT_2 }
+}
 
 /// Plastic strain at which a particle has lost half of its brightness.
 const DARK_STRAIN: f32 = 0.5;
 
 /// Length of a step of the ray march over the edge of a cell.
-const MARCH_STEP: f32 = 0.8;
+const MARCH_STEP: f32 = 0.7;
 
 /// Uniform of all drawing kernels, one row of 16 bytes per line of fields.
 #[repr(C)]
@@ -103,7 +106,7 @@ impl View {
             forward: eye.forward.into(),
             field: 0,
             light: light.into(),
-            particle_scale: 0.5 * PARTICLE_OVERLAP,
+            particle_scale: 0.5 * particle_overlap(grid.dimension),
             size,
             particles,
             // Interpolation would hide the cells of a coarse grid and invent detail.
@@ -184,19 +187,35 @@ fn middle_of(grid: &Grid) -> Vec3 {
     Vec3::from(grid.origin) + 0.5 * Vec3::from(grid.extent())
 }
 
-/// A view from the side and above that shows the whole domain.
+/// A view from the side and above that shows the whole domain, below the title.
 fn fitting_camera(grid: &Grid, size: [u32; 2]) -> Camera {
     const FIELD_OF_VIEW: f32 = 32.0;
-    let middle = middle_of(grid);
-    let radius = 0.5 * Vec3::from(grid.extent()).length();
+    /// Share of the picture that the domain may take.
+    const FILLED: f32 = 0.86;
     let half_height = (0.5 * FIELD_OF_VIEW).to_radians().tan();
-    let half_angle = (half_height * (size[0] as f32 / size[1] as f32).min(1.0)).atan();
-    // The corners of a box rarely fill its bounding sphere on the picture.
-    let distance = 0.93 * radius / half_angle.sin();
-    let eye = middle + distance * Vec3::new(0.55, -0.90, 0.42).normalize();
+    let half_size = half_height * FILLED * Vec2::new((size[0] as f32 / size[1] as f32).min(1.2), 1.0);
+    let forward = -Vec3::new(0.55, -0.90, 0.42).normalize();
+    let right = forward.cross(Vec3::Z).normalize();
+    let up = right.cross(forward);
+    let extent = Vec3::from(grid.extent());
+    let mut target = middle_of(grid);
+    let mut distance = 2.0 * extent.length() / half_height;
+    // Perspective makes the fit depend on the distance; a few rounds settle it.
+    for _ in 0..8 {
+        let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+        for corner in 0..8 {
+            let part = Vec3::new((corner & 1) as f32, ((corner >> 1) & 1) as f32, (corner >> 2) as f32);
+            let relative = Vec3::from(grid.origin) + part * extent - (target - distance * forward);
+            let place = Vec2::new(relative.dot(right), relative.dot(up)) / relative.dot(forward);
+            (low, high) = (low.min(place), high.max(place));
+        }
+        let middle = 0.5 * (low + high) * distance;
+        target += middle.x * right + middle.y * up;
+        distance *= (0.5 * (high - low) / half_size).max_element();
+    }
     Camera {
-        eye: eye.to_array().map(f64::from),
-        target: middle.to_array().map(f64::from),
+        eye: (target - distance * forward).to_array().map(f64::from),
+        target: target.to_array().map(f64::from),
         up: [0.0, 0.0, 1.0],
         fov_degrees: FIELD_OF_VIEW.into(),
     }

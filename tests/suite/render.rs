@@ -181,6 +181,15 @@ fn every_field_can_be_drawn() {
 }
 
 #[test]
+fn smallest_frames_do_not_overflow() {
+    for size in [[16, 16], [16, 300], [300, 16]] {
+        for dimension in 1..=3 {
+            render(dimension, 8, size, "");
+        }
+    }
+}
+
+#[test]
 fn given_range_is_kept() {
     let pictures = render(2, 16, [64, 64], "render.range = [0.5, 7.5]");
     assert_eq!(pictures[0].range, [0.5, 7.5]);
@@ -206,10 +215,11 @@ fn lines_of_one_dimension() {
 #[test]
 #[ignore = "large pictures for the eye: cargo test -- --ignored pictures, then look into target/tmp"]
 fn pictures_to_look_at() {
+    let block = "\n[[obstacles]]\nname = \"block\"\nshape.box = { center = [0.95, 0.05, 0.1], size = [0.2, 0.2, 0.4] }";
     render(1, 200, [1280, 720], "");
     let fields = r#"output.fields = ["density", "schlieren"]"#;
     render(2, 128, [1280, 720], &format!("{fields}\nrender.colormap = \"inferno\""));
-    render(3, 64, [1280, 720], "render.colormap = \"inferno\"");
+    render(3, 64, [1280, 720], &format!("render.colormap = \"inferno\"{block}"));
     render(3, 64, [1024, 640], "render.mode = \"density\"\nrender.colormap = \"magma\"");
 }
 
