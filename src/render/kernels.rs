@@ -26,15 +26,25 @@ pub(super) struct Kernels {
     cell_count: u64,
     cube_count: u64,
     pixel_count: u64,
-    view: Buffer<View>,
-    colors: Buffer<Vec4>,
-    ranges: Buffer<[f32; 2]>,
-    pixels: Buffer<u32>,
+    targets: Targets,
     evaluate_field: Bound,
     find_range: Bound,
     pack_corners: Option<Bound>,
     points: Option<Points>,
     draw: Bound,
+}
+
+/// The buffers that drawing writes.
+#[derive(Debug)]
+struct Targets {
+    view: Buffer<View>,
+    colors: Buffer<Vec4>,
+    field: Buffer<f32>,
+    ranges: Buffer<[f32; 2]>,
+    corners: Buffer<[u32; 2]>,
+    edges: Buffer<[Vec4; 2]>,
+    surface: Buffer<[u32; 4]>,
+    pixels: Buffer<u32>,
 }
 
 /// The kernels that draw particles, in order.
@@ -63,6 +73,11 @@ pub fn constants() -> String {
     text
 }
 
+/// Compiles one entry point with the constants of the drawing shaders.
+fn kernel(gpu: &Gpu, shader: &str, entry: &str) -> Result<Kernel> {
+    Kernel::new(gpu, shader, entry, &Constants { source: &constants(), ..Constants::default() })
+}
+
 impl Kernels {
     pub(super) fn new(
         gpu: &Gpu,
@@ -70,58 +85,42 @@ impl Kernels {
         particles: Option<ParticleBuffers>,
         template: &View,
     ) -> Result<Self> {
-        let constants = constants();
-        let kernel = |shader: &str, entry: &str| {
-            Kernel::new(gpu, shader, entry, &Constants { source: &constants, ..Constants::default() })
-        };
         let grid = &state.grid;
-        let cube_count = if grid.dimension == 3 { grid.cells.map(|n| u64::from(n) + 1).iter().product() } else { 0 };
+        let volume = grid.dimension == 3;
+        let cube_count = if volume { grid.cells.map(|n| u64::from(n) + 1).iter().product() } else { 0 };
         let pixel_count = u64::from(template.size[0]) * u64::from(template.size[1]);
+        let targets = Targets::new(gpu, grid.cell_count(), cube_count as usize, template)?;
 
-        let view = Buffer::uniform(gpu, "view", 1)?;
-        let colors = Buffer::new(gpu, "colour table", TABLE_LENGTH)?;
-        let field = Buffer::<f32>::new(gpu, "field shown", grid.cell_count())?;
-        let ranges = Buffer::new(gpu, "ranges", RANGE_GROUPS as usize)?;
-        let corners = Buffer::<[u32; 2]>::new(gpu, "field corners", cube_count as usize)?;
-        let surface = Buffer::<[u32; 4]>::new(gpu, "surface", pixel_count as usize)?;
-        let pixels = Buffer::new(gpu, "pixels", pixel_count as usize)?;
-
-        let evaluate_field = kernel("field.wgsl", "evaluate_field")?.bind(
-            gpu,
-            &[
-                ("view", view.raw()),
-                ("conserved", state.conserved),
-                ("energy", state.energy),
-                ("cells", state.cells),
-                ("field", field.raw()),
-            ],
-        )?;
-        let find_range = kernel("field.wgsl", "find_range")?
-            .bind(gpu, &[("view", view.raw()), ("field", field.raw()), ("ranges", ranges.raw())])?;
-        let points = particles
-            .map(|particles| Points::new(gpu, kernel, &particles, (&view, pixel_count), &surface))
+        let view = ("view", targets.view.raw());
+        let (field, corners) = (("field", targets.field.raw()), ("corners", targets.corners.raw()));
+        let gas = [("conserved", state.conserved), ("energy", state.energy), ("cells", state.cells)];
+        let evaluate_field =
+            kernel(gpu, "field.wgsl", "evaluate_field")?.bind(gpu, &[&gas[..], &[view, field]].concat())?;
+        let find_range =
+            kernel(gpu, "field.wgsl", "find_range")?.bind(gpu, &[view, field, ("ranges", targets.ranges.raw())])?;
+        let pack_corners = volume
+            .then(|| kernel(gpu, "field.wgsl", "pack_corners")?.bind(gpu, &[view, field, corners]))
             .transpose()?;
-        let shared =
-            [("view", view.raw()), ("cells", state.cells), ("colors", colors.raw()), ("surface", surface.raw())];
-        let (pack_corners, draw) = if grid.dimension == 3 {
-            let edges = Buffer::from_slice(gpu, "edges", &template.edges())?;
-            let pack = kernel("field.wgsl", "pack_corners")?
-                .bind(gpu, &[("view", view.raw()), ("field", field.raw()), ("corners", corners.raw())])?;
-            let own = [("corners", corners.raw()), ("edges", edges.raw()), ("pixels", pixels.raw())];
-            (Some(pack), kernel("volume.wgsl", "draw_volume")?.bind(gpu, &[&shared[..], &own].concat())?)
+        let points = particles.map(|particles| Points::new(gpu, &particles, &targets, pixel_count)).transpose()?;
+        let shared = [
+            view,
+            ("cells", state.cells),
+            ("colors", targets.colors.raw()),
+            ("surface", targets.surface.raw()),
+            ("pixels", targets.pixels.raw()),
+        ];
+        let draw = if volume {
+            let own = [corners, ("edges", targets.edges.raw())];
+            kernel(gpu, "volume.wgsl", "draw_volume")?.bind(gpu, &[&shared[..], &own].concat())?
         } else {
-            let own = [("field", field.raw()), ("pixels", pixels.raw())];
-            (None, kernel("slice.wgsl", "draw_slice")?.bind(gpu, &[&shared[..], &own].concat())?)
+            kernel(gpu, "slice.wgsl", "draw_slice")?.bind(gpu, &[&shared[..], &[field]].concat())?
         };
         let cell_count = grid.cell_count() as u64;
         Ok(Self {
             cell_count,
             cube_count,
             pixel_count,
-            view,
-            colors,
-            ranges,
-            pixels,
+            targets,
             evaluate_field,
             find_range,
             pack_corners,
@@ -132,12 +131,12 @@ impl Kernels {
 
     /// Computes the view's field and returns its least and largest value; the first is the larger where there is no gas.
     pub(super) fn evaluate(&self, gpu: &Gpu, view: &View) -> Result<[f64; 2]> {
-        self.view.write(gpu, 0, &[*view]);
+        self.targets.view.write(gpu, 0, &[*view]);
         let mut pass = Pass::new(gpu, "picture field");
         pass.dispatch(&self.evaluate_field, &Extent::Threads(self.cell_count));
         pass.dispatch(&self.find_range, &Extent::Groups([RANGE_GROUPS, 1, 1]));
         pass.submit()?;
-        let ranges = readback::read(gpu, &self.ranges)?;
+        let ranges = readback::read(gpu, &self.targets.ranges)?;
         let low = ranges.iter().map(|range| f64::from(range[0])).fold(f64::INFINITY, f64::min);
         let high = ranges.iter().map(|range| f64::from(range[1])).fold(f64::NEG_INFINITY, f64::max);
         Ok([low, high])
@@ -147,8 +146,8 @@ impl Kernels {
     pub(super) fn draw(&self, gpu: &Gpu, view: &View, table: &[Vec3]) -> Result<Vec<u32>> {
         let linear: Vec<Vec4> =
             table.iter().map(|color| Vec3::from(color.to_array().map(linear_from_srgb)).extend(1.0)).collect();
-        self.view.write(gpu, 0, &[*view]);
-        self.colors.write(gpu, 0, &linear);
+        self.targets.view.write(gpu, 0, &[*view]);
+        self.targets.colors.write(gpu, 0, &linear);
         let mut pass = Pass::new(gpu, "picture");
         if let Some(pack) = &self.pack_corners {
             pass.dispatch(pack, &Extent::Threads(self.cube_count));
@@ -162,40 +161,48 @@ impl Kernels {
         }
         pass.dispatch(&self.draw, &Extent::Threads(self.pixel_count));
         pass.submit()?;
-        readback::read(gpu, &self.pixels)
+        readback::read(gpu, &self.targets.pixels)
+    }
+}
+
+impl Targets {
+    fn new(gpu: &Gpu, cells: usize, cubes: usize, template: &View) -> Result<Self> {
+        let pixels = template.size[0] as usize * template.size[1] as usize;
+        Ok(Self {
+            view: Buffer::uniform(gpu, "view", 1)?,
+            colors: Buffer::new(gpu, "colour table", TABLE_LENGTH)?,
+            field: Buffer::new(gpu, "field shown", cells)?,
+            ranges: Buffer::new(gpu, "ranges", RANGE_GROUPS as usize)?,
+            corners: Buffer::new(gpu, "field corners", cubes)?,
+            edges: Buffer::from_slice(gpu, "edges", &template.edges())?,
+            surface: Buffer::new(gpu, "surface", pixels)?,
+            pixels: Buffer::new(gpu, "pixels", pixels)?,
+        })
     }
 }
 
 impl Points {
-    fn new(
-        gpu: &Gpu,
-        kernel: impl Fn(&str, &str) -> Result<Kernel>,
-        particles: &ParticleBuffers,
-        (view, pixel_count): (&Buffer<View>, u64),
-        surface: &Buffer<[u32; 4]>,
-    ) -> Result<Self> {
+    fn new(gpu: &Gpu, particles: &ParticleBuffers, targets: &Targets, pixel_count: u64) -> Result<Self> {
         let samples = pixel_count as usize * (SAMPLES * SAMPLES) as usize;
         let depth_bits = Buffer::<u32>::new(gpu, "sample depths", samples)?;
         let nearest = Buffer::<u32>::new(gpu, "sample particles", samples)?;
-        let view = ("view", view.raw());
-        let depth_bits = ("depth_bits", depth_bits.raw());
-        let nearest = ("nearest", nearest.raw());
         let place = [
+            ("view", targets.view.raw()),
             ("position", particles.position),
             ("velocity", particles.velocity),
             ("deformation", particles.deformation),
+            ("depth_bits", depth_bits.raw()),
         ];
-        let bind = |entry: &str, own: &[(&str, &wgpu::Buffer)]| kernel("points.wgsl", entry)?.bind(gpu, own);
+        let nearest = ("nearest", nearest.raw());
+        let own = [nearest, ("affine", particles.affine), ("surface", targets.surface.raw())];
+        let bind =
+            |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| kernel(gpu, "points.wgsl", entry)?.bind(gpu, buffers);
         Ok(Self {
             count: particles.count.into(),
-            clear_samples: bind("clear_samples", &[view, depth_bits, nearest])?,
-            splat_depth: bind("splat_depth", &[&place[..], &[view, depth_bits]].concat())?,
-            splat_nearest: bind("splat_nearest", &[&place[..], &[view, depth_bits, nearest]].concat())?,
-            shade_surface: bind(
-                "shade_surface",
-                &[&place[..], &[view, depth_bits, nearest, ("affine", particles.affine), ("surface", surface.raw())]]
-                    .concat(),
-            )?,
+            clear_samples: bind("clear_samples", &[place[0], place[4], nearest])?,
+            splat_depth: bind("splat_depth", &place)?,
+            splat_nearest: bind("splat_nearest", &[&place[..], &[nearest]].concat())?,
+            shade_surface: bind("shade_surface", &[&place[..], &own].concat())?,
         })
     }
 }

@@ -33,7 +33,7 @@ impl Layout {
         let (line, advance) = (letters.line(), letters.advance());
         let bar_width = 2 * advance;
         let right = bar_width + (LABEL_LETTERS + 2) * advance;
-        let (top, bottom) = (7 * line / 2, line);
+        let (top, bottom) = (15 * line / 4, line);
         let area =
             Rectangle { x: 2 * advance, y: top, width: width - 3 * advance - right, height: height - top - bottom };
         let Some(aspect) = aspect else {
@@ -109,5 +109,5 @@ pub(crate) fn color_bar(
         canvas.text(bar.right() + advance, y, Anchor::Left, &label, INK);
     }
     let room = canvas.frame.width as i32 - advance - canvas.lettering.width(caption);
-    canvas.text(bar.x.min(room), bar.y - line, Anchor::Left, caption, INK);
+    canvas.text(bar.x.min(room), bar.y - 5 * line / 4, Anchor::Left, caption, INK);
 }

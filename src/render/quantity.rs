@@ -46,7 +46,7 @@ pub(super) fn caption(field: Field) -> &'static str {
         Field::Pressure => "pressure [Pa]",
         Field::Velocity => "speed [m/s]",
         Field::Temperature => "p/rho [m\u{b2}/s\u{b2}]",
-        Field::Schlieren => "|grad rho| [kg/m^4]",
+        Field::Schlieren => "density gradient [kg/m^4]",
         Field::Mach => "Mach number",
         Field::Vorticity => "vorticity [1/s]",
     }
@@ -70,7 +70,7 @@ pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamm
         Field::Vorticity => sound_speed / spacing,
     };
     let smallest = SMALLEST_CONTRAST * scale;
-    if !(seen[0] <= seen[1]) {
+    if seen[0] > seen[1] {
         return if starts_at_zero(field) { [0.0, smallest] } else { [scale - smallest, scale + smallest] };
     }
     if starts_at_zero(field) {
