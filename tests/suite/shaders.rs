@@ -7,8 +7,8 @@ use brisance::gpu::{Compiled, Folder, SOURCES, Shader};
 use wgpu::naga;
 
 /// The text injected before every stage's source.
-fn constants(_dimension: u32) -> String {
-    String::new()
+fn constants(name: &str) -> String {
+    brisance::state::constants::source_for(name)
 }
 
 /// The folder the embedded table must equal.
@@ -80,7 +80,7 @@ fn every_stage_validates_in_every_dimension() {
     for name in stages() {
         for dimension in 1..=3 {
             let compiled =
-                Shader::load(&name, &constants(dimension), &Folder::Disk(folder())).and_then(Shader::compile);
+                Shader::load(&name, &constants(&name), &Folder::Disk(folder())).and_then(Shader::compile);
             let compiled = match compiled {
                 Ok(compiled) => compiled,
                 Err(error) => {
