@@ -8,7 +8,7 @@ const FLOORS: [&[&str]; 10] = [
     &["material", "gpu"],
     &["scene"],
     &["state", "numerics"],
-    &["stage"],
+    &["stage", "snapshot"],
     &["simulation", "diagnostics"],
     &["render"],
     &["export"],
