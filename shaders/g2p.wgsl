@@ -4,7 +4,7 @@
 #include "shared/index.wgsl"
 #include "shared/control.wgsl"
 #include "shared/bspline.wgsl"
-#include "shared/material_params.wgsl"
+#include "shared/material.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read_write> position: array<vec4f>;

@@ -6,7 +6,7 @@
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/matrix.wgsl"
-#include "shared/material_params.wgsl"
+#include "shared/material.wgsl"
 #include "shared/bspline.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;

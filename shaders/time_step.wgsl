@@ -85,13 +85,17 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
         dt = min(dt, params.cfl / max(largest.x, 1e-30));
         if control.dt_previous > 0.0 { dt = min(dt, params.max_growth * control.dt_previous); }
     }
-    if SOLIDS { dt = min(dt, params.cfl * params.spacing / max(largest.z, 1e-30)); }
+    let elastic_step = params.elastic_cfl * params.spacing / max(params.wave_speed, 1e-30);
+    if SOLIDS {
+        dt = min(dt, params.cfl * params.spacing / max(largest.z, 1e-30));
+        dt = min(dt, f32(params.max_substeps) * elastic_step);
+    }
     // Reach the asked time exactly, without a tiny last step.
     if dt >= control.remaining * (1.0 - 1e-5) { dt = control.remaining; }
     else if dt > 0.5 * control.remaining { dt = 0.5 * control.remaining; }
     control.dt = dt;
     control.substeps = 0u;
-    if SOLIDS { control.substeps = u32(ceil(max(1.0, dt * params.wave_speed / (params.elastic_cfl * params.spacing)))); }
+    if SOLIDS { control.substeps = u32(ceil(max(1.0, dt / elastic_step - 1e-4))); }
     control.substep = 0u;
     atomicStore(&control.limited, 0u);
     atomicStore(&control.floored, 0u);

@@ -38,6 +38,7 @@ struct Params {
     crowd: f32,                 // weights that meet at one node at most, scatter form of p2g
     history: u32,               // steps that the history ring holds
     bodies: u32,
+    max_substeps: u32,
     side: array<vec4u, 2>,      // SIDE_WALL, SIDE_INLET, SIDE_OUTLET for x-, x+, y-, y+, z-, z+
     inlet_flow: array<vec4f, 6>,    // density, momentum per volume
     inlet_energy: array<vec4f, 6>,  // total energy per volume in x

@@ -1,0 +1,47 @@
+//! `particle_sort`: which particles touch which cell? A counting sort whose result does not depend on the order of atomics.
+
+use super::{Parts, extent};
+use crate::error::Result;
+use crate::gpu::{Bound, Pass};
+use crate::numerics::Scan;
+use crate::state::State;
+use crate::state::constants::Entry;
+
+/// Kernels of the stage.
+#[derive(Debug)]
+pub struct ParticleSort {
+    clear: Bound,
+    count: Bound,
+    scan: Scan,
+    place: Bound,
+    within: Bound,
+}
+
+impl ParticleSort {
+    /// Binds. The counts live in a vector of the solve.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(parts: Parts<'_>) -> Result<Self> {
+        let Parts { gpu, state } = parts;
+        let counts = state.pcg.residual.raw();
+        let bind = |entry: &str| state.bind(gpu, "particle_sort.wgsl", entry, &[("count", counts)], &[]);
+        Ok(Self {
+            clear: bind("sort_clear")?,
+            count: bind("sort_count")?,
+            scan: Scan::new(gpu, counts, state.particles.cell_start.raw(), state.params.slots, true)?,
+            place: bind("sort_place")?,
+            within: bind("sort_within_cells")?,
+        })
+    }
+
+    /// Sorts within a phase. The scan runs always; on unchanged counts it changes nothing.
+    pub fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
+        pass.stage("particle_sort");
+        pass.dispatch(&self.clear, &extent(state, phase, Entry::Slots));
+        pass.dispatch(&self.count, &extent(state, phase, Entry::Particles));
+        self.scan.record_gated(pass, &extent(state, phase, Entry::Single));
+        pass.dispatch(&self.place, &extent(state, phase, Entry::Particles));
+        pass.dispatch(&self.within, &extent(state, phase, Entry::Slots));
+    }
+}
