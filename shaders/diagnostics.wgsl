@@ -90,7 +90,7 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
 
 fn block_total(block: u32, lane: u32, largest: bool) -> vec4f {
     var value = select(vec4f(0.0), vec4f(-3e38), largest);
-    for (var k = lane; k < PARTIALS; k += WORKGROUP) {
+    for (var k = lane; k < params.groups; k += WORKGROUP) {
         let part = partials[block * PARTIALS + k];
         value = select(value + part, max(value, part), largest);
     }

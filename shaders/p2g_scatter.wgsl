@@ -37,7 +37,7 @@ fn scatter_bounds(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 @compute @workgroup_size(WORKGROUP)
 fn scatter_units(@builtin(local_invocation_index) lane: u32) {
     var bound = vec4f(0.0);
-    for (var k = lane; k < PARTIALS; k += WORKGROUP) { bound = max(bound, bounds[k]); }
+    for (var k = lane; k < params.groups; k += WORKGROUP) { bound = max(bound, bounds[k]); }
     let largest = workgroup_max4(lane, bound);
     if lane == 0u { bounds[PARTIALS] = max(largest, vec4f(1e-30)) * params.crowd / FULL; }
 }

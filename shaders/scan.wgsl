@@ -2,7 +2,6 @@
 // Equation: output[i] = sum of input[j], j < i; sums wrap at 2^32.
 // scan_blocks: reads input, writes output (sums inside each block) and totals (one per block).
 // scan_offsets: reads offsets (the scan of totals), adds them to output; then the equation holds across blocks.
-// scan_gate: reads counts, writes extents: opens or closes the dispatches of the two others.
 
 #include "shared/thread.wgsl"
 
@@ -23,8 +22,6 @@ struct ScanParams {
 @group(0) @binding(2) var<storage, read_write> output: array<u32>;
 @group(0) @binding(3) var<storage, read_write> totals: array<u32>;
 @group(0) @binding(4) var<storage, read> offsets: array<u32>;
-@group(0) @binding(5) var<storage, read> counts: array<vec4u>;
-@group(0) @binding(6) var<storage, read_write> extents: array<vec4u>;
 
 var<workgroup> scratch: array<u32, WORKGROUP>;
 
@@ -83,12 +80,5 @@ fn scan_offsets(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         if (i < params.outputs) {
             output[i] += offsets[block];
         }
-    }
-}
-
-@compute @workgroup_size(WORKGROUP)
-fn scan_gate(@builtin(local_invocation_index) local: u32) {
-    if (local < arrayLength(&extents)) {
-        extents[local] = counts[local];
     }
 }

@@ -73,7 +73,7 @@ fn time_step_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgro
 @compute @workgroup_size(WORKGROUP)
 fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     var bound = vec4f(0.0);
-    for (var k = lane; k < PARTIALS; k += WORKGROUP) { bound = max(bound, maxima[k]); }
+    for (var k = lane; k < params.groups; k += WORKGROUP) { bound = max(bound, maxima[k]); }
     let largest = workgroup_max4(lane, bound);
     if lane != 0u { return; }
     let start = control.phase == PHASE_IDLE && control.remaining > 0.0 && atomicLoad(&control.fault) == NO_FAULT;

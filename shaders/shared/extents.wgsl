@@ -8,16 +8,12 @@ fn groups_for(threads: u32) -> vec4u {
     return vec4u(x, (groups + MAX_GROUPS - 1u) / MAX_GROUPS, 1u, 0u);
 }
 
-// Groups of a kernel that strides over n items and leaves one partial result per group.
-fn groups_for_partials(n: u32) -> vec4u {
-    return vec4u(clamp((n + WORKGROUP - 1u) / WORKGROUP, 1u, PARTIALS), 1u, 1u, 0u);
-}
-
 // Switches the dispatches of one phase on or off.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
     extents[first + EXTENT_SLOTS] = groups_for(params.slots) * keep;
     extents[first + EXTENT_PARTICLES] = groups_for(params.particles) * keep;
-    extents[first + EXTENT_REDUCE] = groups_for_partials(max(params.slots, params.particles)) * keep;
+    extents[first + EXTENT_REDUCE] = vec4u(params.groups, 1u, 1u, 0u) * keep;
     extents[first + EXTENT_SINGLE] = vec4u(keep);
+    for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
 }

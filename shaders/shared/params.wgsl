@@ -39,9 +39,11 @@ struct Params {
     history: u32,               // steps that the history ring holds
     bodies: u32,
     max_substeps: u32,
+    groups: u32,                // groups that leave partial results
     side: array<vec4u, 2>,      // SIDE_WALL, SIDE_INLET, SIDE_OUTLET for x-, x+, y-, y+, z-, z+
     inlet_flow: array<vec4f, 6>,    // density, momentum per volume
     inlet_energy: array<vec4f, 6>,  // total energy per volume in x
+    scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 
 @group(0) @binding(0) var<uniform> params: Params;

@@ -10,6 +10,7 @@ macro_rules! sources {
 /// All embedded shaders: path below `shaders/`, text.
 #[rustfmt::skip]
 pub const SOURCES: &[(&str, &str)] = sources![
+    "diagnostics.wgsl",
     "field.wgsl",
     "fluid_floor.wgsl",
     "fluid_update.wgsl",

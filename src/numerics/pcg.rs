@@ -97,8 +97,8 @@ pub enum Width {
 }
 
 impl Pcg {
-    /// Prepares a system of `length` unknowns whose operator runs one thread per slot of `slots`, with at most
-    /// `max_partials` groups in kernels that leave partial sums.
+    /// Prepares a system of `length` unknowns whose operator runs one thread per slot of `slots`, with
+    /// `groups` groups in the kernels that leave partial sums.
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
@@ -107,7 +107,7 @@ impl Pcg {
         vectors: &PcgVectors,
         partials: &Buffer<[f32; 4]>,
         slots: usize,
-        max_partials: u32,
+        groups: u32,
         limits: (f32, u32),
     ) -> Result<Self> {
         let length = vectors.solution.len();
@@ -119,7 +119,7 @@ impl Pcg {
             length: length as u32,
             groups_wide: wide,
             groups_high: high,
-            groups_partial: (length as u32).div_ceil(WORKGROUP).clamp(1, max_partials),
+            groups_partial: groups,
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
@@ -135,8 +135,7 @@ impl Pcg {
             ("pcg_extents", extents.raw()),
         ];
         let bound = |entry: &str| -> Result<Bound> {
-            let kernel =
-                Kernel::new(gpu, "linear_algebra.wgsl", entry, &Constants { overrides: &[], source: SOURCE })?;
+            let kernel = Kernel::new(gpu, "linear_algebra.wgsl", entry, &Constants { overrides: &[], source: SOURCE })?;
             let used = |name: &str| kernel.bindings().iter().any(|binding| binding.name == name);
             let buffers: Vec<_> = named.iter().copied().filter(|(name, _)| used(name)).collect();
             kernel.bind(gpu, &buffers)

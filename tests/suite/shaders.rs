@@ -6,9 +6,15 @@ use std::path::{Path, PathBuf};
 use brisance::gpu::{Compiled, Folder, SOURCES, Shader};
 use wgpu::naga;
 
-/// The text injected before a stage's source.
-fn constants(_shader: &str) -> String {
-    String::new()
+/// Shaders of the pictures; all others belong to the step.
+const PICTURES: [&str; 4] = ["field.wgsl", "points.wgsl", "slice.wgsl", "volume.wgsl"];
+
+/// The text injected before a shader's source.
+fn constants(shader: &str) -> String {
+    if PICTURES.contains(&shader) {
+        return brisance::render::shader_constants();
+    }
+    brisance::state::constants::source_for(shader)
 }
 
 /// The folder the embedded table must equal.
