@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::numerics::{Pcg, Width};
 use crate::state::State;
-use crate::state::constants::{Entry, PARTIALS};
+use crate::state::constants::Entry;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ impl CoupledSolve {
     pub fn new(parts: Parts<'_>) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let limits = (state.params.tolerance, state.params.max_iterations);
-        let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), PARTIALS, limits)?;
+        let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), state.params.groups, limits)?;
         let setup = |entry: &str| state.bind(gpu, "solve_setup.wgsl", entry, &[], &[]);
         let forces = |x: &wgpu::Buffer| state.bind(gpu, "solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
         let direction = [("x", state.pcg.direction.raw()), ("y", state.pcg.product.raw())];
@@ -54,7 +54,9 @@ impl CoupledSolve {
             forces: forces(state.pcg.direction.raw())?,
             operator: state.bind(gpu, "solve_operator.wgsl", "solve_operator", &direction, &[])?,
             add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[], &[])?,
-            kick: optional("solid_kick.wgsl", "solid_kick")?.zip(optional("solid_kick.wgsl", "solid_kick_spread")?).map(Into::into),
+            kick: optional("solid_kick.wgsl", "solid_kick")?
+                .zip(optional("solid_kick.wgsl", "solid_kick_spread")?)
+                .map(Into::into),
         })
     }
 

@@ -1,8 +1,8 @@
 //! `interface`: where do gas and solid meet, and what happens to the gas of cells that a body covers or uncovers?
 //! [Cao et al. 2022, section 2.3]
 
-use super::time_step::slots;
 use super::Parts;
+use super::time_step::slots;
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
 use crate::numerics::Scan;
@@ -42,7 +42,7 @@ impl InterfaceStage {
                 fill: fill("interface_fill")?,
                 ghost: fill("interface_ghost")?,
                 kind: mark("interface_kind")?,
-                scan: Scan::new(gpu, wanted, place, state.params.slots, false)?,
+                scan: Scan::over(gpu, wanted, place, state.params.slots, state.params.slots + 1)?,
                 extra: mark("interface_extra")?,
                 ledger: [ledger("ledger_uncover")?, ledger("ledger_share")?, ledger("ledger_settle")?],
             })

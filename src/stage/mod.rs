@@ -42,7 +42,7 @@ pub use totals::Totals;
 
 use crate::gpu::{Extent, Gpu};
 use crate::state::State;
-use crate::state::constants::{Entry, extent_offset};
+use crate::state::constants::{Entry, SCAN_DISPATCHES, extent_offset};
 
 /// Device and buffers, as every stage's `new` takes them.
 #[derive(Clone, Copy, Debug)]
@@ -57,4 +57,11 @@ pub struct Parts<'a> {
 #[must_use]
 pub(crate) fn extent<'a>(state: &'a State, phase: &str, entry: Entry) -> Extent<'a> {
     Extent::Indirect(&state.extents, extent_offset(phase, entry))
+}
+
+/// Group counts of a prefix sum over all slots, in a phase.
+#[must_use]
+pub(crate) fn scan_extents<'a>(state: &'a State, phase: &str) -> Vec<Extent<'a>> {
+    let first = extent_offset(phase, Entry::Scan);
+    (0..SCAN_DISPATCHES as u64).map(|k| Extent::Indirect(&state.extents, first + 16 * k)).collect()
 }

@@ -68,7 +68,7 @@ impl Kernels {
             pass.dispatch(gather, &extent(state, phase, Entry::Slots));
         }
         if let Some([bounds, units, clear, add, resolve]) = &self.scatter {
-            pass.dispatch(bounds, &extent(state, phase, Entry::All));
+            pass.dispatch(bounds, &extent(state, phase, Entry::Reduce));
             pass.dispatch(units, &extent(state, phase, Entry::Single));
             pass.dispatch(clear, &extent(state, phase, Entry::Slots));
             pass.dispatch(add, &extent(state, phase, Entry::Particles));

@@ -1,6 +1,6 @@
 //! `particle_sort`: which particles touch which cell? A counting sort whose result does not depend on the order of atomics.
 
-use super::{Parts, extent};
+use super::{Parts, extent, scan_extents};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::numerics::Scan;
@@ -29,18 +29,24 @@ impl ParticleSort {
         Ok(Self {
             clear: bind("sort_clear")?,
             count: bind("sort_count")?,
-            scan: Scan::new(gpu, counts, state.particles.cell_start.raw(), state.params.slots, true)?,
+            scan: Scan::over(
+                gpu,
+                counts,
+                state.particles.cell_start.raw(),
+                state.params.slots,
+                state.params.slots + 1,
+            )?,
             place: bind("sort_place")?,
             within: bind("sort_within_cells")?,
         })
     }
 
-    /// Sorts within a phase. The scan runs always; on unchanged counts it changes nothing.
+    /// Sorts within a phase.
     pub fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("particle_sort");
         pass.dispatch(&self.clear, &extent(state, phase, Entry::Slots));
         pass.dispatch(&self.count, &extent(state, phase, Entry::Particles));
-        self.scan.record_gated(pass, &extent(state, phase, Entry::Single));
+        self.scan.record_with(pass, &scan_extents(state, phase));
         pass.dispatch(&self.place, &extent(state, phase, Entry::Particles));
         pass.dispatch(&self.within, &extent(state, phase, Entry::Slots));
     }

@@ -4,7 +4,7 @@ use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
 use crate::state::State;
-use crate::state::constants::{Entry, PARTIALS};
+use crate::state::constants::Entry;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -42,9 +42,9 @@ impl TimeStep {
     /// Chooses dt and opens the step, if one is due.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("time_step");
-        pass.dispatch(&self.gas, &Extent::Groups([PARTIALS, 1, 1]));
+        pass.dispatch(&self.gas, &Extent::Groups([state.params.groups, 1, 1]));
         if state.has_solids() {
-            pass.dispatch(&self.particles, &Extent::Groups([PARTIALS, 1, 1]));
+            pass.dispatch(&self.particles, &Extent::Groups([state.params.groups, 1, 1]));
         }
         pass.dispatch(&self.choose, &Extent::Groups([1, 1, 1]));
     }

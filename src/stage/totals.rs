@@ -34,9 +34,9 @@ impl Totals {
     /// One record of the history ring, if a step has just ended.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("totals");
-        pass.dispatch(&self.gas, &extent(state, "END", Entry::All));
+        pass.dispatch(&self.gas, &extent(state, "END", Entry::Reduce));
         if let Some(particles) = &self.particles {
-            pass.dispatch(particles, &extent(state, "END", Entry::All));
+            pass.dispatch(particles, &extent(state, "END", Entry::Reduce));
         }
         pass.dispatch(&self.record, &extent(state, "END", Entry::Single));
         if let Some(probes) = &self.probes {

@@ -33,7 +33,11 @@ pub const PARTIALS: u32 = 1024;
 pub const HISTORY_WIDTH: u32 = 11;
 /// Fault word of a healthy run.
 pub const NO_FAULT: u32 = u32::MAX;
-/// Phases whose dispatches are opened and closed together, four entries each in the table of extents.
+/// Dispatches of the longest prefix sum that a step runs.
+pub const SCAN_DISPATCHES: usize = 6;
+/// Entries of a phase in the table of extents.
+pub const PHASE_WIDTH: usize = 4 + SCAN_DISPATCHES;
+/// Phases whose dispatches are opened and closed together.
 pub const PHASES: [&str; 7] = ["BEGIN", "LIMIT", "UPDATE", "SUBSTEP", "AGAIN", "FIRST", "END"];
 
 /// Entries of a phase in the table of extents.
@@ -44,10 +48,12 @@ pub enum Entry {
     Slots = 0,
     /// One thread per particle.
     Particles = 1,
-    /// At most [`PARTIALS`] groups that stride.
+    /// [`super::Params::groups`] groups that stride and leave one partial result each.
     Reduce = 2,
     /// One group.
     Single = 3,
+    /// First dispatch of a prefix sum.
+    Scan = 4,
 }
 
 /// Byte offset of an entry of a phase in the table of extents.
@@ -57,7 +63,7 @@ pub enum Entry {
 #[must_use]
 pub fn extent_offset(phase: &str, entry: Entry) -> u64 {
     let at = PHASES.iter().position(|name| *name == phase).expect("phase names are literals of this crate");
-    (at as u64 * 4 + entry as u64) * 16
+    ((at * PHASE_WIDTH) as u64 + entry as u64) * 16
 }
 
 /// The constants as WGSL, and the switch over the registered materials.
@@ -70,7 +76,8 @@ pub fn source() -> String {
     for (name, value) in [("GAS", GAS), ("SOLID", SOLID), ("WALL", WALL), ("GHOST", GHOST)] {
         put(name, value);
     }
-    let flags = ["NODE_GAS", "NODE_REGULAR", "NODE_SOLID", "VERTEX_GAS", "VERTEX_REGULAR", "VERTEX_SOLID", "FLUX_REGULAR"];
+    let flags =
+        ["NODE_GAS", "NODE_REGULAR", "NODE_SOLID", "VERTEX_GAS", "VERTEX_REGULAR", "VERTEX_SOLID", "FLUX_REGULAR"];
     for (bit, name) in flags.iter().enumerate() {
         put(name, 1 << (4 + bit));
     }
@@ -87,16 +94,18 @@ pub fn source() -> String {
         put(&format!("STAGE_{}", name.to_uppercase()), value as u32);
     }
     for (value, name) in PHASES.iter().enumerate() {
-        put(&format!("PHASE_{name}_EXTENTS"), 4 * value as u32);
+        put(&format!("PHASE_{name}_EXTENTS"), (PHASE_WIDTH * value) as u32);
     }
-    for (value, name) in ["SLOTS", "PARTICLES", "REDUCE", "SINGLE"].iter().enumerate() {
+    for (value, name) in ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "SCAN"].iter().enumerate() {
         put(&format!("EXTENT_{name}"), value as u32);
     }
     put("MAX_GROUPS", 65_535);
     put("PARTIALS", PARTIALS);
+    put("SCAN_DISPATCHES", SCAN_DISPATCHES as u32);
     put("HISTORY_WIDTH", HISTORY_WIDTH);
     put("NO_FAULT", NO_FAULT);
     put("NO_EXTRA", u32::MAX);
+    text.push_str(crate::numerics::pcg::source());
     text
 }
 

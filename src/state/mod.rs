@@ -100,7 +100,7 @@ impl State {
             params,
             params_buffer: Buffer::uniform(gpu, "params", 1)?,
             control: Buffer::new(gpu, "control", 1)?,
-            extents: Buffer::indirect(gpu, "extents", 4 * 4 * constants::PHASES.len())?,
+            extents: Buffer::indirect(gpu, "extents", 4 * constants::PHASE_WIDTH * constants::PHASES.len())?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
             gas: GasState::new(gpu, slots)?,
             interface: Interface::new(gpu, slots, !start.is_empty())?,
@@ -183,9 +183,8 @@ impl State {
         let source = constants::source_for(shader);
         let kernel = Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })?;
         let named = self.names();
-        let buffer_of = |name: &str| {
-            renamed.iter().chain(&named).find(|(known, _)| *known == name).map(|(_, buffer)| *buffer)
-        };
+        let buffer_of =
+            |name: &str| renamed.iter().chain(&named).find(|(known, _)| *known == name).map(|(_, buffer)| *buffer);
         let buffers: Vec<_> = kernel
             .bindings()
             .iter()

@@ -3,6 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{Grid, constants};
+use crate::gpu::WORKGROUP;
+use crate::numerics::Scan;
 use crate::scene::{Boundary, InterfacePressure, Pair, Power, Scene};
 
 /// Mirror of `Params` in `shaders/shared/params.wgsl`.
@@ -61,14 +63,18 @@ pub struct Params {
     pub bodies: u32,
     /// Largest number of sub-steps of one step.
     pub max_substeps: u32,
+    /// Groups that leave partial results.
+    pub groups: u32,
     /// Keeps `side` on a 16-byte boundary.
-    pub unused: [u32; 2],
+    pub unused: u32,
     /// Kind of each side: x-, x+, y-, y+, z-, z+.
     pub side: [u32; 8],
     /// Density and momentum of each inlet.
     pub inlet_flow: [[f32; 4]; 6],
     /// Total energy per volume of each inlet, first entry.
     pub inlet_energy: [[f32; 4]; 6],
+    /// Groups of each dispatch of a prefix sum over all slots and one more.
+    pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
 
 /// What the scene's particles add to the parameters.
@@ -124,11 +130,16 @@ impl Params {
             history: HISTORY,
             bodies: scene.bodies.len() as u32,
             max_substeps: numerics.max_substeps,
-            unused: [0; 2],
+            groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, constants::PARTIALS),
+            unused: 0,
             side: [0; 8],
             inlet_flow: [[0.0; 4]; 6],
             inlet_energy: [[0.0; 4]; 6],
+            scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
+        for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
+            *entry = [x, y, z, 0];
+        }
         for (index, side) in scene.boundary.sides().iter().enumerate() {
             params.side[index] = match side {
                 Boundary::Wall => 0,
