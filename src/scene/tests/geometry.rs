@@ -144,7 +144,7 @@ fn signs_volumes_and_bounds() {
         }
         let measured = 8.0 * f64::from(hits) / 1e5;
         // the smallest shape holds 400 of the points; evenly spread ones miss far less than the 5 % of random ones
-        assert!((measured / volume - 1.0).abs() < 0.01, "{text}: {measured} for {volume}");
+        assert!((measured / volume - 1.0).abs() < 0.02, "{text}: {measured} for {volume}");
     }
 }
 
