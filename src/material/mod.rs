@@ -306,7 +306,7 @@ pub fn wgsl_includes() -> String {
     KINDS.iter().map(|kind| format!("#include \"materials/{}.wgsl\"\n", kind.name)).collect()
 }
 
-/// WGSL functions that ask the material `kind` (its number in [`KINDS`]): `stress`, `return_map`, `elastic_energy`, `wave_speed`.
+/// WGSL functions that ask the material `kind` (its number in [`KINDS`]): `kirchhoff_stress`, `return_map`, `elastic_energy`, `wave_speed`.
 /// They need the files of [`wgsl_includes`].
 #[must_use]
 pub fn wgsl_switch() -> String {
@@ -350,7 +350,7 @@ struct Question {
 const QUESTIONS: [Question; 4] = [
     Question {
         summary: "Kirchhoff stress [Pa] of the deformation gradient f.",
-        name: "stress",
+        name: "kirchhoff_stress",
         function: "stress",
         parameters: "f: mat3x3f, m: MaterialParams",
         arguments: "f, m",
