@@ -5,8 +5,8 @@
 
 #include "shared/thread.wgsl"
 
-// Consecutive elements of one thread; SCAN_ITEMS * WORKGROUP is a block.
-const SCAN_ITEMS: u32 = 16u;
+// Consecutive elements of one thread, set by Rust; SCAN_ITEMS * WORKGROUP is a block.
+override SCAN_ITEMS: u32;
 
 struct ScanParams {
     // Length of the input; what lies beyond counts as zero.

@@ -1,5 +1,6 @@
 //! Brisance: compressible gas, shock waves and the solids they bend, tear and shatter, in one coupled pressure solve.
 
+pub mod diagnostics;
 pub mod error;
 pub mod export;
 pub mod gpu;
@@ -7,6 +8,7 @@ pub mod material;
 pub mod math;
 pub mod numerics;
 pub mod render;
+pub mod riemann;
 pub mod scene;
 pub mod simulation;
 pub mod snapshot;

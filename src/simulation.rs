@@ -1,1 +1,305 @@
-//! The step.
+//! The step: the whole method on one page, and the run around it.
+
+use crate::diagnostics::StepRecord;
+use crate::error::{Error, Result};
+use crate::gpu::{Gpu, Pass, readback};
+use crate::scene::{self, Scene};
+use crate::snapshot::{ParticleSample, Snapshot};
+use crate::stage::{
+    CoupledSolve, FluidUpdate, G2p, GasAdvection, InterfaceStage, IntermediatePressure, MpmGridUpdate, P2g,
+    ParticleSort, Parts, TimeStep, Totals, Transfer,
+};
+use crate::state::constants::{self, NO_FAULT, STAGES};
+use crate::state::{Control, HISTORY, State};
+
+/// A running simulation: buffers, stages, clock.
+#[derive(Debug)]
+pub struct Simulation {
+    gpu: Gpu,
+    /// Everything the step reads and writes.
+    pub state: State,
+    time_step: TimeStep,
+    particle_sort: Option<ParticleSort>,
+    p2g: Option<P2g>,
+    interface: InterfaceStage,
+    gas_advection: GasAdvection,
+    intermediate_pressure: IntermediatePressure,
+    coupled_solve: CoupledSolve,
+    fluid_update: FluidUpdate,
+    mpm_grid_update: Option<MpmGridUpdate>,
+    g2p: Option<G2p>,
+    totals: Totals,
+    gamma: f64,
+    time: f64,
+    step: u64,
+    /// Iterations and sub-steps that are recorded per step; a step that needs more goes on in the next recording.
+    recorded: (u32, u32),
+}
+
+/// Iterations recorded in the first steps, before the solver's habit is known.
+const FIRST_ITERATIONS: u32 = 12;
+/// Steps recorded into one submission at most.
+const BATCH: u32 = 16;
+
+impl Simulation {
+    /// Builds buffers and kernels for a scene.
+    ///
+    /// # Errors
+    /// If the scene does not fit or a shader is wrong.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Simulation> {
+        let state = State::new(gpu, scene)?;
+        let parts = Parts { gpu, state: &state };
+        let solids = state.has_solids();
+        let transfer = match scene.numerics.transfer {
+            scene::Transfer::Gather => Transfer::Gather,
+            scene::Transfer::Scatter => Transfer::Scatter,
+            scene::Transfer::Auto if gpu.is_software() => Transfer::Gather,
+            scene::Transfer::Auto => Transfer::Scatter,
+        };
+        let coupled_solve = CoupledSolve::new(parts)?;
+        let simulation = Simulation {
+            time_step: TimeStep::new(parts, coupled_solve.pcg.control.raw())?,
+            particle_sort: solids.then(|| ParticleSort::new(parts)).transpose()?,
+            p2g: solids.then(|| P2g::new(parts, transfer)).transpose()?,
+            interface: InterfaceStage::new(parts)?,
+            gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
+            intermediate_pressure: IntermediatePressure::new(parts)?,
+            coupled_solve,
+            fluid_update: FluidUpdate::new(parts)?,
+            mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
+            g2p: solids.then(|| G2p::new(parts)).transpose()?,
+            totals: Totals::new(parts)?,
+            gamma: scene.gas.gamma,
+            time: 0.0,
+            step: 0,
+            recorded: (FIRST_ITERATIONS, 1),
+            gpu: gpu.clone(),
+            state,
+        };
+        if !solids {
+            let mut pass = Pass::new(gpu, "marks");
+            simulation.interface.record_static(&mut pass, &simulation.state);
+            pass.submit()?;
+        }
+        Ok(simulation)
+    }
+
+    /// One step of the method, in the order of [Cao et al. 2022, section 2.2]. Nothing is read back: the device chooses dt, ends
+    /// the iteration, counts the sub-steps, and turns what is not due into dispatches of no groups. If the recorded iterations
+    /// or sub-steps do not suffice, the step goes on in the next call.
+    pub fn record_step(&self, pass: &mut Pass) {
+        let state = &self.state;
+        self.time_step.record(pass, state); // dt from gas, solids and the time asked for
+        if let (Some(particle_sort), Some(p2g)) = (&self.particle_sort, &self.p2g) {
+            particle_sort.record(pass, state, "BEGIN");
+            p2g.record(pass, state); // (1) particles to grid
+        }
+        self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
+        self.gas_advection.record(pass, state, &self.time_step); // (3) eqs. 10-12
+        self.intermediate_pressure.record(pass, state); // (4) eqs. 9 and 17
+        self.coupled_solve.record_setup(pass, state);
+        self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
+        self.time_step.record_solved(pass);
+        self.coupled_solve.record_solution(pass, state);
+        self.fluid_update.record(pass, state); // eqs. 14 and 3, local gradients
+        self.coupled_solve.record_solid(pass, state); // eq. 36
+        for substep in 0..self.recorded.1 {
+            self.record_substep(pass, substep);
+        }
+        self.time_step.record_finish(pass);
+    }
+
+    /// One elastic sub-step. The first recorded one may be the first of a step or the continuation of a long one.
+    fn record_substep(&self, pass: &mut Pass, recorded: u32) {
+        let state = &self.state;
+        self.time_step.record_substep(pass);
+        let stages = (&self.particle_sort, &self.p2g, &self.mpm_grid_update, &self.g2p);
+        let (Some(particle_sort), Some(p2g), Some(mpm_grid_update), Some(g2p)) = stages else { return };
+        if recorded == 0 {
+            p2g.record_substep(pass, state, true);
+        }
+        particle_sort.record(pass, state, "AGAIN");
+        p2g.record_substep(pass, state, false);
+        mpm_grid_update.record(pass, state); // (6) elasticity, walls
+        g2p.record(pass, state); // (7) grid to particles
+    }
+
+    /// Advances to a time and returns the records of all steps on the way.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`] if a stage raised a fault; driver errors.
+    pub fn advance_to(&mut self, time: f64) -> Result<Vec<StepRecord>> {
+        let mut records = Vec::new();
+        self.set_target(time)?;
+        while !self.advance_batch(&mut records)? {}
+        self.time = time;
+        Ok(records)
+    }
+
+    /// Asks the device to stop at a time \[s\].
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn set_target(&mut self, time: f64) -> Result<()> {
+        let mut control = self.control()?;
+        control.remaining = (time - self.time).max(0.0) as f32;
+        self.state.control.write(&self.gpu, 0, &[control]);
+        Ok(())
+    }
+
+    /// Runs up to one submission of steps, appends their records, and tells whether the target is reached.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    pub fn advance_batch(&mut self, records: &mut Vec<StepRecord>) -> Result<bool> {
+        let mut pass = Pass::new(&self.gpu, "steps");
+        for _ in 0..BATCH {
+            self.record_step(&mut pass);
+            self.totals.record(&mut pass, &self.state);
+        }
+        pass.submit()?;
+        self.after_batch(records)
+    }
+
+    /// Reads clock, records and faults after a submission.
+    fn after_batch(&mut self, records: &mut Vec<StepRecord>) -> Result<bool> {
+        let control = self.control()?;
+        let first = records.len();
+        self.read_history(u64::from(control.step), records)?;
+        let newest = &records[first..];
+        self.time += newest.iter().map(|record| f64::from(record.dt)).sum::<f64>();
+        self.step = u64::from(control.step);
+        if control.fault != NO_FAULT {
+            return Err(self.fault(&control));
+        }
+        let most = newest.iter().map(|record| (record.iterations, record.substeps));
+        let (iterations, substeps) = most.fold((1, 1), |a, b| (a.0.max(b.0), a.1.max(b.1)));
+        let unfinished = if control.phase == 0 { (0, 0) } else { (self.recorded.0 * 2, self.recorded.1 * 2) };
+        let iterations = (iterations + 2).max(unfinished.0).min(self.state.params.max_iterations + 1);
+        let substeps = substeps.max(unfinished.1).min(self.state.params.max_substeps.max(1));
+        self.recorded = (iterations, if self.state.has_solids() { substeps } else { 1 });
+        Ok(control.remaining <= 0.0 && control.phase == 0)
+    }
+
+    /// Records of the steps since the last reading.
+    fn read_history(&self, step: u64, records: &mut Vec<StepRecord>) -> Result<()> {
+        if step == self.step {
+            return Ok(());
+        }
+        let ring = readback::read(&self.gpu, &self.state.history)?;
+        let probes = readback::read(&self.gpu, &self.state.probe_history)?;
+        let width = constants::HISTORY_WIDTH as usize;
+        let count = self.state.params.probes as usize;
+        let mut time = self.time;
+        for number in self.step..step {
+            let slot = (number % u64::from(HISTORY)) as usize;
+            let mut record = StepRecord::from_raw(&ring[slot * width..(slot + 1) * width]);
+            record.probes = StepRecord::probes_from_raw(&probes[2 * slot * count..2 * (slot + 1) * count]);
+            time += f64::from(record.dt);
+            record.time = time;
+            records.push(record);
+        }
+        Ok(())
+    }
+
+    /// What the device decided last.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn control(&self) -> Result<Control> {
+        Ok(readback::read(&self.gpu, &self.state.control)?[0])
+    }
+
+    /// The fault of the run as an error.
+    fn fault(&self, control: &Control) -> Error {
+        let (stage, at) = ((control.fault >> 27) as usize, control.fault & 0x07ff_ffff);
+        let name = STAGES.get(stage).copied().unwrap_or("unknown");
+        let (cell, reason) = match name {
+            "g2p" => {
+                ([at as i32, 0, 0], "a particle is turned inside out or not finite; try a smaller numerics.elastic_cfl")
+            }
+            "coupled_solve" => {
+                ([0; 3], "the pressure solve did not converge; try a larger numerics.tolerance or a smaller time.cfl")
+            }
+            "interface" => {
+                (self.cell(at), "more surface vertices of fragments than there is room for; try a finer resolution")
+            }
+            _ => (self.cell(at), "density or pressure is not positive and finite; try a smaller time.cfl"),
+        };
+        Error::Diverged { step: u64::from(control.step) + 1, stage: name, cell, reason: reason.to_owned() }
+    }
+
+    fn cell(&self, slot: u32) -> [i32; 3] {
+        let grid = &self.state.grid;
+        let (stride, padding) = (grid.strides(), grid.padding());
+        let at = [slot % stride[0], slot / stride[0] % stride[1], slot / (stride[0] * stride[1])];
+        std::array::from_fn(|axis| at[axis] as i32 - padding[axis] as i32)
+    }
+
+    /// Simulated time \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Finished steps.
+    #[must_use]
+    pub fn step_count(&self) -> u64 {
+        self.step
+    }
+
+    /// The device.
+    #[must_use]
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Copies the state to the CPU.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn snapshot(&self) -> Result<Snapshot> {
+        let (grid, gpu) = (self.state.grid, &self.gpu);
+        let flow = grid.unpadded(&readback::read(gpu, &self.state.gas.conserved)?);
+        let energy = grid.unpadded(&readback::read_range(gpu, &self.state.gas.energy, 0, grid.slots())?);
+        let kind = grid.unpadded(&readback::read(gpu, &self.state.interface.cells)?);
+        let pressure = |(u, e): (&[f32; 4], &f32)| {
+            let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
+            (self.gamma as f32 - 1.0) * (e - kinetic)
+        };
+        Ok(Snapshot {
+            time: self.time,
+            step: self.step,
+            grid,
+            gamma: self.gamma,
+            kind: kind.iter().map(|word| (word & 3) as u8).collect(),
+            density: flow.iter().map(|u| u[0]).collect(),
+            velocity: flow.iter().map(|u| [u[1] / u[0], u[2] / u[0], u[3] / u[0]]).collect(),
+            pressure: flow.iter().zip(&energy).map(pressure).collect(),
+            energy,
+            particles: self.read_particles()?,
+        })
+    }
+
+    /// The particles that are inside the domain.
+    fn read_particles(&self) -> Result<Vec<ParticleSample>> {
+        let (gpu, particles) = (&self.gpu, &self.state.particles);
+        let position = readback::read(gpu, &particles.position)?;
+        let velocity = readback::read(gpu, &particles.velocity)?;
+        let affine = readback::read(gpu, &particles.affine)?;
+        let deformation = readback::read(gpu, &particles.deformation)?;
+        let xyz = |v: [f32; 4]| [v[0], v[1], v[2]];
+        let sample = |p: usize| ParticleSample {
+            position: xyz(position[p]),
+            velocity: xyz(velocity[p]),
+            mass: position[p][3],
+            volume0: velocity[p][3],
+            ghost_pressure: affine[3 * p][3],
+            plastic_strain: affine[3 * p + 1][3],
+            deformation: [xyz(deformation[3 * p]), xyz(deformation[3 * p + 1]), xyz(deformation[3 * p + 2])],
+            body: deformation[3 * p][3].to_bits(),
+            material: affine[3 * p + 2][3].to_bits(),
+        };
+        Ok((0..position.len()).filter(|&p| deformation[3 * p + 1][3] > 0.0).map(sample).collect())
+    }
+}

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::shader::{Folder, Shader};
+use super::reflect::Compiled;
+use super::shader::Folder;
 use crate::error::{Error, Result};
 
 /// What the user may choose about the device.
@@ -62,11 +63,14 @@ pub struct Gpu {
     pub timestamps: bool,
     /// Where shaders come from.
     pub folder: Folder,
-    /// Shaders compiled so far, by file name and constants text.
-    pub(super) shaders: Arc<Mutex<HashMap<(String, String), Arc<super::shader::Compiled>>>>,
+    /// Shaders compiled so far.
+    pub(super) shaders: ShaderCache,
     faults: Arc<Mutex<Faults>>,
     allocated: Arc<AtomicU64>,
 }
+
+/// Compiled shaders by file name and constants text.
+type ShaderCache = Arc<Mutex<HashMap<(String, String), (Arc<Compiled>, wgpu::ShaderModule)>>>;
 
 /// What the driver reported since the last [`Gpu::check`].
 #[derive(Debug, Default)]
@@ -166,14 +170,6 @@ impl Gpu {
     /// Forgets compiled shaders, so that the next [`super::Kernel`] reads the sources again (live editing).
     pub fn forget_shaders(&self) {
         lock(&self.shaders).clear();
-    }
-
-    /// Flattens one shader of this device's folder.
-    ///
-    /// # Errors
-    /// Those of [`Shader::load`].
-    pub fn shader(&self, name: &str, constants: &str) -> Result<Shader> {
-        Shader::load(name, constants, &self.folder)
     }
 
     /// The counter behind [`Gpu::allocated_bytes`].

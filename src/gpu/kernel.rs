@@ -3,18 +3,14 @@
 use std::num::NonZeroU64;
 use std::sync::Arc;
 
-use wgpu::naga;
-
 use super::buffer::Buffer;
 use super::device::{Gpu, lock};
-use super::shader::Compiled;
+use super::reflect::{Access, Binding, Compiled};
+use super::shader::Shader;
 use crate::error::{Error, Result};
 
 /// Threads of a workgroup, flat along x; every shader sees it as `const WORKGROUP`.
 pub const WORKGROUP: u32 = 64;
-
-/// Storage buffers one kernel may use: what every WebGPU device offers.
-pub const MAX_STORAGE_BUFFERS: usize = 8;
 
 /// What is fixed when a shader is compiled.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,30 +19,6 @@ pub struct Constants<'a> {
     pub overrides: &'a [(&'a str, f64)],
     /// WGSL declarations put before the source.
     pub source: &'a str,
-}
-
-/// How a kernel uses a binding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Access {
-    /// `var<uniform>`.
-    Uniform,
-    /// `var<storage, read>`.
-    Read,
-    /// `var<storage, read_write>`.
-    ReadWrite,
-}
-
-/// One variable of group 0 that an entry point uses, directly or through functions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Binding {
-    /// Name of the variable.
-    pub name: String,
-    /// Its `@binding`.
-    pub index: u32,
-    /// Its address space and access mode.
-    pub access: Access,
-    /// Bytes the buffer must have at least.
-    pub min_bytes: u64,
 }
 
 /// One compiled entry point.
@@ -94,10 +66,10 @@ impl Kernel {
     /// # Errors
     /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings.
     pub fn new(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
-        let compiled = compiled(gpu, shader, constants.source)?;
+        let (compiled, module) = compiled(gpu, shader, constants.source)?;
         let label = format!("shaders/{shader}: {entry}");
-        let (bindings, threads_per_group) =
-            reflect(&compiled, entry).map_err(|reason| Error::Shader(format!("{label}: {reason}")))?;
+        let bindings = compiled.bindings(entry)?;
+        let threads_per_group = compiled.threads_per_group(entry)?;
         let entries: Vec<_> = bindings.iter().map(layout_entry).collect();
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let layout = gpu
@@ -108,13 +80,12 @@ impl Kernel {
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
-        let declared =
-            |name: &str| compiled.module.overrides.iter().any(|(_, item)| item.name.as_deref() == Some(name));
-        let overrides: Vec<_> = constants.overrides.iter().copied().filter(|(name, _)| declared(name)).collect();
+        let overrides: Vec<_> =
+            constants.overrides.iter().copied().filter(|(name, _)| compiled.has_override(name)).collect();
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(&label),
             layout: Some(&pipeline_layout),
-            module: &compiled.raw,
+            module: &module,
             entry_point: Some(entry),
             compilation_options: wgpu::PipelineCompilationOptions { constants: &overrides, ..Default::default() },
             cache: None,
@@ -185,69 +156,22 @@ impl Kernel {
 }
 
 /// The shader from the device's cache, or compiled now.
-fn compiled(gpu: &Gpu, name: &str, constants: &str) -> Result<Arc<Compiled>> {
+fn compiled(gpu: &Gpu, name: &str, constants: &str) -> Result<(Arc<Compiled>, wgpu::ShaderModule)> {
     let key = (name.to_owned(), constants.to_owned());
-    if let Some(compiled) = lock(&gpu.shaders).get(&key) {
-        return Ok(Arc::clone(compiled));
+    if let Some(known) = lock(&gpu.shaders).get(&key) {
+        return Ok(known.clone());
     }
-    let shader = gpu.shader(name, constants)?;
-    let (module, uses) = shader.compile()?;
+    let compiled = Arc::new(Shader::load(name, constants, &gpu.folder)?.compile()?);
     let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let raw = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(name),
-        source: wgpu::ShaderSource::Wgsl(shader.text.as_str().into()),
+        source: wgpu::ShaderSource::Wgsl(compiled.shader.text.as_str().into()),
     });
     if let Some(error) = pollster::block_on(scope.pop()) {
         return Err(Error::Shader(format!("shaders/{name}: {error}")));
     }
-    let compiled = Arc::new(Compiled { shader, module, uses, raw });
-    lock(&gpu.shaders).insert(key, Arc::clone(&compiled));
-    Ok(compiled)
-}
-
-/// The bindings an entry point uses and the threads of its workgroup.
-fn reflect(compiled: &Compiled, entry: &str) -> std::result::Result<(Vec<Binding>, u32), String> {
-    let module = &compiled.module;
-    let Some(position) = module.entry_points.iter().position(|point| point.name == entry) else {
-        let names: Vec<_> = module.entry_points.iter().map(|point| point.name.as_str()).collect();
-        return Err(format!("no such entry point; there are {}", names.join(", ")));
-    };
-    let point = &module.entry_points[position];
-    if point.workgroup_size_overrides.is_some() {
-        return Err("the workgroup size must be a constant such as WORKGROUP, not an override".to_owned());
-    }
-    let uses = compiled.uses.get_entry_point(position);
-    let mut bindings = Vec::new();
-    for (handle, variable) in module.global_variables.iter() {
-        let Some(place) = variable.binding.filter(|_| !uses[handle].is_empty()) else { continue };
-        bindings.push(reflect_variable(module, variable, place)?);
-    }
-    bindings.sort_by_key(|binding| binding.index);
-    let storage = bindings.iter().filter(|binding| binding.access != Access::Uniform).count();
-    if storage > MAX_STORAGE_BUFFERS {
-        return Err(format!("uses {storage} storage buffers, at most {MAX_STORAGE_BUFFERS} are allowed"));
-    }
-    Ok((bindings, point.workgroup_size.iter().product()))
-}
-
-/// Reads one variable's declaration.
-fn reflect_variable(
-    module: &naga::Module,
-    variable: &naga::GlobalVariable,
-    place: naga::ResourceBinding,
-) -> std::result::Result<Binding, String> {
-    let name = variable.name.clone().unwrap_or_default();
-    if place.group != 0 {
-        return Err(format!("`{name}` is in group {}, only group 0 is used", place.group));
-    }
-    let access = match variable.space {
-        naga::AddressSpace::Uniform => Access::Uniform,
-        naga::AddressSpace::Storage { access } if access.contains(naga::StorageAccess::STORE) => Access::ReadWrite,
-        naga::AddressSpace::Storage { .. } => Access::Read,
-        _ => return Err(format!("`{name}` is no buffer; kernels bind buffers only")),
-    };
-    let min_bytes = u64::from(module.types[variable.ty].inner.size(module.to_ctx()));
-    Ok(Binding { name, index: place.binding, access, min_bytes })
+    lock(&gpu.shaders).insert(key, (Arc::clone(&compiled), module.clone()));
+    Ok((compiled, module))
 }
 
 /// One line of the explicit layout.

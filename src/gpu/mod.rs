@@ -10,12 +10,14 @@ mod device;
 mod kernel;
 mod pass;
 pub mod readback;
+mod reflect;
 mod shader;
 mod sources;
 
 pub use buffer::Buffer;
 pub use device::{AdapterSummary, Gpu, GpuOptions};
-pub use kernel::{Access, Binding, Bound, Constants, Extent, Kernel, MAX_STORAGE_BUFFERS, WORKGROUP, group_counts};
+pub use kernel::{Bound, Constants, Extent, Kernel, WORKGROUP, group_counts};
 pub use pass::Pass;
-pub use shader::{Compiled, Folder, Shader};
+pub use reflect::{Access, Binding, Compiled, MAX_STORAGE_BUFFERS};
+pub use shader::{Folder, Shader};
 pub use sources::SOURCES;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use wgpu::naga;
 
 use super::kernel::WORKGROUP;
+use super::reflect::Compiled;
 use super::sources::SOURCES;
 use crate::error::{Error, Result};
 
@@ -79,7 +80,7 @@ impl Shader {
         Ok(Shader { name: name.to_owned(), text, origins, files })
     }
 
-    /// The files that went in, without the injected text: itself last, its includes before.
+    /// The files that went in, without the injected text: itself first, then its includes in order.
     #[must_use]
     pub fn files(&self) -> &[String] {
         &self.files[1..]
@@ -89,20 +90,20 @@ impl Shader {
     ///
     /// # Errors
     /// [`Error::Shader`] with file, line and column of every place the compiler points to.
-    pub fn compile(&self) -> Result<(naga::Module, naga::valid::ModuleInfo)> {
+    pub fn compile(self) -> Result<Compiled> {
         let module = naga::front::wgsl::parse_str(&self.text).map_err(|error| {
             let labels = error.labels().map(|(span, label)| (span, label.to_owned())).collect::<Vec<_>>();
             let notes = error.notes().map(|note| format!("\n  note: {note}")).collect::<String>();
             self.describe(error.message(), &labels, &notes)
         })?;
         let flags = naga::valid::ValidationFlags::all();
-        let info = naga::valid::Validator::new(flags, naga::valid::Capabilities::default()).validate(&module).map_err(
+        let uses = naga::valid::Validator::new(flags, naga::valid::Capabilities::default()).validate(&module).map_err(
             |error| {
                 let labels = error.spans().cloned().collect::<Vec<_>>();
                 self.describe(&with_causes(error.as_inner()), &labels, "")
             },
         )?;
-        Ok((module, info))
+        Ok(Compiled { shader: self, module, uses })
     }
 
     /// File and line, `shaders/p2g.wgsl:12`, of a line of the flattened text (from 1).
@@ -137,19 +138,6 @@ fn with_causes(error: &dyn std::error::Error) -> String {
         cause = error.source();
     }
     text
-}
-
-/// A shader parsed, validated and given to the driver, shared by the kernels of its entry points.
-#[derive(Debug)]
-pub struct Compiled {
-    /// Text and line table.
-    pub shader: Shader,
-    /// What reflection reads.
-    pub module: naga::Module,
-    /// Which entry point uses which binding.
-    pub uses: naga::valid::ModuleInfo,
-    /// What the driver got.
-    pub raw: wgpu::ShaderModule,
 }
 
 /// Collects the lines of a shader and its includes.

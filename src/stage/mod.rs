@@ -1,1 +1,67 @@
-//! Placeholder: see ARCHITECTURE.
+//! The stages of a step, in order. Each owns its kernels with their buffers: `new` binds, `record` dispatches.
+//!
+//! | Stage | Question it answers |
+//! |---|---|
+//! | `time_step` | how far may we go? |
+//! | `particle_sort` | which particles touch which cell? |
+//! | `p2g` | what do the solids look like on the grid? |
+//! | `interface` | where do gas and solid meet? |
+//! | `gas_advection` | where does the gas carry itself? |
+//! | `intermediate_pressure` | which pressure does the advected gas have? |
+//! | `coupled_solve` | which pressure and velocity satisfy both sides? |
+//! | `fluid_update` | what does that pressure do to the gas? |
+//! | `mpm_grid_update` | how do the nodes move? |
+//! | `g2p` | how do the particles move and deform? |
+//!
+//! Stages do not know each other. They communicate through the buffers of [`crate::state::State`] only, in the order written
+//! in [`crate::simulation::Simulation::record_step`].
+
+mod coupled_solve;
+mod fluid_update;
+mod g2p;
+mod gas_advection;
+mod interface;
+mod intermediate_pressure;
+mod mpm_grid_update;
+mod p2g;
+mod particle_sort;
+mod time_step;
+mod totals;
+
+pub use coupled_solve::CoupledSolve;
+pub use fluid_update::FluidUpdate;
+pub use g2p::G2p;
+pub use gas_advection::GasAdvection;
+pub use interface::InterfaceStage;
+pub use intermediate_pressure::IntermediatePressure;
+pub use mpm_grid_update::MpmGridUpdate;
+pub use p2g::{P2g, Transfer};
+pub use particle_sort::ParticleSort;
+pub use time_step::TimeStep;
+pub use totals::Totals;
+
+use crate::gpu::{Extent, Gpu};
+use crate::state::State;
+use crate::state::constants::{Entry, SCAN_DISPATCHES, extent_offset};
+
+/// Device and buffers, as every stage's `new` takes them.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts<'a> {
+    /// The device.
+    pub gpu: &'a Gpu,
+    /// The buffers.
+    pub state: &'a State,
+}
+
+/// Group counts of a phase, which the device opens and closes.
+#[must_use]
+pub(crate) fn extent<'a>(state: &'a State, phase: &str, entry: Entry) -> Extent<'a> {
+    Extent::Indirect(&state.extents, extent_offset(phase, entry))
+}
+
+/// Group counts of a prefix sum over all slots, in a phase.
+#[must_use]
+pub(crate) fn scan_extents<'a>(state: &'a State, phase: &str) -> Vec<Extent<'a>> {
+    let first = extent_offset(phase, Entry::Scan);
+    (0..SCAN_DISPATCHES as u64).map(|k| Extent::Indirect(&state.extents, first + 16 * k)).collect()
+}

@@ -1,5 +1,245 @@
-//! Buffers and their host mirrors, no algorithms.
+//! Buffers and their host mirrors; no algorithms. Here the scene meets the device.
 
+pub mod constants;
+pub mod control;
+pub mod gas;
 pub mod grid;
+pub mod interface;
+pub mod params;
+pub mod particles;
 
+pub use control::Control;
+pub use gas::GasState;
 pub use grid::Grid;
+pub use interface::Interface;
+pub use params::{HISTORY, Params};
+pub use particles::{ParticleStart, Particles};
+
+use crate::error::Result;
+use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel};
+use crate::numerics::PcgVectors;
+use crate::scene::Scene;
+use params::SolidLimits;
+
+/// Materials that one scene may use.
+pub const MAX_MATERIALS: usize = 64;
+
+/// Everything the step reads and writes, and the names the shaders know it by.
+#[derive(Debug)]
+pub struct State {
+    /// The grid.
+    pub grid: Grid,
+    /// What the run fixes.
+    pub params: Params,
+    /// The same on the device.
+    pub params_buffer: Buffer<Params>,
+    /// What the device decides.
+    pub control: Buffer<Control>,
+    /// Group counts of the indirect dispatches.
+    pub extents: Buffer<u32>,
+    /// Materials, as shaders see them.
+    pub materials: Buffer<f32>,
+    /// Gas.
+    pub gas: GasState,
+    /// Marks.
+    pub interface: Interface,
+    /// Solids.
+    pub particles: Particles,
+    /// Unknowns of the pressure system: X, then D of the increment form and the vectors of PCG.
+    pub pressure: Buffer<f32>,
+    /// S^-1 of each unknown.
+    pub stiffness: Buffer<f32>,
+    /// Vectors of the conjugate gradient method.
+    pub pcg: PcgVectors,
+    /// Partial results of reductions: 9 blocks of one vec4 per group, and one vec4 more.
+    pub partials: Buffer<[f32; 4]>,
+    /// Records of the latest steps.
+    pub history: Buffer<[f32; 4]>,
+    /// Slots that the probes look at.
+    pub probe_cells: Buffer<u32>,
+    /// Two entries per probe and step.
+    pub probe_history: Buffer<[f32; 4]>,
+    overrides: Vec<(&'static str, f64)>,
+}
+
+/// Share of the vertices that may carry P, h and Q apart: only surfaces of fragments do.
+const EXTRA_SHARE: usize = 8;
+
+/// Vertices that may carry P, h and Q apart in a scene with this many slots and particles.
+fn extra_capacity(slots: usize, particles: usize, dimension: u32) -> usize {
+    if particles == 0 { 0 } else { (slots / EXTRA_SHARE).max(4096).min(slots).min(particles << dimension) }
+}
+
+impl State {
+    /// Fills buffers from a scene.
+    ///
+    /// # Errors
+    /// If the device has no room, or a driver error.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<State> {
+        let domain = &scene.domain;
+        let grid = Grid {
+            dimension: domain.dimension,
+            cells: domain.cells,
+            origin: domain.origin.map(|v| v as f32),
+            spacing: domain.spacing() as f32,
+        };
+        let slots = grid.slots();
+        let start = ParticleStart::new(scene);
+        let per_cell = scene.bodies.iter().map(|body| f64::from(body.particles_per_cell).powi(domain.dimension as i32));
+        let limits = SolidLimits {
+            particles: start.len() as u32,
+            max_density: start.max_density,
+            wave_speed: start.wave_speed,
+            per_cell: per_cell.fold(0.0, f64::max),
+        };
+        let capacity = extra_capacity(slots, start.len(), domain.dimension);
+        let params = Params::new(scene, &grid, &limits, capacity as u32);
+        let unknowns = slots + 2 * capacity;
+        let state = State {
+            grid,
+            params,
+            params_buffer: Buffer::uniform(gpu, "params", 1)?,
+            control: Buffer::new(gpu, "control", 1)?,
+            extents: Buffer::indirect(gpu, "extents", 4 * constants::PHASE_WIDTH * constants::PHASES.len())?,
+            materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
+            gas: GasState::new(gpu, slots)?,
+            interface: Interface::new(gpu, slots, !start.is_empty())?,
+            particles: Particles::new(gpu, slots, &start)?,
+            pressure: Buffer::new(gpu, "pressure", unknowns)?,
+            stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
+            pcg: PcgVectors::new(gpu, unknowns)?,
+            partials: Buffer::new(gpu, "partials", 9 * constants::PARTIALS as usize + 1)?,
+            history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
+            probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
+            probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
+            overrides: params::overrides(scene, !start.is_empty()),
+        };
+        state.params_buffer.write(gpu, 0, &[params]);
+        state.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, ..Control::default() }]);
+        state.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
+        state.fill_gas(gpu, scene);
+        Ok(state)
+    }
+
+    /// Initial gas and kinds of all slots.
+    fn fill_gas(&self, gpu: &Gpu, scene: &Scene) {
+        let (grid, slots) = (&self.grid, self.grid.slots());
+        let mut conserved = vec![[0.0f32; 4]; slots];
+        let mut energy = vec![0.0f32; slots];
+        let mut cells = vec![constants::GAS; slots];
+        let (padding, stride) = (grid.padding(), grid.strides());
+        for z in 0..stride[2] as i32 {
+            for y in 0..stride[1] as i32 {
+                for x in 0..stride[0] as i32 {
+                    let cell = [x - padding[0] as i32, y - padding[1] as i32, z - padding[2] as i32];
+                    cells[grid.slot(cell)] = params::kind_outside(&self.params, cell, grid.dimension);
+                }
+            }
+        }
+        let (gas, walls) = (scene.initial_gas(), scene.obstacle_cells());
+        let [nx, ny, nz] = grid.cells.map(|n| n as i32);
+        let mut index = 0;
+        for z in 0..nz {
+            for y in 0..ny {
+                for x in 0..nx {
+                    let slot = grid.slot([x, y, z]);
+                    cells[slot] = if walls[index] { constants::WALL } else { constants::GAS };
+                    if !walls[index] {
+                        let [density, u, v, w, total] = gas[index].map(|value| value as f32);
+                        conserved[slot] = [density, u, v, w];
+                        energy[slot] = total;
+                    }
+                    index += 1;
+                }
+            }
+        }
+        self.gas.conserved.write(gpu, 0, &conserved);
+        self.gas.energy.write(gpu, 0, &energy);
+        self.interface.cells.write(gpu, 0, &cells);
+    }
+
+    /// Whether the scene has bodies.
+    #[must_use]
+    pub fn has_solids(&self) -> bool {
+        self.particles.count > 0
+    }
+
+    /// Compiles an entry point with this scene's switches and binds the buffers that it names. `renamed` adds names, or gives
+    /// a name to another buffer; `switches` adds overrides.
+    ///
+    /// # Errors
+    /// If the shader is wrong or uses a name that is not known here.
+    pub fn bind(
+        &self,
+        gpu: &Gpu,
+        shader: &str,
+        entry: &str,
+        renamed: &[(&str, &wgpu::Buffer)],
+        switches: &[(&str, f64)],
+    ) -> Result<Bound> {
+        let mut overrides = self.overrides.clone();
+        let mut all: Vec<(&str, f64)> = overrides.drain(..).collect();
+        all.extend_from_slice(switches);
+        let source = constants::source_for(shader);
+        let kernel = Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })?;
+        let named = self.names();
+        let buffer_of =
+            |name: &str| renamed.iter().chain(&named).find(|(known, _)| *known == name).map(|(_, buffer)| *buffer);
+        let buffers: Vec<_> = kernel
+            .bindings()
+            .iter()
+            .filter_map(|binding| buffer_of(&binding.name).map(|buffer| (binding.name.as_str(), buffer)))
+            .collect();
+        kernel.bind(gpu, &buffers)
+    }
+
+    /// The one list of names under which shaders know the state.
+    fn names(&self) -> Vec<(&str, &wgpu::Buffer)> {
+        vec![
+            ("params", self.params_buffer.raw()),
+            ("control", self.control.raw()),
+            ("extents", self.extents.raw()),
+            ("materials", self.materials.raw()),
+            ("conserved", self.gas.conserved.raw()),
+            ("energy", self.gas.energy.raw()),
+            ("work", self.gas.work.raw()),
+            ("owed_flow", self.gas.owed_flow.raw()),
+            ("owed_energy", self.gas.owed_energy.raw()),
+            ("cells", self.interface.cells.raw()),
+            ("fill", self.interface.fill.raw()),
+            ("ghost", self.interface.ghost.raw()),
+            ("extra", self.interface.extra.raw()),
+            ("position", self.particles.position.raw()),
+            ("velocity", self.particles.velocity.raw()),
+            ("affine", self.particles.affine.raw()),
+            ("deformation", self.particles.deformation.raw()),
+            ("stress", self.particles.stress.raw()),
+            ("order", self.particles.order.raw()),
+            ("cell_start", self.particles.cell_start.raw()),
+            ("node", self.particles.node.raw()),
+            ("pressure", self.pressure.raw()),
+            ("stiffness", self.stiffness.raw()),
+            ("solution", self.pcg.solution.raw()),
+            ("residual", self.pcg.residual.raw()),
+            ("direction", self.pcg.direction.raw()),
+            ("product", self.pcg.product.raw()),
+            ("inverse_diagonal", self.pcg.inverse_diagonal.raw()),
+            ("partials", self.partials.raw()),
+            ("history", self.history.raw()),
+            ("probe_cells", self.probe_cells.raw()),
+            ("probe_history", self.probe_history.raw()),
+        ]
+    }
+}
+
+/// Slot of the cell that each probe looks at.
+fn probe_slots(scene: &Scene, grid: &Grid) -> Vec<u32> {
+    let slot = |probe: &crate::scene::Probe| {
+        let cell = std::array::from_fn(|axis| {
+            let at = ((probe.position[axis] - f64::from(grid.origin[axis])) / f64::from(grid.spacing)).floor() as i32;
+            at.clamp(0, grid.cells[axis] as i32 - 1)
+        });
+        grid.slot(cell) as u32
+    };
+    scene.probes.iter().map(slot).collect()
+}

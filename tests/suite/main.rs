@@ -1,4 +1,10 @@
-//! One test binary: see the modules.
+//! The test suite: one binary, one module per subject.
 
+mod common;
 mod export;
+mod gpu;
+mod layering;
+mod numerics;
 mod render;
+
+mod shaders;

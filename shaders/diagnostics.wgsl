@@ -1,0 +1,124 @@
+// diagnostics: totals of gas, books and solids after a step, extremes, and one record of them in the history ring.
+// Sums are trees of fixed shape. Block k of `partials` holds one partial result per workgroup.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/control.wgsl"
+#include "shared/reduce4.wgsl"
+#include "shared/material.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
+@group(0) @binding(4) var<storage, read> energy: array<f32>;
+@group(0) @binding(5) var<storage, read> owed_flow: array<vec4f>;
+@group(0) @binding(6) var<storage, read> owed_energy: array<f32>;
+@group(0) @binding(7) var<storage, read_write> partials: array<vec4f>;
+@group(0) @binding(8) var<storage, read> position: array<vec4f>;
+@group(0) @binding(9) var<storage, read> velocity: array<vec4f>;
+@group(0) @binding(10) var<storage, read> affine: array<vec4f>;
+@group(0) @binding(11) var<storage, read> deformation: array<vec4f>;
+@group(0) @binding(12) var<storage, read_write> history: array<vec4f>;
+@group(0) @binding(13) var<storage, read> probe_cells: array<u32>;
+@group(0) @binding(14) var<storage, read_write> probe_history: array<vec4f>;
+
+fn put(block: u32, at: u32, lane: u32, value: vec4f) {
+    if lane == 0u { partials[block * PARTIALS + at] = value; }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+              @builtin(local_invocation_index) lane: u32) {
+    var gas = vec4f(0.0);
+    var owed = vec4f(0.0);
+    var crossed = vec4f(0.0);
+    var heat = vec4f(0.0);
+    var extremes = vec4f(-3e38);
+    var speed = 0.0;
+    let volume = cell_volume();
+    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+        let kind = kind_of(cells[slot]);
+        let u = Gas(conserved[slot], energy[slot]);
+        owed += owed_flow[slot];
+        heat.y += owed_energy[slot];
+        if kind == GAS {
+            gas += volume * u.flow;
+            heat.x += volume * u.energy;
+            let p = pressure_of(u);
+            extremes = max(extremes, vec4f(u.flow.x, -u.flow.x, p, -p));
+            speed = max(speed, length(velocity_of(u.flow)));
+        } else if kind == SOLID {
+            owed += volume * u.flow;
+            heat.y += volume * u.energy;
+        } else {
+            crossed += volume * u.flow;
+            heat.z += volume * u.energy;
+        }
+    }
+    let at = thread_index(group, groups, 0u) / WORKGROUP;
+    put(0u, at, lane, workgroup_sum4(lane, gas));
+    put(1u, at, lane, workgroup_sum4(lane, owed));
+    put(2u, at, lane, workgroup_sum4(lane, crossed));
+    put(3u, at, lane, workgroup_sum4(lane, heat));
+    put(4u, at, lane, workgroup_max4(lane, extremes));
+    put(5u, at, lane, workgroup_max4(lane, vec4f(speed, 0.0, 0.0, 0.0)));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                    @builtin(local_invocation_index) lane: u32) {
+    var body = vec4f(0.0);
+    var heat = vec4f(0.0);
+    var speed = 0.0;
+    for (var p = thread_index(group, groups, lane); p < params.particles; p += groups.x * groups.y * WORKGROUP) {
+        if deformation[3u * p + 1u].w == 0.0 { continue; }
+        let v = velocity[p].xyz;
+        let mass = position[p].w;
+        let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+        let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
+        let q = affine[3u * p].w;
+        body += mass * vec4f(1.0, v);
+        heat += vec4f(0.5 * mass * dot(v, v), velocity[p].w * elastic_energy(material.kind, f, material),
+            velocity[p].w * 0.5 * q * q / material.ghost_modulus, 0.0);
+        speed = max(speed, length(v));
+    }
+    let at = thread_index(group, groups, 0u) / WORKGROUP;
+    put(6u, at, lane, workgroup_sum4(lane, body));
+    put(7u, at, lane, workgroup_sum4(lane, heat));
+    put(8u, at, lane, workgroup_max4(lane, vec4f(speed, 0.0, 0.0, 0.0)));
+}
+
+fn block_total(block: u32, lane: u32, largest: bool) -> vec4f {
+    var value = select(vec4f(0.0), vec4f(-3e38), largest);
+    for (var k = lane; k < params.groups; k += WORKGROUP) {
+        let part = partials[block * PARTIALS + k];
+        value = select(value + part, max(value, part), largest);
+    }
+    if largest { return workgroup_max4(lane, value); }
+    return workgroup_sum4(lane, value);
+}
+
+// One workgroup: the record of the step that has just ended.
+@compute @workgroup_size(WORKGROUP)
+fn totals_record(@builtin(local_invocation_index) lane: u32) {
+    let base = ((control.step + params.history - 1u) % params.history) * HISTORY_WIDTH;
+    for (var block = 0u; block < 9u; block++) {
+        let value = block_total(block, lane, block == 4u || block == 5u || block == 8u);
+        if lane == 0u { history[base + 2u + block] = value; }
+    }
+    if lane != 0u { return; }
+    history[base] = vec4f(control.dt, control.residual, bitcast<f32>(control.step), bitcast<f32>(control.iterations));
+    history[base + 1u] = vec4f(bitcast<f32>(control.substeps | (control.extra << 12u)), bitcast<f32>(atomicLoad(&control.limited)),
+        bitcast<f32>(atomicLoad(&control.floored)), bitcast<f32>(atomicLoad(&control.clamped)));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn totals_probes(@builtin(local_invocation_index) lane: u32) {
+    let base = ((control.step + params.history - 1u) % params.history) * params.probes;
+    for (var k = lane; k < params.probes; k += WORKGROUP) {
+        let slot = probe_cells[k];
+        let u = Gas(conserved[slot], energy[slot]);
+        probe_history[2u * (base + k)] = vec4f(u.flow.x, velocity_of(u.flow));
+        probe_history[2u * (base + k) + 1u] = vec4f(pressure_of(u), f32(kind_of(cells[slot])), 0.0, 0.0);
+    }
+}

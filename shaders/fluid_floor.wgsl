@@ -1,0 +1,44 @@
+// fluid_update, last part: the energy floor, kinetic energy first. At closed faces the interface pressure changes momentum
+// without energy, so a cell squeezed between faces may hold more kinetic than total energy. Its momentum is scaled until a tenth
+// of the internal energy before the pressure step is left; the ledger takes the momentum. Only if the total energy itself is
+// below that floor is energy borrowed from the ledger. Every floored cell is counted.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/control.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> fill: array<vec2f>;       // y: 1 / (gamma p*)
+@group(0) @binding(4) var<storage, read_write> conserved: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;
+@group(0) @binding(6) var<storage, read_write> owed_flow: array<vec4f>;
+@group(0) @binding(7) var<storage, read_write> owed_energy: array<f32>;
+
+const FLOOR_SHARE = 0.1;
+
+@compute @workgroup_size(WORKGROUP)
+fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+               @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots || kind_of(cells[slot]) != GAS { return; }
+    var flow = conserved[slot];
+    let total = energy[slot];
+    if is_broken(total) || is_broken(flow.x) || flow.x <= 0.0 {
+        atomicMin(&control.fault, (STAGE_FLUID_UPDATE << 27u) | slot);
+        return;
+    }
+    let least = FLOOR_SHARE / (params.gamma * fill[slot].y * (params.gamma - 1.0));
+    let kinetic = kinetic_energy(flow);
+    if total - kinetic >= least { return; }
+    atomicAdd(&control.floored, 1u);
+    if total < least {
+        energy[slot] = least;
+        if LEDGER { owed_energy[slot] -= (least - total) * cell_volume(); }
+        flow = vec4f(flow.x, vec3f(0.0));
+    } else {
+        flow = vec4f(flow.x, flow.yzw * sqrt((total - least) / kinetic));
+    }
+    if LEDGER { owed_flow[slot] += (conserved[slot] - flow) * cell_volume(); }
+    conserved[slot] = flow;
+}

@@ -1,0 +1,166 @@
+// fluid_update: momentum and energy of the gas from the solved pressure, by local gradients. [Kwatra et al. 2009; eqs. 14, 3]
+// Reads pressure, cells, nodes. Writes gas. On return momentum and energy are final; each face gives one cell what it takes
+// from the other, so their sums are conserved. WALL and GHOST slots collect the impulse and work that leaves through them.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
+#include "shared/control.wgsl"
+#include "shared/element.wgsl"
+#include "shared/system.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> extra: array<u32>;
+@group(0) @binding(4) var<storage, read> pressure: array<f32>;
+@group(0) @binding(5) var<storage, read_write> conserved: array<vec4f>;
+@group(0) @binding(6) var<storage, read_write> energy: array<f32>;
+@group(0) @binding(7) var<storage, read> node: array<vec4f>;
+@group(0) @binding(8) var<storage, read> work: array<vec4f>;    // second half: M^-1 (G Q + H h) of solid nodes
+
+// Pressure of the face of GAS cell c across axis n: mean of its vertices; for B2B1 inside the gas the finite-element mean,
+// p * (1,4,1)/6 along the axis and (1,11,11,1)/24 across, without which short waves grow for c dt > 2 dx.
+fn face_pressure(c: vec3i, n: u32, up: bool) -> f32 {
+    let beyond = neighbour_kind(c, n, up);
+    let low = select(c, c + axis(n), up);
+    if QUADRATIC && beyond == GAS && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
+    var sum = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        if corner[n] == 1 { continue; }
+        let v = slot_of(low + corner);
+        var at = v;
+        if beyond == SOLID { at = interface_index(v); }
+        sum += pressure[at];
+    }
+    return sum / f32(1u << (DIM - 1u));
+}
+
+fn wide_range(n: u32) -> array<vec3i, 2> {
+    var first = -reach();
+    var last = 2 * reach();
+    first[n] = -1;
+    last[n] = 1;
+    return array<vec3i, 2>(first, last);
+}
+
+fn wide_face_is_gas(low: vec3i, n: u32) -> bool {
+    let range = wide_range(n);
+    for (var z = range[0].z; z <= range[1].z; z++) {
+        for (var y = range[0].y; y <= range[1].y; y++) {
+            for (var x = range[0].x; x <= range[1].x; x++) {
+                let v = low + vec3i(x, y, z);
+                if !is_vertex(v) || !has(cells[slot_of(v)], VERTEX_GAS) { return false; }
+            }
+        }
+    }
+    return true;
+}
+
+fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
+    let range = wide_range(n);
+    var sum = 0.0;
+    for (var z = range[0].z; z <= range[1].z; z++) {
+        for (var y = range[0].y; y <= range[1].y; y++) {
+            for (var x = range[0].x; x <= range[1].x; x++) {
+                let offset = vec3i(x, y, z);
+                var weight = 1.0;
+                for (var a = 0u; a < DIM; a++) {
+                    if a == n { weight *= select(2.0 / 3.0, 1.0 / 6.0, offset[a] != 0); }
+                    else { weight *= select(11.0, 1.0, offset[a] < 0 || offset[a] > 1) / 24.0; }
+                }
+                sum += weight * pressure[slot_of(low + offset)];
+            }
+        }
+    }
+    return sum;
+}
+
+// Calls with c in GAS; slots of other kinds see the same face from the other side.
+@compute @workgroup_size(WORKGROUP)
+fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let kind = kind_of(cells[slot]);
+    if kind == SOLID { return; }
+    let c = cell_of(slot);
+    var impulse = vec3f(0.0);
+    for (var n = 0u; n < DIM; n++) {
+        for (var side = 0u; side < 2u; side++) {
+            let up = side == 1u;
+            let other = select(c - axis(n), c + axis(n), up);
+            if kind == GAS { impulse[n] += select(1.0, -1.0, up) * face_pressure(c, n, up); }
+            else if inside(other) && kind_of(cells[slot_of(other)]) == GAS {
+                impulse[n] += select(1.0, -1.0, up) * face_pressure(other, n, !up);
+            }
+        }
+    }
+    if any(impulse != vec3f(0.0)) {
+        conserved[slot] += vec4f(0.0, impulse * control.dt / params.spacing);
+    }
+}
+
+// Power through a face between gas and solid: what the solid receives, with the mean of its old and new velocity.
+fn interface_power(c: vec3i, n: u32, up: bool) -> f32 {
+    let beyond = select(c - axis(n), c + axis(n), up);
+    var power = 0.0;
+    for (var k = 0u; k < block_size(); k++) {
+        let node_offset = block_offset(k);  // relative to the solid cell
+        if !face_holds(node_offset, n, !up) { continue; }
+        let at = slot_of(beyond + node_offset);
+        let share = select(1.0, 0.5, MIDPOINT_POWER);
+        let v = node[at][n] - share * control.dt * work[params.slots + at][n];
+        for (var j = 0u; j < corner_count(); j++) {
+            let corner = corner_offset(j);
+            if (corner[n] == 1) == up { continue; }
+            power += pressure[interface_index(slot_of(beyond + corner))] * v * face_entry(true, n, node_offset, corner);
+        }
+    }
+    return power;
+}
+
+// p u through a face of GAS cell c.
+fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
+    let beyond = neighbour_kind(c, n, up);
+    if beyond == WALL { return 0.0; }
+    if SOLIDS && beyond == SOLID { return interface_power(c, n, up); }
+    let p = face_pressure(c, n, up);
+    let here = conserved[slot];
+    let far = select(c - axis(n), c + axis(n), up);
+    if beyond == GAS {
+        let other = conserved[slot_of(far)];
+        return p * (here[n + 1u] + other[n + 1u]) / (here.x + other.x);
+    }
+    let side = side_of(far);
+    if side < 6u && side_kind(side) == SIDE_INLET {
+        let inlet = bc_inlet(side);
+        return p * inlet.flow[n + 1u] / inlet.flow.x;
+    }
+    // Outlet: the velocity before the pressure step, which the solve prescribed there.
+    let gradient = (face_pressure(c, n, true) - face_pressure(c, n, false)) * control.dt / params.spacing;
+    return p * (here[n + 1u] + gradient) / here.x;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let kind = kind_of(cells[slot]);
+    if kind == SOLID || kind == WALL { return; }
+    let c = cell_of(slot);
+    var heat = 0.0;
+    for (var n = 0u; n < DIM; n++) {
+        for (var side = 0u; side < 2u; side++) {
+            let up = side == 1u;
+            let sign = select(1.0, -1.0, up);
+            if kind == GAS { heat += sign * face_power(c, slot, n, up); continue; }
+            let other = select(c - axis(n), c + axis(n), up);
+            if inside(other) && kind_of(cells[slot_of(other)]) == GAS {
+                heat += sign * face_power(other, slot_of(other), n, !up);
+            }
+        }
+    }
+    if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }
+}

@@ -1,0 +1,199 @@
+// gas_advection: where does the gas carry itself?
+// Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
+// TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
+// Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
+// over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
+#include "shared/control.wgsl"
+#include "shared/reconstruct.wgsl"
+#include "shared/flux.wgsl"
+
+override SECOND: bool;  // stage of the Runge-Kutta scheme
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
+@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // first half: U1, second half: U*
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // thirds: now, U1, U*
+@group(0) @binding(6) var<storage, read> node: array<vec4f>;
+@group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows
+
+// A cell must keep this share of what the first-order update leaves of density and internal energy.
+const KEPT = 0.1;
+
+fn source(slot: u32) -> Gas {
+    if SECOND { return Gas(work[slot], energy[params.slots + slot]); }
+    return Gas(conserved[slot], energy[slot]);
+}
+
+fn is_open(word: u32) -> bool { return kind_of(word) == GAS || kind_of(word) == GHOST; }
+
+// State of an open slot; beyond an outlet the nearest cell.
+fn open_gas(c: vec3i) -> Gas {
+    let side = side_of(c);
+    if side < 6u && side_kind(side) == SIDE_INLET { return bc_inlet(side); }
+    return source(slot_of(nearest_inside(c)));
+}
+
+struct Fluxes { high: Gas, low: Gas }
+
+// Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
+fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
+    let far = select(near - axis(n), near + axis(n), up);
+    let behind = select(near + axis(n), near - axis(n), up);
+    let beyond = select(near - 2 * axis(n), near + 2 * axis(n), up);
+    let near_slot = slot_of(near);
+    let here = source(near_slot);
+    let far_word = cells[slot_of(far)];
+    let open = is_open(far_word);
+    var next = here;
+    var last = here;
+    if open {
+        next = open_gas(far);
+        last = next;
+        if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond); }
+    }
+    var first = here;
+    if is_open(cells[slot_of(behind)]) { first = open_gas(behind); }
+    var out: Fluxes;
+    if up {
+        out.high = flux_weno(n, first, here, next, last);
+        if LIMITER { out.low = flux_first_order(n, first, here, next, last); }
+    } else {
+        out.high = flux_weno(n, last, next, here, first);
+        if LIMITER { out.low = flux_first_order(n, last, next, here, first); }
+    }
+    if open { return out; }
+    // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
+    var blocked = 1.0;
+    var wall_velocity = 0.0;
+    if SOLIDS && kind_of(far_word) == SOLID {
+        blocked = blocked_of(far_word);
+        let a = node[near_slot];
+        let b = node[slot_of(far)];
+        wall_velocity = (a.w * a[n] + b.w * b[n]) / max(a.w + b.w, 1e-30);
+    }
+    let carried = blocked * wall_velocity;
+    out.high = Gas(carried * here.flow + (1.0 - blocked) * out.high.flow, carried * here.energy + (1.0 - blocked) * out.high.energy);
+    out.low = Gas(carried * here.flow + (1.0 - blocked) * out.low.flow, carried * here.energy + (1.0 - blocked) * out.low.energy);
+    return out;
+}
+
+struct Change { high: Gas, low: Gas }
+
+fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
+    let scale = sign * control.dt / params.spacing;
+    let flow = select(f.low.flow + part * (f.high.flow - f.low.flow), f.high.flow, part == 1.0);
+    let heat = select(f.low.energy + part * (f.high.energy - f.low.energy), f.high.energy, part == 1.0);
+    (*change).high.flow += scale * flow;
+    (*change).high.energy += scale * heat;
+    if LIMITER {
+        (*change).low.flow += scale * f.low.flow;
+        (*change).low.energy += scale * f.low.energy;
+    }
+}
+
+// dt L(U) of a slot: from its own faces if it is GAS, else through the faces it shares with GAS cells.
+fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
+    var change: Change;
+    let is_gas = kind_of(cells[slot]) == GAS;
+    for (var n = 0u; n < DIM; n++) {
+        for (var side = 0u; side < 2u; side++) {
+            let up = side == 1u;
+            let other = select(c - axis(n), c + axis(n), up);
+            if !is_gas && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
+            var part = 1.0;
+            if limited { part = min(theta[slot], theta[slot_of(other)]); }
+            var f: Fluxes;
+            if is_gas { f = face_fluxes(c, n, up); } else { f = face_fluxes(other, n, !up); }
+            add_face(&change, f, part, select(1.0, -1.0, up));
+        }
+    }
+    return change;
+}
+
+// The same far from walls, bodies and open sides, where nothing has to be asked.
+fn change_of_interior(slot: u32, here: Gas) -> Change {
+    var change: Change;
+    for (var n = 0u; n < DIM; n++) {
+        let s = step_of(n);
+        let a = source(slot - 2u * s);
+        let b = source(slot - s);
+        let c = source(slot + s);
+        let d = source(slot + 2u * s);
+        var low: Fluxes;
+        var high: Fluxes;
+        low.high = flux_weno(n, a, b, here, c);
+        high.high = flux_weno(n, b, here, c, d);
+        if LIMITER {
+            low.low = flux_first_order(n, a, b, here, c);
+            high.low = flux_first_order(n, b, here, c, d);
+        }
+        add_face(&change, low, 1.0, 1.0);
+        add_face(&change, high, 1.0, -1.0);
+    }
+    return change;
+}
+
+// Largest share of the high-order change that keeps density and internal energy above KEPT of the first-order update.
+fn allowed_share(before: Gas, change: Change) -> f32 {
+    let low = Gas(before.flow + change.low.flow, before.energy + change.low.energy);
+    let density = before.flow.x + change.high.flow.x;
+    var share = 1.0;
+    if density < KEPT * low.flow.x { share = (1.0 - KEPT) * low.flow.x / max(low.flow.x - density, 1e-30); }
+    let least = KEPT * internal_energy(low);
+    for (var k = 0; k < 12; k++) {
+        let flow = before.flow + change.low.flow + share * (change.high.flow - change.low.flow);
+        let total = before.energy + change.low.energy + share * (change.high.energy - change.low.energy);
+        if internal_energy(Gas(flow, total)) >= least { return share; }
+        share *= 0.5;
+    }
+    return 0.0;
+}
+
+fn write_result(slot: u32, before: Gas, change: Gas) {
+    if SECOND {
+        work[params.slots + slot] = 0.5 * (conserved[slot] + before.flow + change.flow);
+        energy[2u * params.slots + slot] = 0.5 * (energy[slot] + before.energy + change.energy);
+    } else {
+        work[slot] = before.flow + change.flow;
+        energy[params.slots + slot] = before.energy + change.energy;
+    }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn advect_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+              @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let before = source(slot);
+    var change: Change;
+    if has(cells[slot], FLUX_REGULAR) { change = change_of_interior(slot, before); }
+    else { change = change_of(cell_of(slot), slot, false); }
+    if LIMITER {
+        var share = 1.0;
+        if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
+        theta[slot] = share;
+        if share < 1.0 { atomicAdd(&control.limited, 1u); }
+    }
+    write_result(slot, before, change.high);
+}
+
+// Only where the limiter acted somewhere: the slots whose faces carry less than the full flux once more.
+@compute @workgroup_size(WORKGROUP)
+fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let c = cell_of(slot);
+    var least = theta[slot];
+    for (var n = 0u; n < DIM; n++) {
+        if in_ring(c - axis(n)) { least = min(least, theta[slot - step_of(n)]); }
+        if in_ring(c + axis(n)) { least = min(least, theta[slot + step_of(n)]); }
+    }
+    if least == 1.0 { return; }
+    write_result(slot, source(slot), change_of(c, slot, true).high);
+}

@@ -1,0 +1,72 @@
+// interface: where do gas and solid meet?
+// Reads sorted particles. Writes the word of every slot (kind, blocked fraction, flags), the solid volume and mean compliance
+// of cells, the ghost pressure of vertices, and marks the vertices that carry P, h and Q apart.
+// [Cao et al. 2022, section 2.3; a cell is solid when the bodies fill more than `solid_threshold` of it, or when it holds a
+// particle and nothing around it is that full: fragments]
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/matrix.wgsl"
+#include "shared/material.wgsl"
+#include "shared/bspline.wgsl"
+
+@group(0) @binding(1) var<storage, read> position: array<vec4f>;
+@group(0) @binding(2) var<storage, read> affine: array<vec4f>;
+@group(0) @binding(3) var<storage, read> deformation: array<vec4f>;
+@group(0) @binding(4) var<storage, read> velocity: array<vec4f>;
+@group(0) @binding(5) var<storage, read> order: array<u32>;
+@group(0) @binding(6) var<storage, read> cell_start: array<u32>;
+@group(0) @binding(7) var<storage, read_write> fill: array<vec2f>; // solid volume [m^DIM], mean 1 / (lambda J) [Pa^-1]
+@group(0) @binding(8) var<storage, read_write> ghost: array<f32>;  // vertex mean of the particles' ghost pressure [Pa]
+
+// Ghost volume J^g = 1 - q / lambda is kept above this. [eq. 17]
+const SMALLEST_GHOST_VOLUME = 0.05;
+
+fn volume_of(p: u32) -> f32 {
+    let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
+    return velocity[p].w * determinant(f);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let first = cell_start[slot];
+    let end = cell_start[slot + 1u];
+    var volume = 0.0;
+    var compliance = 0.0;
+    for (var i = first; i < end; i++) {
+        let p = order[i];
+        let lambda = materials[bitcast<u32>(affine[3u * p + 2u].w)].ghost_modulus;
+        volume += volume_of(p);
+        compliance += 1.0 / (lambda * max(1.0 - affine[3u * p].w / lambda, SMALLEST_GHOST_VOLUME));
+    }
+    fill[slot] = vec2f(volume, compliance / f32(max(end - first, 1u)));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let v = cell_of(slot);
+    if !is_vertex(v) { return; }
+    var weight = 0.0;
+    var sum = 0.0;
+    let place = params.origin + vec3f(v) * params.spacing;
+    for (var k = 0u; k < corner_count(); k++) {
+        let c = v - corner_offset(k);
+        if !inside(c) { continue; }
+        let source = slot_of(c);
+        let end = cell_start[source + 1u];
+        for (var i = cell_start[source]; i < end; i++) {
+            let p = order[i];
+            let away = abs(position[p].xyz - place) / params.spacing;
+            var w = velocity[p].w;
+            for (var a = 0u; a < DIM; a++) { w *= max(1.0 - away[a], 0.0); }
+            weight += w;
+            sum += w * affine[3u * p].w;
+        }
+    }
+    ghost[slot] = select(0.0, sum / weight, weight > 0.0);
+}

@@ -1,0 +1,133 @@
+// interface, second half: kinds, blocked fractions and flags of every slot from the solid volume of the cells, then the list
+// of vertices that keep gas, interface and ghost pressure apart.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/control.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> cells: array<u32>;
+@group(0) @binding(2) var<storage, read> fill: array<vec2f>;
+@group(0) @binding(3) var<storage, read> cell_start: array<u32>;
+@group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // 1 where a vertex wants P, h, Q apart
+@group(0) @binding(5) var<storage, read> place: array<u32>;         // scan of wanted
+@group(0) @binding(6) var<storage, read_write> extra: array<u32>;   // place in the extra block, or NO_EXTRA
+@group(0) @binding(7) var<storage, read_write> control: Control;
+
+fn is_full(slot: u32) -> bool { return fill[slot].x > params.solid_threshold * cell_volume(); }
+
+// Share of a face that the solid of a cell blocks, its volume taken as a ball. [eqs. after section 2.3]
+fn blocked_fraction(volume: f32) -> f32 {
+    if !BLENDING || DIM == 1u { return 1.0; }
+    let pi = 3.14159265;
+    if DIM == 2u { return min(2.0 * sqrt(volume / pi) / params.spacing, 1.0); }
+    return min(pi * pow(3.0 * volume / (4.0 * pi), 2.0 / 3.0) / (params.spacing * params.spacing), 1.0);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let c = cell_of(slot);
+    let before = kind_of(cells[slot]);
+    if !inside(c) || before == WALL {
+        cells[slot] = before | (before << 2u);
+        return;
+    }
+    var solid = is_full(slot);
+    if !solid && cell_start[slot + 1u] > cell_start[slot] {
+        solid = true;
+        for (var k = 0u; k < block_size(); k++) {
+            let near = c + block_offset(k);
+            if inside(near) && is_full(slot_of(near)) { solid = false; }
+        }
+    }
+    let kind = select(GAS, SOLID, solid);
+    cells[slot] = word_with_blocked(kind | (before << 2u), blocked_fraction(fill[slot].x));
+}
+
+fn kind_near(c: vec3i) -> u32 { return kind_of(cells[slot_of(nearest_ring(c))]); }
+
+// Flags follow from kinds alone. A flag set here is read by other slots only in later kernels.
+@compute @workgroup_size(WORKGROUP)
+fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let c = cell_of(slot);
+    var flags = 0u;
+    var gas = 0u;
+    var solid = 0u;
+    for (var k = 0u; k < block_size(); k++) {
+        let near = c + block_offset(k);
+        if !inside(near) { continue; }
+        let kind = kind_near(near);
+        gas += u32(kind == GAS);
+        solid += u32(kind == SOLID);
+    }
+    if gas > 0u { flags |= NODE_GAS; }
+    if gas == block_size() { flags |= NODE_REGULAR; }
+    if solid > 0u { flags |= NODE_SOLID; }
+    if is_vertex(c) { flags |= vertex_flags(c, slot); }
+    if inside(c) {
+        var open = true;
+        for (var a = 0u; a < DIM; a++) {
+            for (var d = -2; d <= 2; d++) {
+                let near = c + d * axis(a);
+                open = open && inside(near) && kind_near(near) == GAS;
+            }
+        }
+        if open { flags |= FLUX_REGULAR; }
+    }
+    cells[slot] = (cells[slot] & 0xffff000fu) | flags;
+}
+
+fn vertex_flags(v: vec3i, slot: u32) -> u32 {
+    var gas = 0u;
+    var solid = 0u;
+    for (var k = 0u; k < corner_count(); k++) {
+        let c = v - corner_offset(k);
+        if !inside(c) { continue; }
+        let kind = kind_near(c);
+        gas += u32(kind == GAS);
+        solid += u32(kind == SOLID);
+    }
+    var flags = 0u;
+    if gas > 0u { flags |= VERTEX_GAS; }
+    if gas == corner_count() { flags |= VERTEX_REGULAR; }
+    if solid > 0u { flags |= VERTEX_SOLID; }
+    if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }
+    return flags;
+}
+
+// One pressure for gas, interface and solid where the body is resolved: the 4^DIM cells around hold enough solid.
+fn shares_pressure(v: vec3i) -> bool {
+    if INTERFACE == INTERFACE_SINGLE { return true; }
+    if INTERFACE == INTERFACE_H { return false; }
+    var volume = 0.0;
+    for (var z = -2 * reach().z; z <= reach().z; z++) {
+        for (var y = -2 * reach().y; y <= reach().y; y++) {
+            for (var x = -2; x <= 1; x++) {
+                let c = v + vec3i(x, y, z);
+                if inside(c) { volume += fill[slot_of(c)].x; }
+            }
+        }
+    }
+    // 2 of 16 cells in 2D: half of a sheet one cell thick that passes through the block, in any dimension.
+    return volume >= 2.0 * pow(4.0, f32(DIM) - 2.0) * cell_volume();
+}
+
+// After the scan of `wanted`.
+@compute @workgroup_size(WORKGROUP)
+fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    var at = NO_EXTRA;
+    if wanted[slot] == 1u { at = place[slot]; }
+    if at != NO_EXTRA && at >= params.extra_capacity {
+        atomicMin(&control.fault, (STAGE_INTERFACE << 27u) | slot);
+        at = NO_EXTRA;
+    }
+    extra[slot] = at;
+    if slot == params.slots - 1u { control.extra = place[slot] + wanted[slot]; }
+}

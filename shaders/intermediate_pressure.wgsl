@@ -1,0 +1,77 @@
+// intermediate_pressure: which pressure does the advected gas have, and how stiff is what it meets?
+// Reads the advected state, cells, fill, ghost. Writes the gas state (now = advected, with gravity), the cell pressure of the
+// predictor, the vertex pressures X* and the vertex stiffness S^-1. On return every gas cell has positive density and
+// pressure, or the step is flagged. [Cao et al. 2022, eqs. 9, 17, 22, 24]
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
+#include "shared/control.wgsl"
+#include "shared/reconstruct.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read_write> conserved: array<vec4f>;
+@group(0) @binding(4) var<storage, read> work: array<vec4f>;        // second half: U*
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;  // thirds: now, pressure of the predictor, U*
+@group(0) @binding(6) var<storage, read_write> fill: array<vec2f>;  // y of gas cells: 1 / (gamma p*)
+
+fn advected(slot: u32) -> Gas { return Gas(work[params.slots + slot], energy[2u * params.slots + slot]); }
+
+// Velocity beyond a face: the neighbour's, or what the boundary prescribes.
+fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
+    let far = select(c - axis(n), c + axis(n), up);
+    let slot = slot_of(far);
+    let kind = kind_of(cells[slot]);
+    let own = here.flow[n + 1u] / here.flow.x;
+    if kind == GAS {
+        let other = advected(slot);
+        return (here.flow[n + 1u] + other.flow[n + 1u]) / (here.flow.x + other.flow.x);
+    }
+    if kind == WALL { return 0.0; }
+    let side = side_of(far);
+    if side < 6u && side_kind(side) == SIDE_INLET {
+        let inlet = bc_inlet(side);
+        return inlet.flow[n + 1u] / inlet.flow.x;
+    }
+    return own;
+}
+
+// Consistent predictor: conservative advection of E already compresses the gas; the solve must not do it twice. Inside shocks
+// (strong compression) the viscosity that this removes is kept.
+const COMPRESSION_SWITCH = 30.0;
+const LEAST_PREDICTED = 0.1;
+
+fn predicted(c: vec3i, here: Gas, pressure: f32) -> f32 {
+    if !PREDICTOR { return pressure; }
+    var divergence = 0.0;
+    for (var n = 0u; n < DIM; n++) {
+        divergence += face_velocity(c, n, true, here) - face_velocity(c, n, false, here);
+    }
+    divergence *= control.dt / params.spacing;
+    let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(divergence)), 1.0, divergence >= 0.0);
+    return pressure * max(LEAST_PREDICTED, 1.0 + smooth_share * divergence);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let here = advected(slot);
+    if kind_of(cells[slot]) != GAS {
+        conserved[slot] = here.flow;
+        energy[slot] = here.energy;
+        return;
+    }
+    let pressure = pressure_of(here);
+    if here.flow.x <= 0.0 || pressure <= 0.0 || is_broken(pressure) {
+        atomicMin(&control.fault, (STAGE_GAS_ADVECTION << 27u) | slot);
+    }
+    fill[slot].y = 1.0 / (params.gamma * pressure);
+    energy[params.slots + slot] = predicted(cell_of(slot), here, pressure);
+    // Gravity: the work of the mean momentum.
+    let pull = control.dt * here.flow.x * params.gravity;
+    conserved[slot] = here.flow + vec4f(0.0, pull);
+    energy[slot] = here.energy + control.dt * dot(here.flow.yzw + 0.5 * pull, params.gravity);
+}

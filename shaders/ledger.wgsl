@@ -1,0 +1,174 @@
+// interface, the gas books: what happens to the gas of cells that a body covers or uncovers.
+// A SOLID slot of the gas state keeps the gas of the cell it covers plus all fluxes through its faces: owed gas, not pressurised.
+// `owed` is what a GAS cell still owes (negative: it was filled with more than it holds). Gas plus owed gas is conserved.
+// A GAS cell settles at most a tenth of its density and internal energy per step and passes the rest on to its gas neighbours;
+// a SOLID cell without gas neighbours passes all of it to its solid neighbours.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+
+@group(0) @binding(1) var<storage, read> cells: array<u32>;
+@group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;
+@group(0) @binding(3) var<storage, read_write> energy: array<f32>;   // first third: now; second third: shares
+@group(0) @binding(4) var<storage, read_write> owed_flow: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> owed_energy: array<f32>;
+@group(0) @binding(6) var<storage, read_write> work: array<vec4f>;   // share that each neighbour of a slot receives
+@group(0) @binding(7) var<storage, read> ghost: array<f32>;
+@group(0) @binding(8) var<storage, read> node: array<vec4f>;
+
+// Largest relative change of density and internal energy that a cell settles in one step.
+const SETTLED_PER_STEP = 0.1;
+
+struct Sum { flow: vec4f, energy: f32, count: f32 }
+
+fn add_if_old_gas(sum: ptr<function, Sum>, c: vec3i) {
+    if !inside(c) { return; }
+    let slot = slot_of(c);
+    if previous_kind_of(cells[slot]) != GAS { return; }
+    (*sum).flow += conserved[slot];
+    (*sum).energy += energy[slot];
+    (*sum).count += 1.0;
+}
+
+// Mean of the cells that were gas before: face neighbours, else the 3^DIM block, else the 5^DIM block.
+fn fill_from_neighbours(c: vec3i) -> Sum {
+    var sum: Sum;
+    for (var a = 0u; a < DIM; a++) {
+        add_if_old_gas(&sum, c - axis(a));
+        add_if_old_gas(&sum, c + axis(a));
+    }
+    if sum.count > 0.0 { return sum; }
+    for (var far = 1; far <= 2; far++) {
+        let r = far * reach();
+        for (var z = -r.z; z <= r.z; z++) {
+            for (var y = -r.y; y <= r.y; y++) {
+                for (var x = -r.x; x <= r.x; x++) { add_if_old_gas(&sum, c + vec3i(x, y, z)); }
+            }
+        }
+        if sum.count > 0.0 { return sum; }
+    }
+    return sum;
+}
+
+// A pocket with no gas around: gas at the ghost pressure, isentropic from the ambient state, moving with the solid.
+fn trapped_gas(c: vec3i, slot: u32) -> Gas {
+    var pressure = 0.0;
+    for (var k = 0u; k < corner_count(); k++) { pressure += ghost[slot_of(c + corner_offset(k))]; }
+    pressure = max(pressure / f32(corner_count()), 1e-3 * params.ambient_pressure);
+    let density = params.ambient_density * pow(pressure / params.ambient_pressure, 1.0 / params.gamma);
+    return gas_from_primitive(density, node[slot].xyz, pressure);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    if kind_of(word) != GAS || previous_kind_of(word) != SOLID { return; }
+    let c = cell_of(slot);
+    let sum = fill_from_neighbours(c);
+    var filled = Gas(sum.flow / max(sum.count, 1.0), sum.energy / max(sum.count, 1.0));
+    if sum.count == 0.0 { filled = trapped_gas(c, slot); }
+    if LEDGER {
+        owed_flow[slot] += (conserved[slot] - filled.flow) * cell_volume();
+        owed_energy[slot] += (energy[slot] - filled.energy) * cell_volume();
+    }
+    conserved[slot] = filled.flow;
+    energy[slot] = filled.energy;
+}
+
+fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
+    var count = 0u;
+    for (var a = 0u; a < DIM; a++) {
+        let slot = slot_of(c);
+        if inside(c - axis(a)) { count += u32(kind_of(cells[slot - step_of(a)]) == kind); }
+        if inside(c + axis(a)) { count += u32(kind_of(cells[slot + step_of(a)]) == kind); }
+    }
+    return count;
+}
+
+// Part of its debt that a gas cell settles now.
+fn settled_part(slot: u32, pocket: bool) -> f32 {
+    let debt = owed_flow[slot] / cell_volume();
+    let gas = Gas(conserved[slot], energy[slot]);
+    if pocket && debt.x < 0.0 { return 0.0; } // a pocket is never drained
+    var part = min(1.0, SETTLED_PER_STEP * gas.flow.x / max(abs(debt.x), 1e-30));
+    let before = internal_energy(gas);
+    for (var k = 0; k < 12; k++) {
+        let after = internal_energy(Gas(gas.flow + part * debt, gas.energy + part * owed_energy[slot] / cell_volume()));
+        if abs(after - before) <= SETTLED_PER_STEP * before { return part; }
+        part *= 0.5;
+    }
+    return 0.0;
+}
+
+// What a slot hands to each of its `count` receivers.
+fn outgoing(slot: u32, c: vec3i, kind: u32) -> Sum {
+    var out: Sum;
+    if kind == GAS {
+        if all(owed_flow[slot] == vec4f(0.0)) && owed_energy[slot] == 0.0 { return out; }
+        out.count = f32(neighbours_of_kind(c, GAS));
+        if out.count == 0.0 { return out; }
+        let left = 1.0 - settled_part(slot, false);
+        out.flow = left * owed_flow[slot] / out.count;
+        out.energy = left * owed_energy[slot] / out.count;
+    } else if kind == SOLID && neighbours_of_kind(c, GAS) == 0u {
+        out.count = f32(neighbours_of_kind(c, SOLID));
+        if out.count == 0.0 { return out; }
+        out.flow = (conserved[slot] * cell_volume() + owed_flow[slot]) / out.count;
+        out.energy = (energy[slot] * cell_volume() + owed_energy[slot]) / out.count;
+    }
+    return out;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let out = outgoing(slot, cell_of(slot), kind_of(cells[slot]));
+    work[slot] = out.flow;
+    energy[params.slots + slot] = out.energy;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let kind = kind_of(cells[slot]);
+    let c = cell_of(slot);
+    if (kind != GAS && kind != SOLID) || !inside(c) { return; }
+    var flow = owed_flow[slot];
+    var heat = owed_energy[slot];
+    if kind == GAS && (any(flow != vec4f(0.0)) || heat != 0.0) {
+        let part = settled_part(slot, neighbours_of_kind(c, GAS) == 0u);
+        conserved[slot] += part * flow / cell_volume();
+        energy[slot] += part * heat / cell_volume();
+        flow *= 1.0 - part;
+        heat *= 1.0 - part;
+    }
+    if kind == SOLID {
+        flow += conserved[slot] * cell_volume();
+        heat += energy[slot] * cell_volume();
+    }
+    let shared_out = any(work[slot] != vec4f(0.0)) || energy[params.slots + slot] != 0.0;
+    if shared_out { flow = vec4f(0.0); heat = 0.0; }
+    for (var a = 0u; a < DIM; a++) {
+        for (var side = 0u; side < 2u; side++) {
+            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
+            if kind_of(cells[other]) != kind { continue; }
+            flow += work[other];
+            heat += energy[params.slots + other];
+        }
+    }
+    if kind == SOLID {
+        conserved[slot] = flow / cell_volume();
+        energy[slot] = heat / cell_volume();
+        flow = vec4f(0.0);
+        heat = 0.0;
+    }
+    owed_flow[slot] = flow;
+    owed_energy[slot] = heat;
+}

@@ -1,0 +1,111 @@
+// The vector kernels of the conjugate gradient method with a diagonal preconditioner. All scalars stay on the device; a zero
+// entry in pcg_extents ends the iteration. [Saad 2003, algorithm 9.1]
+#include "shared/thread.wgsl"
+#include "shared/reduce4.wgsl"
+
+struct Pcg {
+    rho: f32,               // r . D^-1 r
+    alpha: f32,
+    beta: f32,
+    reference: f32,         // c . D^-1 c of the full right-hand side c
+    tolerance: f32,
+    iterations: u32,
+    max_iterations: u32,
+    outcome: u32,           // PCG_RUNNING, PCG_CONVERGED, PCG_STALLED
+    length: u32,            // unknowns
+    groups_wide: u32,       // groups of the kernels with one thread per slot, x
+    groups_high: u32,       // and y
+    groups_partial: u32,    // groups of the kernels that leave partial sums
+}
+
+@group(0) @binding(1) var<storage, read_write> pcg: Pcg;
+@group(0) @binding(2) var<storage, read_write> solution: array<f32>;
+@group(0) @binding(3) var<storage, read_write> residual: array<f32>;
+@group(0) @binding(4) var<storage, read_write> direction: array<f32>;
+@group(0) @binding(5) var<storage, read> product: array<f32>;
+@group(0) @binding(6) var<storage, read> inverse_diagonal: array<f32>;
+@group(0) @binding(7) var<storage, read_write> partials: array<vec4f>;
+@group(0) @binding(8) var<storage, read_write> pcg_extents: array<vec4u>;
+
+fn open_iteration(on: bool) {
+    let keep = u32(on);
+    pcg_extents[PCG_SLOTS] = vec4u(pcg.groups_wide, pcg.groups_high, 1u, 0u) * keep;
+    pcg_extents[PCG_PARTIAL] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
+    pcg_extents[PCG_SINGLE] = vec4u(keep);
+}
+
+fn total(lane: u32) -> vec4f {
+    var sum = vec4f(0.0);
+    for (var k = lane; k < pcg.groups_partial; k += WORKGROUP) { sum += partials[k]; }
+    return workgroup_sum4(lane, sum);
+}
+
+// `product` holds the full right-hand side, for the reference norm.
+@compute @workgroup_size(WORKGROUP)
+fn pcg_begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+             @builtin(local_invocation_index) lane: u32) {
+    var sum = vec4f(0.0);
+    for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
+        let z = inverse_diagonal[i] * residual[i];
+        solution[i] = 0.0;
+        direction[i] = z;
+        sum += vec4f(z * residual[i], inverse_diagonal[i] * product[i] * product[i], 0.0, 0.0);
+    }
+    let part = workgroup_sum4(lane, sum);
+    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = part; }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
+    let sum = total(lane);
+    if lane != 0u { return; }
+    pcg.rho = sum.x;
+    pcg.reference = sum.y;
+    pcg.iterations = 0u;
+    decide();
+}
+
+fn decide() {
+    pcg.outcome = PCG_RUNNING;
+    if pcg.rho <= pcg.tolerance * pcg.tolerance * pcg.reference { pcg.outcome = PCG_CONVERGED; }
+    else if pcg.iterations >= pcg.max_iterations || !(pcg.rho < 1e38) { pcg.outcome = PCG_STALLED; }
+    open_iteration(pcg.outcome == PCG_RUNNING);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pcg_alpha(@builtin(local_invocation_index) lane: u32) {
+    let sum = total(lane);
+    if lane == 0u { pcg.alpha = select(0.0, pcg.rho / sum.x, sum.x > 0.0); }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+              @builtin(local_invocation_index) lane: u32) {
+    var sum = vec4f(0.0);
+    for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
+        solution[i] += pcg.alpha * direction[i];
+        let r = residual[i] - pcg.alpha * product[i];
+        residual[i] = r;
+        sum.x += r * r * inverse_diagonal[i];
+    }
+    let part = workgroup_sum4(lane, sum);
+    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = part; }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
+    let sum = total(lane);
+    if lane != 0u { return; }
+    pcg.beta = select(0.0, sum.x / pcg.rho, pcg.rho > 0.0);
+    pcg.rho = sum.x;
+    pcg.iterations += 1u;
+    decide();
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
+        direction[i] = inverse_diagonal[i] * residual[i] + pcg.beta * direction[i];
+    }
+}

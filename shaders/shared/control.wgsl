@@ -1,0 +1,23 @@
+// What the device decides about the run: time step, phase, failure, counts. Mirror of src/state/control.rs (Control).
+
+struct Control {
+    dt: f32,                    // [s] current step
+    dt_previous: f32,           // [s]
+    remaining: f32,             // [s] to the time the host asked for
+    phase: u32,                 // PHASE_IDLE, PHASE_SOLVE, PHASE_SUBSTEP
+    substeps: u32,              // elastic sub-steps of this step
+    substep: u32,               // next one to run
+    step: u32,                  // finished steps since the start of the run
+    fault: atomic<u32>,         // smallest stage << 27 | slot that met an impossible value; NO_FAULT if none
+    limited: atomic<u32>,       // cells where the flux limiter acted, this step
+    limited_before: u32,        // the same when the first advection stage ended
+    floored: atomic<u32>,       // cells where the energy floor acted, this step
+    clamped: atomic<u32>,       // particles held back at a wall, this step
+    escaped: atomic<u32>,       // particles that left through an open side, since the start
+    extra: u32,                 // vertices that carry P, h and Q apart, this step
+    iterations: u32,            // of the last solve
+    residual: f32,              // of the last solve, relative
+}
+
+// True for NaN and infinities; comparisons alone do not find a NaN on every driver.
+fn is_broken(x: f32) -> bool { return (bitcast<u32>(x) & 0x7f800000u) == 0x7f800000u; }

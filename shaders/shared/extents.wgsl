@@ -1,0 +1,19 @@
+// The table of indirect dispatches: a zero entry makes every dispatch that uses it a no-op. The device steers the step with it.
+
+@group(0) @binding(9) var<storage, read_write> extents: array<vec4u>;
+
+fn groups_for(threads: u32) -> vec4u {
+    let groups = (threads + WORKGROUP - 1u) / WORKGROUP;
+    let x = min(groups, MAX_GROUPS);
+    return vec4u(x, (groups + MAX_GROUPS - 1u) / MAX_GROUPS, 1u, 0u);
+}
+
+// Switches the dispatches of one phase on or off.
+fn open_phase(first: u32, on: bool) {
+    let keep = u32(on);
+    extents[first + EXTENT_SLOTS] = groups_for(params.slots) * keep;
+    extents[first + EXTENT_PARTICLES] = groups_for(params.particles) * keep;
+    extents[first + EXTENT_REDUCE] = vec4u(params.groups, 1u, 1u, 0u) * keep;
+    extents[first + EXTENT_SINGLE] = vec4u(keep);
+    for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
+}

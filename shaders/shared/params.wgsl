@@ -1,0 +1,49 @@
+// What one run fixes: grid, gas, limits, switches. Mirror of src/state/params.rs (Params).
+// The dimension and the switches of the method are pipeline overrides, so that a switched-off branch costs nothing.
+
+override DIM: u32;
+override SOLIDS: bool;          // the scene has bodies
+override QUADRATIC: bool;       // gas element pair B2B1 (true) or B1B0 (false)
+override PREDICTOR: bool;       // consistent predictor of the intermediate pressure
+override LIMITER: bool;         // conservative flux limiter for positivity
+override BLENDING: bool;        // blocked fraction of partly filled cells
+override LEDGER: bool;          // gas of covered cells is kept and given back
+override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity
+override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
+override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE
+
+struct Params {
+    cells: vec3u,               // cells per axis, 1 on inactive axes
+    slots: u32,                 // length of every cell, node and vertex array
+    stride: vec3u,              // cells plus the ring on active axes
+    particles: u32,
+    origin: vec3f,              // [m] low corner of the domain
+    spacing: f32,               // [m] cell edge
+    gravity: vec3f,             // [m s^-2]
+    gamma: f32,                 // ratio of specific heats
+    ambient_density: f32,       // [kg m^-3]
+    ambient_pressure: f32,      // [Pa]
+    cfl: f32,
+    max_courant: f32,           // cap of c dt / dx
+    max_growth: f32,            // cap of dt / previous dt
+    fixed_step: f32,            // [s] 0 = from the bounds
+    elastic_cfl: f32,
+    wave_speed: f32,            // [m s^-1] fastest elastic wave of any body
+    solid_threshold: f32,       // share of a cell that makes it solid
+    mass_floor: f32,            // [kg] least node mass that the pressure solve sees
+    tolerance: f32,             // of the solve, relative
+    extra_capacity: u32,        // vertices that may carry P, h and Q apart
+    max_iterations: u32,
+    probes: u32,
+    crowd: f32,                 // weights that meet at one node at most, scatter form of p2g
+    history: u32,               // steps that the history ring holds
+    bodies: u32,
+    max_substeps: u32,
+    groups: u32,                // groups that leave partial results
+    side: array<vec4u, 2>,      // SIDE_WALL, SIDE_INLET, SIDE_OUTLET for x-, x+, y-, y+, z-, z+
+    inlet_flow: array<vec4f, 6>,    // density, momentum per volume
+    inlet_energy: array<vec4f, 6>,  // total energy per volume in x
+    scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
+}
+
+@group(0) @binding(0) var<uniform> params: Params;

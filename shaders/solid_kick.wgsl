@@ -1,0 +1,49 @@
+// coupled_solve, write-back to the solid: V = V* - dt M^-1 (G Q + H h) [eq. 36], and the change of the ghost pressure.
+// The whole pressure kick comes before the first elastic sub-step: spread over the sub-steps it is unstable.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/control.wgsl"
+#include "shared/system.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> extra: array<u32>;
+@group(0) @binding(4) var<storage, read> pressure: array<f32>;
+@group(0) @binding(5) var<storage, read> work: array<vec4f>;        // second half: M^-1 (G Q + H h)
+@group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
+@group(0) @binding(7) var<storage, read_write> ghost: array<f32>;   // Q* before, Q - Q* after
+
+@compute @workgroup_size(WORKGROUP)
+fn solid_kick(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+              @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    if has(word, NODE_SOLID) && node[slot].w > 0.0 {
+        node[slot] = vec4f(node[slot].xyz - control.dt * work[params.slots + slot].xyz, node[slot].w);
+    }
+    if has(word, VERTEX_SOLID) { ghost[slot] = pressure[ghost_index(slot)] - ghost[slot]; }
+}
+
+// Particles in GAS cells: a vertex without a solid cell takes the mean change of the solid vertices in its 5^DIM block.
+@compute @workgroup_size(WORKGROUP)
+fn solid_kick_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                     @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots || has(cells[slot], VERTEX_SOLID) { return; }
+    let v = cell_of(slot);
+    if !is_vertex(v) { return; }
+    var sum = 0.0;
+    var count = 0.0;
+    for (var z = -2 * reach().z; z <= 2 * reach().z; z++) {
+        for (var y = -2 * reach().y; y <= 2 * reach().y; y++) {
+            for (var x = -2; x <= 2; x++) {
+                let near = v + vec3i(x, y, z);
+                if !is_vertex(near) || !has(cells[slot_of(near)], VERTEX_SOLID) { continue; }
+                sum += ghost[slot_of(near)];
+                count += 1.0;
+            }
+        }
+    }
+    ghost[slot] = select(0.0, sum / count, count > 0.0);
+}

@@ -1,0 +1,97 @@
+// coupled_solve, preparation: the Jacobi diagonal D = S^-1 + dt^2 sum over nodes |coefficient|^2 / M. All coefficients of one
+// vertex on one node are summed before they are squared. Unused unknowns get the inverse 0 and stay 0.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/control.wgsl"
+#include "shared/element.wgsl"
+#include "shared/system.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> extra: array<u32>;
+@group(0) @binding(4) var<storage, read> work: array<vec4f>;        // w: inverse masses of gas and solid nodes
+@group(0) @binding(5) var<storage, read> stiffness: array<f32>;
+@group(0) @binding(6) var<storage, read_write> inverse_diagonal: array<f32>;
+
+struct Entries { own: vec3f, h: vec3f, q: vec3f, h_solid: vec3f } // gas node: own, h; solid node: q, h_solid
+
+fn add_entries(entries: ptr<function, Entries>, e: vec3i, node_offset: vec3i, corner: vec3i, solid: bool) {
+    let quadratic = solid || QUADRATIC;
+    let inner = element_entry(quadratic, node_offset, corner);
+    if solid { (*entries).q += inner; } else { (*entries).own += inner; }
+    for (var n = 0u; n < DIM; n++) {
+        let up = corner[n] == 1;
+        if !face_holds(node_offset, n, up) { continue; }
+        let beyond = neighbour_kind(e, n, up);
+        let across = select(-1.0, 1.0, up) * face_entry(quadratic, n, node_offset, corner);
+        if solid {
+            if beyond == GAS { (*entries).h_solid[n] += across; }
+        } else if beyond == SOLID { (*entries).h[n] += across; }
+        else if beyond == WALL || beyond == GHOST { (*entries).own[n] += across; }
+    }
+}
+
+fn entries_at(v: vec3i, j: vec3i) -> Entries {
+    var entries: Entries;
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        let e = v - corner;
+        let node_offset = j - e;
+        if !inside(e) || any(abs(node_offset) > vec3i(1)) { continue; }
+        let kind = kind_of(cells[slot_of(e)]);
+        if kind == GAS { add_entries(&entries, e, node_offset, corner, false); }
+        if SOLIDS && kind == SOLID { add_entries(&entries, e, node_offset, corner, true); }
+    }
+    return entries;
+}
+
+fn inverse(d: f32) -> f32 { return select(0.0, 1.0 / d, d > 0.0); }
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    if !has(word, VERTEX_GAS | VERTEX_SOLID) {
+        inverse_diagonal[slot] = 0.0;
+        return;
+    }
+    let v = cell_of(slot);
+    let regular = has(word, VERTEX_REGULAR);
+    let apart = interface_index(slot) != slot;
+    var own = 0.0;
+    var h = 0.0;
+    var q = 0.0;
+    for (var z = -2 * reach().z; z <= reach().z; z++) {
+        for (var y = -2 * reach().y; y <= reach().y; y++) {
+            for (var x = -2; x <= 1; x++) {
+                let j = v + vec3i(x, y, z);
+                if !in_ring(j) { continue; }
+                let gas = work[slot_of(j)].w;
+                if regular {
+                    if !QUADRATIC && any(abs(2 * (j - v) + reach()) > vec3i(1)) { continue; }
+                    let entry = regular_entry(v - j);
+                    own += gas * dot(entry, entry);
+                    continue;
+                }
+                let at = entries_at(v, j);
+                var solid = 0.0;
+                if SOLIDS && has(cells[slot_of(j)], NODE_SOLID) { solid = work[params.slots + slot_of(j)].w; }
+                if apart {
+                    own += gas * dot(at.own, at.own);
+                    h += gas * dot(at.h, at.h) + solid * dot(at.h_solid, at.h_solid);
+                    q += solid * dot(at.q, at.q);
+                } else {
+                    own += gas * dot(at.own + at.h, at.own + at.h) + solid * dot(at.q + at.h_solid, at.q + at.h_solid);
+                }
+            }
+        }
+    }
+    let scale = control.dt * face_area() * control.dt * face_area();
+    inverse_diagonal[slot] = inverse(stiffness[slot] + scale * own);
+    if apart {
+        inverse_diagonal[interface_index(slot)] = inverse(scale * h);
+        inverse_diagonal[ghost_index(slot)] = inverse(stiffness[ghost_index(slot)] + scale * q);
+    }
+}

@@ -1,0 +1,88 @@
+// coupled_solve, first half of the operator: velocity change per unit time W = M^-1 C x at every node.
+// Reads x, cells, masses. Writes work: gas nodes, then solid nodes; w keeps the inverse mass of the gas node.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/element.wgsl"
+#include "shared/system.wgsl"
+
+@group(0) @binding(1) var<storage, read> cells: array<u32>;
+@group(0) @binding(2) var<storage, read> extra: array<u32>;
+@group(0) @binding(3) var<storage, read> x: array<f32>;
+@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
+@group(0) @binding(5) var<storage, read> node: array<vec4f>;
+
+// Difference along the axis, mean across it: the assembled stencil where all 3^DIM cells around the node are gas.
+fn regular_force(slot: u32) -> vec3f {
+    var force = vec3f(0.0);
+    let wide = select(0u, 1u, QUADRATIC);
+    let first = -vec3i(i32(wide)) * reach();
+    let last = (vec3i(1) + vec3i(i32(wide))) * reach();
+    for (var k = first.z; k <= last.z; k++) {
+        for (var j = first.y; j <= last.y; j++) {
+            for (var i = first.x; i <= last.x; i++) {
+                let at = u32(i32(slot) + i + i32(params.stride.x) * (j + i32(params.stride.y) * k));
+                force += x[at] * regular_entry(vec3i(i, j, k));
+            }
+        }
+    }
+    return force;
+}
+
+fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid: bool) {
+    let quadratic = solid || QUADRATIC;
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        let v = slot_of(e + corner);
+        var at = v;
+        if solid { at = ghost_index(v); }
+        *force += x[at] * element_entry(quadratic, node_offset, corner);
+    }
+    for (var n = 0u; n < DIM; n++) {
+        for (var side = 0u; side < 2u; side++) {
+            let up = side == 1u;
+            if !face_holds(node_offset, n, up) { continue; }
+            let beyond = neighbour_kind(e, n, up);
+            let through_body = select(beyond == SOLID, beyond == GAS, solid);
+            let bare = !solid && (beyond == WALL || beyond == GHOST);
+            if !through_body && !bare { continue; }
+            for (var k = 0u; k < corner_count(); k++) {
+                let corner = corner_offset(k);
+                if (corner[n] == 1) != up { continue; }
+                let v = slot_of(e + corner);
+                var at = v;
+                if through_body { at = interface_index(v); }
+                (*force)[n] += select(-1.0, 1.0, up) * x[at] * face_entry(quadratic, n, node_offset, corner);
+            }
+        }
+    }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    let inverse_mass = work[slot].w;
+    if has(word, NODE_REGULAR) {
+        work[slot] = vec4f(regular_force(slot) * face_area() * inverse_mass, inverse_mass);
+        return;
+    }
+    var gas = vec3f(0.0);
+    var solid = vec3f(0.0);
+    let c = cell_of(slot);
+    if has(word, NODE_GAS | NODE_SOLID) {
+        for (var k = 0u; k < block_size(); k++) {
+            let offset = block_offset(k);
+            if !inside(c + offset) { continue; }
+            let kind = kind_of(cells[slot_of(c + offset)]);
+            if kind == GAS { add_element(&gas, c + offset, -offset, false); }
+            if SOLIDS && kind == SOLID { add_element(&solid, c + offset, -offset, true); }
+        }
+    }
+    work[slot] = vec4f(gas * face_area() * inverse_mass, inverse_mass);
+    if SOLIDS && has(word, NODE_SOLID) {
+        let mass = max(node[slot].w, params.mass_floor);
+        work[params.slots + slot] = vec4f(solid * face_area() / mass, 1.0 / mass);
+    }
+}

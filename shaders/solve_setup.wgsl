@@ -1,0 +1,124 @@
+// coupled_solve, preparation: node masses, intermediate node velocities, right-hand side of the increment form
+//   A D = dt C^T (V* - dt M^-1 C X*) - dt b,  X = X* + D,
+// which keeps float32 from losing a small increment in a large pressure. b: what inlets and outlets let through.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
+#include "shared/control.wgsl"
+#include "shared/element.wgsl"
+#include "shared/system.wgsl"
+#include "shared/gather.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> extra: array<u32>;
+@group(0) @binding(4) var<storage, read> conserved: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> work: array<vec4f>;
+@group(0) @binding(6) var<storage, read> node: array<vec4f>;
+@group(0) @binding(7) var<storage, read_write> residual: array<f32>;
+
+// Lumped mass of a gas node from the gas cells around it.
+@compute @workgroup_size(WORKGROUP)
+fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    var mass = 0.0;
+    if has(cells[slot], NODE_GAS) {
+        let c = cell_of(slot);
+        for (var k = 0u; k < block_size(); k++) {
+            let offset = block_offset(k);
+            if !inside(c + offset) { continue; }
+            let at = slot_of(c + offset);
+            if kind_of(cells[at]) == GAS { mass += conserved[at].x * mass_entry(QUADRATIC, -offset); }
+        }
+    }
+    work[slot] = vec4f(0.0, 0.0, 0.0, select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0));
+}
+
+// Velocity beyond an open side: what the inlet prescribes, or the last cell's.
+fn open_velocity(c: vec3i) -> vec3f {
+    let side = side_of(c);
+    if side < 6u && side_kind(side) == SIDE_INLET { return velocity_of(bc_inlet(side).flow); }
+    let slot = slot_of(nearest_inside(c));
+    if kind_of(cells[slot]) != GAS { return vec3f(0.0); }
+    return velocity_of(conserved[slot]);
+}
+
+// A node that is not in the gas moves like the nearest gas cells: face neighbours, else edges, else corners.
+fn nearest_gas_velocity(c: vec3i) -> vec3f {
+    for (var distance = 1; distance <= i32(DIM); distance++) {
+        var sum = vec3f(0.0);
+        var count = 0.0;
+        for (var k = 0u; k < block_size(); k++) {
+            let offset = block_offset(k);
+            if dot(offset, offset) != distance || !inside(c + offset) { continue; }
+            let at = slot_of(c + offset);
+            if kind_of(cells[at]) == GAS {
+                sum += velocity_of(conserved[at]);
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { return sum / count; }
+    }
+    return vec3f(0.0);
+}
+
+fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
+    let kind = kind_of(cells[slot]);
+    if kind == GAS { return velocity_of(conserved[slot]); }
+    if kind == GHOST { return open_velocity(c); }
+    return nearest_gas_velocity(c);
+}
+
+// work: M^-1 C X* becomes V* - dt M^-1 C X*.
+@compute @workgroup_size(WORKGROUP)
+fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                    @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    if has(word, NODE_GAS) {
+        let gas = work[slot];
+        work[slot] = vec4f(gas_node_velocity(cell_of(slot), slot) - control.dt * gas.xyz, gas.w);
+    }
+    if SOLIDS && has(word, NODE_SOLID) {
+        let solid = work[params.slots + slot];
+        work[params.slots + slot] = vec4f(node[slot].xyz - control.dt * solid.xyz, solid.w);
+    }
+}
+
+// b of a vertex in units of face_area(): prescribed flow through the open faces that it belongs to.
+fn open_flow(v: vec3i) -> f32 {
+    var flow = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        let e = v - corner;
+        if !inside(e) || kind_of(cells[slot_of(e)]) != GAS { continue; }
+        for (var n = 0u; n < DIM; n++) {
+            let up = corner[n] == 1;
+            if neighbour_kind(e, n, up) != GHOST { continue; }
+            let beyond = select(e - axis(n), e + axis(n), up);
+            flow += select(-1.0, 1.0, up) * open_velocity(beyond)[n] / f32(1u << (DIM - 1u));
+        }
+    }
+    return flow;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    let rows = gather_rows(slot, word);
+    let scale = control.dt * face_area();
+    var own = rows.own;
+    if has(word, VERTEX_GAS) && !has(word, VERTEX_REGULAR) { own -= open_flow(cell_of(slot)); }
+    residual[slot] = scale * own;
+    if SOLIDS && extra[slot] != NO_EXTRA {
+        residual[params.slots + extra[slot]] = scale * rows.h;
+        residual[params.slots + params.extra_capacity + extra[slot]] = scale * rows.q;
+    }
+}

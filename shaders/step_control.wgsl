@@ -1,0 +1,55 @@
+// The device steers its own step: each entry point looks at what has been decided and opens or closes the dispatches that
+// follow. A step whose solve or sub-steps need more than was recorded simply goes on in the next recording.
+#include "shared/index.wgsl"
+#include "shared/control.wgsl"
+#include "shared/extents.wgsl"
+
+struct PcgResult { rho: f32, alpha: f32, beta: f32, reference: f32, tolerance: f32, iterations: u32, max_iterations: u32, outcome: u32 }
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> pcg: PcgResult;
+
+// After an advection stage: did the limiter act?
+@compute @workgroup_size(1)
+fn control_limiter() {
+    let now = atomicLoad(&control.limited);
+    open_phase(PHASE_LIMIT_EXTENTS, extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x > 0u && now > control.limited_before);
+    control.limited_before = now;
+}
+
+// After the recorded iterations: has the solve finished?
+@compute @workgroup_size(1)
+fn control_solved() {
+    let solving = control.phase == PHASE_SOLVE;
+    if solving && pcg.outcome == PCG_STALLED {
+        atomicMin(&control.fault, STAGE_COUPLED_SOLVE << 27u);
+    }
+    let done = solving && pcg.outcome == PCG_CONVERGED && atomicLoad(&control.fault) == NO_FAULT;
+    open_phase(PHASE_UPDATE_EXTENTS, done);
+    if !done { return; }
+    control.iterations = pcg.iterations;
+    control.residual = select(0.0, sqrt(max(pcg.rho, 0.0) / pcg.reference), pcg.reference > 0.0);
+    control.phase = PHASE_SUBSTEP;
+}
+
+// Before each recorded sub-step. `again`: the particles have moved since the last P2G.
+@compute @workgroup_size(1)
+fn control_substep() {
+    let go = control.phase == PHASE_SUBSTEP && control.substep < control.substeps && atomicLoad(&control.fault) == NO_FAULT;
+    open_phase(PHASE_SUBSTEP_EXTENTS, go);
+    open_phase(PHASE_AGAIN_EXTENTS, go && control.substep > 0u);
+    open_phase(PHASE_FIRST_EXTENTS, go && control.substep == 0u);
+    if go { control.substep += 1u; }
+}
+
+// After the recorded sub-steps: is the step complete?
+@compute @workgroup_size(1)
+fn control_finish() {
+    let done = control.phase == PHASE_SUBSTEP && control.substep == control.substeps && atomicLoad(&control.fault) == NO_FAULT;
+    open_phase(PHASE_END_EXTENTS, done);
+    if !done { return; }
+    control.phase = PHASE_IDLE;
+    control.step += 1u;
+    control.dt_previous = control.dt;
+    control.remaining -= control.dt;
+}

@@ -1,0 +1,106 @@
+// time_step: how far may the next step go?
+// Reads gas, particles. Writes control.dt and the partial maxima. On return dt satisfies every bound and stays on the device.
+// rate = max over cells of sum over axes of (a + sqrt(a^2 + 4 b)) / 2, a = |u| / dx, b = |dp| / (dx^2 rho)
+// [Kwatra et al. 2009, eq. 20]; also dt <= cfl dx / |v_particle|, dt <= max_courant dx / c and dt <= max_growth dt_previous.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/control.wgsl"
+#include "shared/reduce4.wgsl"
+#include "shared/extents.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
+@group(0) @binding(4) var<storage, read> energy: array<f32>;
+@group(0) @binding(5) var<storage, read> velocity: array<vec4f>;
+@group(0) @binding(6) var<storage, read_write> maxima: array<vec4f>; // rate, sound speed, particle speed, -
+
+// Pressure differences below this share of p are noise of the solve, not a force.
+const PRESSURE_NOISE = 1e-6;
+
+fn gas_at(slot: u32) -> Gas { return Gas(conserved[slot], energy[slot]); }
+
+fn rate_of(slot: u32) -> vec2f {
+    let gas = gas_at(slot);
+    let p = pressure_of(gas);
+    var rate = 0.0;
+    for (var a = 0u; a < DIM; a++) {
+        let speed = abs(gas.flow[a + 1u] / gas.flow.x) / params.spacing;
+        var push = 0.0;
+        for (var side = 0u; side < 2u; side++) {
+            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
+            if kind_of(cells[other]) != GAS { continue; }
+            let neighbour = gas_at(other);
+            let difference = abs(pressure_of(neighbour) - p);
+            if difference > PRESSURE_NOISE * p {
+                push = max(push, difference / (params.spacing * params.spacing * min(gas.flow.x, neighbour.flow.x)));
+            }
+        }
+        rate += 0.5 * (speed + sqrt(speed * speed + 4.0 * push));
+    }
+    return vec2f(rate, sound_speed(gas.flow.x, p));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let total = groups.x * groups.y * WORKGROUP;
+    var bound = vec2f(0.0);
+    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += total) {
+        if kind_of(cells[slot]) == GAS && inside(cell_of(slot)) { bound = max(bound, rate_of(slot)); }
+    }
+    let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
+    if lane == 0u { maxima[thread_index(group, groups, 0u) / WORKGROUP] = largest; }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn time_step_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                       @builtin(local_invocation_index) lane: u32) {
+    let total = groups.x * groups.y * WORKGROUP;
+    var speed = 0.0;
+    for (var p = thread_index(group, groups, lane); p < params.particles; p += total) {
+        speed = max(speed, length(velocity[p].xyz));
+    }
+    let largest = workgroup_max4(lane, vec4f(0.0, 0.0, speed, 0.0));
+    if lane == 0u {
+        let at = thread_index(group, groups, 0u) / WORKGROUP;
+        maxima[at] = max(maxima[at], largest);
+    }
+}
+
+// One workgroup: the maxima of all groups, then dt.
+@compute @workgroup_size(WORKGROUP)
+fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
+    var bound = vec4f(0.0);
+    for (var k = lane; k < params.groups; k += WORKGROUP) { bound = max(bound, maxima[k]); }
+    let largest = workgroup_max4(lane, bound);
+    if lane != 0u { return; }
+    let start = control.phase == PHASE_IDLE && control.remaining > 0.0 && atomicLoad(&control.fault) == NO_FAULT;
+    open_phase(PHASE_BEGIN_EXTENTS, start);
+    if !start { return; }
+    var dt = params.fixed_step;
+    if dt == 0.0 {
+        dt = params.max_courant * params.spacing / max(largest.y, 1e-30);
+        dt = min(dt, params.cfl / max(largest.x, 1e-30));
+        if control.dt_previous > 0.0 { dt = min(dt, params.max_growth * control.dt_previous); }
+    }
+    let elastic_step = params.elastic_cfl * params.spacing / max(params.wave_speed, 1e-30);
+    if SOLIDS {
+        dt = min(dt, params.cfl * params.spacing / max(largest.z, 1e-30));
+        dt = min(dt, f32(params.max_substeps) * elastic_step);
+    }
+    // Reach the asked time exactly, without a tiny last step.
+    if dt >= control.remaining * (1.0 - 1e-5) { dt = control.remaining; }
+    else if dt > 0.5 * control.remaining { dt = 0.5 * control.remaining; }
+    control.dt = dt;
+    control.substeps = 0u;
+    if SOLIDS { control.substeps = u32(ceil(max(1.0, dt / elastic_step - 1e-4))); }
+    control.substep = 0u;
+    atomicStore(&control.limited, 0u);
+    atomicStore(&control.floored, 0u);
+    atomicStore(&control.clamped, 0u);
+    control.limited_before = 0u;
+    control.extra = 0u;
+    control.phase = PHASE_SOLVE;
+}

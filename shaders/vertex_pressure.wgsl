@@ -1,0 +1,53 @@
+// intermediate_pressure, second half: cell values to vertices. X*_v = mean of the adjacent gas cells' predicted pressure,
+// S^-1_v = sum of (cell volume / 2^DIM) / (stiffness of the cell). Where gas and solid share a pressure both add.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+
+@group(0) @binding(1) var<storage, read> cells: array<u32>;
+@group(0) @binding(2) var<storage, read> energy: array<f32>;        // second third: predicted pressure
+@group(0) @binding(3) var<storage, read> fill: array<vec2f>;
+@group(0) @binding(4) var<storage, read> ghost: array<f32>;
+@group(0) @binding(5) var<storage, read> extra: array<u32>;
+@group(0) @binding(6) var<storage, read_write> pressure: array<f32>;
+@group(0) @binding(7) var<storage, read_write> stiffness: array<f32>;
+
+@compute @workgroup_size(WORKGROUP)
+fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    var gas = vec3f(0.0);   // count, pressure sum, compliance sum
+    var solid = 0.0;
+    if has(word, VERTEX_GAS | VERTEX_SOLID) {
+        let v = cell_of(slot);
+        for (var k = 0u; k < corner_count(); k++) {
+            let c = v - corner_offset(k);
+            if !inside(c) { continue; }
+            let at = slot_of(c);
+            let kind = kind_of(cells[at]);
+            if kind == GAS { gas += vec3f(1.0, energy[params.slots + at], fill[at].y); }
+            if kind == SOLID { solid += fill[at].y; }
+        }
+    }
+    let part = cell_volume() / f32(corner_count());
+    let gas_pressure = gas.y / max(gas.x, 1.0);
+    let s_gas = gas.z * part;
+    var s_solid = 0.0;
+    var q = 0.0;
+    if SOLIDS { s_solid = solid * part; q = ghost[slot]; }
+    var at = NO_EXTRA;
+    if SOLIDS { at = extra[slot]; }
+    if at != NO_EXTRA {
+        pressure[slot] = gas_pressure;
+        stiffness[slot] = s_gas;
+        pressure[params.slots + at] = gas_pressure; // h starts from the gas
+        stiffness[params.slots + at] = 0.0;
+        pressure[params.slots + params.extra_capacity + at] = q;
+        stiffness[params.slots + params.extra_capacity + at] = s_solid;
+        return;
+    }
+    let s = s_gas + s_solid;
+    pressure[slot] = select(0.0, (s_gas * gas_pressure + s_solid * q) / s, s > 0.0);
+    stiffness[slot] = s;
+}

@@ -1,0 +1,119 @@
+//! Totals, extremes and solver history of each step.
+
+use serde::Serialize;
+
+/// What a probe sees after a step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ProbeRecord {
+    /// Density \[kg m^-3\].
+    pub density: f32,
+    /// Velocity \[m s^-1\].
+    pub velocity: [f32; 3],
+    /// Pressure \[Pa\].
+    pub pressure: f32,
+    /// Kind of the cell: 0 gas, 1 solid, 2 wall.
+    pub kind: u8,
+}
+
+/// Mass, momentum and energy of a part of the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Total {
+    /// \[kg\]
+    pub mass: f32,
+    /// \[kg m s^-1\]
+    pub momentum: [f32; 3],
+    /// \[J\]
+    pub energy: f32,
+}
+
+/// One step, as the device recorded it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct StepRecord {
+    /// Number, from 1.
+    pub step: u32,
+    /// Time at the end of the step \[s\].
+    pub time: f64,
+    /// Length \[s\].
+    pub dt: f32,
+    /// Gas in gas cells.
+    pub gas: Total,
+    /// Gas owed: under bodies, and not yet given back.
+    pub owed: Total,
+    /// Gas, impulse and work that have left through the boundary since the start.
+    pub crossed: Total,
+    /// Solids: mass and momentum; `energy` is kinetic.
+    pub solid: Total,
+    /// Elastic energy \[J\].
+    pub elastic_energy: f32,
+    /// Energy of the ghost pressure \[J\].
+    pub ghost_energy: f32,
+    /// Conjugate gradient iterations.
+    pub iterations: u32,
+    /// Relative residual of the solve.
+    pub residual: f32,
+    /// Elastic sub-steps.
+    pub substeps: u32,
+    /// Vertices with P, h and Q apart.
+    pub extra: u32,
+    /// Smallest and largest gas density \[kg m^-3\].
+    pub density: [f32; 2],
+    /// Smallest and largest gas pressure \[Pa\].
+    pub pressure: [f32; 2],
+    /// Largest gas speed \[m s^-1\].
+    pub gas_speed: f32,
+    /// Largest particle speed \[m s^-1\].
+    pub solid_speed: f32,
+    /// Cells where the flux limiter acted.
+    pub limited: u32,
+    /// Cells where the energy floor acted.
+    pub floored: u32,
+    /// Particles held back at a wall.
+    pub clamped: u32,
+    /// Probes.
+    pub probes: Vec<ProbeRecord>,
+}
+
+impl StepRecord {
+    /// From the vec4 entries of the history ring, see `totals_record` in `shaders/diagnostics.wgsl`.
+    #[must_use]
+    pub(crate) fn from_raw(raw: &[[f32; 4]]) -> Self {
+        let total =
+            |flow: [f32; 4], energy: f32| Total { mass: flow[0], momentum: [flow[1], flow[2], flow[3]], energy };
+        let [head, counts, gas, owed, crossed, heat] = [raw[0], raw[1], raw[2], raw[3], raw[4], raw[5]];
+        let [extremes, gas_speed, solid, solid_heat, solid_speed] = [raw[6], raw[7], raw[8], raw[9], raw[10]];
+        Self {
+            step: head[2].to_bits(),
+            dt: head[0],
+            residual: head[1],
+            iterations: head[3].to_bits(),
+            substeps: counts[0].to_bits() & 0xfff,
+            extra: counts[0].to_bits() >> 12,
+            limited: counts[1].to_bits(),
+            floored: counts[2].to_bits(),
+            clamped: counts[3].to_bits(),
+            gas: total(gas, heat[0]),
+            owed: total(owed, heat[1]),
+            crossed: total(crossed, heat[2]),
+            density: [-extremes[1], extremes[0]],
+            pressure: [-extremes[3], extremes[2]],
+            gas_speed: gas_speed[0].max(0.0),
+            solid: total(solid, solid_heat[0]),
+            elastic_energy: solid_heat[1],
+            ghost_energy: solid_heat[2],
+            solid_speed: solid_speed[0].max(0.0),
+            ..Self::default()
+        }
+    }
+
+    /// From two vec4 entries per probe.
+    #[must_use]
+    pub(crate) fn probes_from_raw(raw: &[[f32; 4]]) -> Vec<ProbeRecord> {
+        let probe = |pair: &[[f32; 4]]| ProbeRecord {
+            density: pair[0][0],
+            velocity: [pair[0][1], pair[0][2], pair[0][3]],
+            pressure: pair[1][0],
+            kind: pair[1][1] as u8,
+        };
+        raw.chunks_exact(2).map(probe).collect()
+    }
+}

@@ -1,0 +1,177 @@
+//! Conjugate gradients with a diagonal preconditioner, matrix-free, all scalars on the device.
+//!
+//! The operator is given as dispatches that turn `direction` into `product` and leave the partial sums of their dot product
+//! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. [Saad 2003, algorithm 9.1]
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::error::Result;
+use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP, group_counts};
+
+/// WGSL constants of this method.
+const SOURCE: &str = "const PCG_RUNNING = 0u;\nconst PCG_CONVERGED = 1u;\nconst PCG_STALLED = 2u;\n\
+                      const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\n";
+
+/// The vectors of one system.
+#[derive(Debug)]
+pub struct PcgVectors {
+    /// The solution, from zero.
+    pub solution: Buffer<f32>,
+    /// Right-hand side at the start, residual after.
+    pub residual: Buffer<f32>,
+    /// Search direction: what the operator is applied to.
+    pub direction: Buffer<f32>,
+    /// Operator times direction; before the first iteration the vector whose norm the tolerance refers to.
+    pub product: Buffer<f32>,
+    /// Inverse of the diagonal; 0 for unknowns that are not used.
+    pub inverse_diagonal: Buffer<f32>,
+}
+
+impl PcgVectors {
+    /// Allocates vectors of one length.
+    ///
+    /// # Errors
+    /// If the device has no room.
+    pub fn new(gpu: &Gpu, length: usize) -> Result<Self> {
+        Ok(Self {
+            solution: Buffer::new(gpu, "solution", length)?,
+            residual: Buffer::new(gpu, "residual", length)?,
+            direction: Buffer::new(gpu, "direction", length)?,
+            product: Buffer::new(gpu, "product", length)?,
+            inverse_diagonal: Buffer::new(gpu, "inverse_diagonal", length)?,
+        })
+    }
+}
+
+/// Mirror of `Pcg` in `shaders/linear_algebra.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct PcgControl {
+    /// r . D^-1 r.
+    pub rho: f32,
+    /// Step length.
+    pub alpha: f32,
+    /// Weight of the old direction.
+    pub beta: f32,
+    /// Squared norm that the tolerance refers to.
+    pub reference: f32,
+    /// Relative tolerance.
+    pub tolerance: f32,
+    /// Iterations so far.
+    pub iterations: u32,
+    /// Iterations after which the solve counts as stalled.
+    pub max_iterations: u32,
+    /// 0 running, 1 converged, 2 stalled.
+    pub outcome: u32,
+    /// Unknowns.
+    pub length: u32,
+    /// Groups of the kernels with one thread per slot, x.
+    pub groups_wide: u32,
+    /// The same, y.
+    pub groups_high: u32,
+    /// Groups of the kernels that leave partial sums.
+    pub groups_partial: u32,
+}
+
+/// The iteration.
+#[derive(Debug)]
+pub struct Pcg {
+    /// Scalars on the device.
+    pub control: Buffer<PcgControl>,
+    /// Group counts of an iteration: per slot, partial sums, single.
+    extents: Buffer<u32>,
+    begin: [Bound; 2],
+    alpha: Bound,
+    update: Bound,
+    beta: Bound,
+    direction: Bound,
+}
+
+/// Which extents of an iteration an operator kernel runs with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Width {
+    /// One thread per slot.
+    Slots,
+    /// Groups that stride and leave partial sums.
+    Partial,
+}
+
+impl Pcg {
+    /// Prepares a system of `length` unknowns whose operator runs one thread per slot of `slots`, with
+    /// `groups` groups in the kernels that leave partial sums.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(
+        gpu: &Gpu,
+        vectors: &PcgVectors,
+        partials: &Buffer<[f32; 4]>,
+        slots: usize,
+        groups: u32,
+        limits: (f32, u32),
+    ) -> Result<Self> {
+        let length = vectors.solution.len();
+        let control = Buffer::new(gpu, "pcg", 1)?;
+        let [wide, high, _] = group_counts((slots as u64).div_ceil(u64::from(WORKGROUP)), 65_535);
+        let start = PcgControl {
+            tolerance: limits.0,
+            max_iterations: limits.1,
+            length: length as u32,
+            groups_wide: wide,
+            groups_high: high,
+            groups_partial: groups,
+            ..PcgControl::default()
+        };
+        control.write(gpu, 0, &[start]);
+        let extents = Buffer::indirect(gpu, "pcg_extents", 12)?;
+        let named = [
+            ("pcg", control.raw()),
+            ("solution", vectors.solution.raw()),
+            ("residual", vectors.residual.raw()),
+            ("direction", vectors.direction.raw()),
+            ("product", vectors.product.raw()),
+            ("inverse_diagonal", vectors.inverse_diagonal.raw()),
+            ("partials", partials.raw()),
+            ("pcg_extents", extents.raw()),
+        ];
+        let bound = |entry: &str| -> Result<Bound> {
+            let kernel = Kernel::new(gpu, "linear_algebra.wgsl", entry, &Constants { overrides: &[], source: SOURCE })?;
+            let used = |name: &str| kernel.bindings().iter().any(|binding| binding.name == name);
+            let buffers: Vec<_> = named.iter().copied().filter(|(name, _)| used(name)).collect();
+            kernel.bind(gpu, &buffers)
+        };
+        Ok(Self {
+            begin: [bound("pcg_begin")?, bound("pcg_begin_choose")?],
+            alpha: bound("pcg_alpha")?,
+            update: bound("pcg_update")?,
+            beta: bound("pcg_beta")?,
+            direction: bound("pcg_direction")?,
+            control,
+            extents,
+        })
+    }
+
+    /// Takes `residual` as right-hand side and opens the iteration. `partial` and `single` gate the two dispatches.
+    pub fn begin(&self, pass: &mut Pass, partial: &Extent<'_>, single: &Extent<'_>) {
+        pass.dispatch(&self.begin[0], partial);
+        pass.dispatch(&self.begin[1], single);
+    }
+
+    /// Records one iteration: nothing happens on the device once the solve is done.
+    pub fn iterate(&self, pass: &mut Pass, operator: &[(&Bound, Width)]) {
+        let extent = |entry: u64| Extent::Indirect(&self.extents, entry * 16);
+        for (kernel, width) in operator {
+            pass.dispatch(kernel, &extent(*width as u64));
+        }
+        pass.dispatch(&self.alpha, &extent(2));
+        pass.dispatch(&self.update, &extent(1));
+        pass.dispatch(&self.beta, &extent(2));
+        pass.dispatch(&self.direction, &extent(1));
+    }
+}
+
+/// WGSL constants that other shaders need to read the outcome of a solve.
+#[must_use]
+pub fn source() -> &'static str {
+    SOURCE
+}

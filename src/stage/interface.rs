@@ -1,0 +1,74 @@
+//! `interface`: where do gas and solid meet, and what happens to the gas of cells that a body covers or uncovers?
+//! [Cao et al. 2022, section 2.3]
+
+use super::Parts;
+use super::time_step::slots;
+use crate::error::Result;
+use crate::gpu::{Bound, Extent, Pass};
+use crate::numerics::Scan;
+use crate::state::State;
+
+/// Kernels of the stage.
+#[derive(Debug)]
+pub struct InterfaceStage {
+    flags: Bound,
+    solids: Option<Solids>,
+}
+
+#[derive(Debug)]
+struct Solids {
+    fill: Bound,
+    ghost: Bound,
+    kind: Bound,
+    scan: Scan,
+    extra: Bound,
+    ledger: [Bound; 3],
+}
+
+impl InterfaceStage {
+    /// Binds.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(parts: Parts<'_>) -> Result<Self> {
+        let Parts { gpu, state } = parts;
+        let (wanted, place) = (state.pcg.residual.raw(), state.pcg.product.raw());
+        let renamed = [("wanted", wanted), ("place", place)];
+        let mark = |entry: &str| state.bind(gpu, "interface_mark.wgsl", entry, &renamed, &[]);
+        let fill = |entry: &str| state.bind(gpu, "interface.wgsl", entry, &[], &[]);
+        let ledger = |entry: &str| state.bind(gpu, "ledger.wgsl", entry, &[], &[]);
+        let solids = if state.has_solids() {
+            Some(Solids {
+                fill: fill("interface_fill")?,
+                ghost: fill("interface_ghost")?,
+                kind: mark("interface_kind")?,
+                scan: Scan::over(gpu, wanted, place, state.params.slots, state.params.slots + 1)?,
+                extra: mark("interface_extra")?,
+                ledger: [ledger("ledger_uncover")?, ledger("ledger_share")?, ledger("ledger_settle")?],
+            })
+        } else {
+            None
+        };
+        Ok(Self { flags: mark("interface_flags")?, solids })
+    }
+
+    /// Marks a scene without bodies, once.
+    pub fn record_static(&self, pass: &mut Pass, state: &State) {
+        pass.dispatch(&self.flags, &Extent::Threads(u64::from(state.params.slots)));
+    }
+
+    /// Marks all slots and settles the gas books. Without bodies nothing changes.
+    pub fn record(&self, pass: &mut Pass, state: &State) {
+        let Some(solids) = &self.solids else { return };
+        pass.stage("interface");
+        pass.dispatch(&solids.fill, &slots(state, "BEGIN"));
+        pass.dispatch(&solids.ghost, &slots(state, "BEGIN"));
+        pass.dispatch(&solids.kind, &slots(state, "BEGIN"));
+        pass.dispatch(&self.flags, &slots(state, "BEGIN"));
+        solids.scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
+        pass.dispatch(&solids.extra, &slots(state, "BEGIN"));
+        for kernel in &solids.ledger {
+            pass.dispatch(kernel, &slots(state, "BEGIN"));
+        }
+    }
+}

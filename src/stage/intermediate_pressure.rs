@@ -1,0 +1,36 @@
+//! `intermediate_pressure`: which pressure does the advected gas have, and how stiff is what it meets?
+//! [Cao et al. 2022, eqs. 9, 17, 22, 24]
+
+use super::Parts;
+use super::time_step::slots;
+use crate::error::Result;
+use crate::gpu::{Bound, Pass};
+use crate::state::State;
+
+/// Kernels of the stage.
+#[derive(Debug)]
+pub struct IntermediatePressure {
+    cells: Bound,
+    vertices: Bound,
+}
+
+impl IntermediatePressure {
+    /// Binds.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(parts: Parts<'_>) -> Result<Self> {
+        let Parts { gpu, state } = parts;
+        Ok(Self {
+            cells: state.bind(gpu, "intermediate_pressure.wgsl", "pressure_star", &[], &[])?,
+            vertices: state.bind(gpu, "vertex_pressure.wgsl", "vertex_pressure", &[], &[])?,
+        })
+    }
+
+    /// Cell pressures, then vertex pressures and stiffness.
+    pub fn record(&self, pass: &mut Pass, state: &State) {
+        pass.stage("intermediate_pressure");
+        pass.dispatch(&self.cells, &slots(state, "BEGIN"));
+        pass.dispatch(&self.vertices, &slots(state, "BEGIN"));
+    }
+}

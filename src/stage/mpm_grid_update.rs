@@ -1,0 +1,30 @@
+//! `mpm_grid_update`: how do the nodes move? Elastic force of one sub-step, walls. [Cao et al. 2022, step 6]
+
+use super::Parts;
+use super::time_step::slots;
+use crate::error::Result;
+use crate::gpu::{Bound, Pass};
+use crate::state::State;
+
+/// Kernels of the stage.
+#[derive(Debug)]
+pub struct MpmGridUpdate {
+    update: Bound,
+}
+
+impl MpmGridUpdate {
+    /// Binds.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(parts: Parts<'_>) -> Result<Self> {
+        let Parts { gpu, state } = parts;
+        Ok(Self { update: state.bind(gpu, "mpm_grid_update.wgsl", "mpm_grid_update", &[], &[])? })
+    }
+
+    /// One sub-step of the nodes.
+    pub fn record(&self, pass: &mut Pass, state: &State) {
+        pass.stage("mpm_grid_update");
+        pass.dispatch(&self.update, &slots(state, "SUBSTEP"));
+    }
+}

@@ -1,0 +1,76 @@
+//! `time_step`: how far may we go? [Kwatra et al. 2009, eq. 20] And the device's control of the step.
+
+use super::{Parts, extent};
+use crate::error::Result;
+use crate::gpu::{Bound, Extent, Pass};
+use crate::state::State;
+use crate::state::constants::Entry;
+
+/// Kernels of the stage.
+#[derive(Debug)]
+pub struct TimeStep {
+    gas: Bound,
+    particles: Bound,
+    choose: Bound,
+    limiter: Bound,
+    solved: Bound,
+    substep: Bound,
+    finish: Bound,
+}
+
+impl TimeStep {
+    /// Binds; `pcg` holds the outcome of the solve.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(parts: Parts<'_>, pcg: &wgpu::Buffer) -> Result<Self> {
+        let Parts { gpu, state } = parts;
+        let maxima = [("maxima", state.partials.raw())];
+        let time = |entry: &str| state.bind(gpu, "time_step.wgsl", entry, &maxima, &[]);
+        let control = |entry: &str| state.bind(gpu, "step_control.wgsl", entry, &[("pcg", pcg)], &[]);
+        Ok(Self {
+            gas: time("time_step_gas")?,
+            particles: time("time_step_particles")?,
+            choose: time("time_step_choose")?,
+            limiter: control("control_limiter")?,
+            solved: control("control_solved")?,
+            substep: control("control_substep")?,
+            finish: control("control_finish")?,
+        })
+    }
+
+    /// Chooses dt and opens the step, if one is due.
+    pub fn record(&self, pass: &mut Pass, state: &State) {
+        pass.stage("time_step");
+        pass.dispatch(&self.gas, &Extent::Groups([state.params.groups, 1, 1]));
+        if state.has_solids() {
+            pass.dispatch(&self.particles, &Extent::Groups([state.params.groups, 1, 1]));
+        }
+        pass.dispatch(&self.choose, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Opens the correction of the advection where the limiter acted.
+    pub fn record_limiter(&self, pass: &mut Pass) {
+        pass.dispatch(&self.limiter, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Opens the updates if the solve has finished.
+    pub fn record_solved(&self, pass: &mut Pass) {
+        pass.dispatch(&self.solved, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Opens one elastic sub-step if one is due.
+    pub fn record_substep(&self, pass: &mut Pass) {
+        pass.dispatch(&self.substep, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Closes the step if it is complete.
+    pub fn record_finish(&self, pass: &mut Pass) {
+        pass.dispatch(&self.finish, &Extent::Groups([1, 1, 1]));
+    }
+}
+
+/// Shorthand of the stages: all slots, of a phase.
+pub(super) fn slots<'a>(state: &'a State, phase: &str) -> Extent<'a> {
+    extent(state, phase, Entry::Slots)
+}

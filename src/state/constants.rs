@@ -1,0 +1,124 @@
+//! WGSL text that goes before every shader: the numbers that Rust and WGSL share have their home here.
+
+use std::fmt::Write as _;
+
+use crate::material;
+
+/// Cell kinds, low two bits of a cell word.
+pub const GAS: u32 = 0;
+/// Holds enough solid to stop the gas.
+pub const SOLID: u32 = 1;
+/// Static obstacle, or outside of a wall side.
+pub const WALL: u32 = 2;
+/// Outside of an inlet or outlet side.
+pub const GHOST: u32 = 3;
+
+/// Stage names in the order of a step; the position is the stage number in a fault.
+pub const STAGES: [&str; 10] = [
+    "time_step",
+    "particle_sort",
+    "p2g",
+    "interface",
+    "gas_advection",
+    "intermediate_pressure",
+    "coupled_solve",
+    "fluid_update",
+    "mpm_grid_update",
+    "g2p",
+];
+
+/// Groups, at most, that leave one partial result each.
+pub const PARTIALS: u32 = 1024;
+/// vec4 entries of one record of the history ring.
+pub const HISTORY_WIDTH: u32 = 11;
+/// Fault word of a healthy run.
+pub const NO_FAULT: u32 = u32::MAX;
+/// Dispatches of the longest prefix sum that a step runs.
+pub const SCAN_DISPATCHES: usize = 6;
+/// Entries of a phase in the table of extents.
+pub const PHASE_WIDTH: usize = 4 + SCAN_DISPATCHES;
+/// Phases whose dispatches are opened and closed together.
+pub const PHASES: [&str; 7] = ["BEGIN", "LIMIT", "UPDATE", "SUBSTEP", "AGAIN", "FIRST", "END"];
+
+/// Entries of a phase in the table of extents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Entry {
+    /// One thread per slot.
+    Slots = 0,
+    /// One thread per particle.
+    Particles = 1,
+    /// [`super::Params::groups`] groups that stride and leave one partial result each.
+    Reduce = 2,
+    /// One group.
+    Single = 3,
+    /// First dispatch of a prefix sum.
+    Scan = 4,
+}
+
+/// Byte offset of an entry of a phase in the table of extents.
+///
+/// # Panics
+/// If the phase is not in [`PHASES`]: a bug of the caller.
+#[must_use]
+pub fn extent_offset(phase: &str, entry: Entry) -> u64 {
+    let at = PHASES.iter().position(|name| *name == phase).expect("phase names are literals of this crate");
+    ((at * PHASE_WIDTH) as u64 + entry as u64) * 16
+}
+
+/// The constants as WGSL, and the switch over the registered materials.
+#[must_use]
+pub fn source() -> String {
+    let mut text = String::new();
+    let mut put = |name: &str, value: u32| {
+        let _ = writeln!(text, "const {name} = {value}u;");
+    };
+    for (name, value) in [("GAS", GAS), ("SOLID", SOLID), ("WALL", WALL), ("GHOST", GHOST)] {
+        put(name, value);
+    }
+    let flags =
+        ["NODE_GAS", "NODE_REGULAR", "NODE_SOLID", "VERTEX_GAS", "VERTEX_REGULAR", "VERTEX_SOLID", "FLUX_REGULAR"];
+    for (bit, name) in flags.iter().enumerate() {
+        put(name, 1 << (4 + bit));
+    }
+    for (value, name) in ["SIDE_WALL", "SIDE_INLET", "SIDE_OUTLET"].iter().enumerate() {
+        put(name, value as u32);
+    }
+    for (value, name) in ["INTERFACE_RESOLVED", "INTERFACE_H", "INTERFACE_SINGLE"].iter().enumerate() {
+        put(name, value as u32);
+    }
+    for (value, name) in ["PHASE_IDLE", "PHASE_SOLVE", "PHASE_SUBSTEP"].iter().enumerate() {
+        put(name, value as u32);
+    }
+    for (value, name) in STAGES.iter().enumerate() {
+        put(&format!("STAGE_{}", name.to_uppercase()), value as u32);
+    }
+    for (value, name) in PHASES.iter().enumerate() {
+        put(&format!("PHASE_{name}_EXTENTS"), (PHASE_WIDTH * value) as u32);
+    }
+    for (value, name) in ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "SCAN"].iter().enumerate() {
+        put(&format!("EXTENT_{name}"), value as u32);
+    }
+    put("MAX_GROUPS", 65_535);
+    put("PARTIALS", PARTIALS);
+    put("SCAN_DISPATCHES", SCAN_DISPATCHES as u32);
+    put("HISTORY_WIDTH", HISTORY_WIDTH);
+    put("NO_FAULT", NO_FAULT);
+    put("NO_EXTRA", u32::MAX);
+    text.push_str(crate::numerics::pcg::source());
+    text
+}
+
+/// The constants for one shader file; those that ask materials something also get the switch over the registered laws.
+#[must_use]
+pub fn source_for(shader: &str) -> String {
+    let mut text = source();
+    if MATERIAL_SHADERS.contains(&shader) {
+        let _ = writeln!(text, "const MAX_MATERIALS = {}u;", super::MAX_MATERIALS);
+        text.push_str(&material::wgsl_switch());
+    }
+    text
+}
+
+/// Shaders that include `shared/material.wgsl`.
+const MATERIAL_SHADERS: [&str; 3] = ["interface.wgsl", "g2p.wgsl", "diagnostics.wgsl"];

@@ -1,0 +1,41 @@
+//! What the device decides about a run.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Mirror of `Control` in `shaders/shared/control.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Control {
+    /// Current step \[s\].
+    pub dt: f32,
+    /// Previous step \[s\].
+    pub dt_previous: f32,
+    /// Time left to the target \[s\].
+    pub remaining: f32,
+    /// 0 idle, 1 solving, 2 sub-stepping.
+    pub phase: u32,
+    /// Elastic sub-steps of this step.
+    pub substeps: u32,
+    /// Next one to run.
+    pub substep: u32,
+    /// Finished steps.
+    pub step: u32,
+    /// Smallest stage << 27 | slot that met an impossible value.
+    pub fault: u32,
+    /// Cells where the flux limiter acted, this step.
+    pub limited: u32,
+    /// The same when the first advection stage ended.
+    pub limited_before: u32,
+    /// Cells where the energy floor acted, this step.
+    pub floored: u32,
+    /// Particles held back at a wall, this step.
+    pub clamped: u32,
+    /// Particles that left through an open side, since the start.
+    pub escaped: u32,
+    /// Vertices that carry P, h and Q apart, this step.
+    pub extra: u32,
+    /// Iterations of the last solve.
+    pub iterations: u32,
+    /// Relative residual of the last solve.
+    pub residual: f32,
+}

@@ -1,0 +1,35 @@
+//! The gas: conserved variables and the scratch space of advection and solve.
+
+use crate::error::Result;
+use crate::gpu::{Buffer, Gpu};
+
+/// Buffers of the gas, in padded slots.
+#[derive(Debug)]
+pub struct GasState {
+    /// Density and momentum now; in SOLID slots owed gas, in GHOST and WALL slots what has crossed the boundary.
+    pub conserved: Buffer<[f32; 4]>,
+    /// Total energy per volume: now, then two scratch thirds (stages of advection; cell pressure of the predictor).
+    pub energy: Buffer<f32>,
+    /// Two halves of scratch: stages of advection; forces of gas nodes and of solid nodes; integer sums of p2g.
+    pub work: Buffer<[f32; 4]>,
+    /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\].
+    pub owed_flow: Buffer<[f32; 4]>,
+    /// Energy that GAS cells owe \[J\].
+    pub owed_energy: Buffer<f32>,
+}
+
+impl GasState {
+    /// Allocates for a number of slots.
+    ///
+    /// # Errors
+    /// If the device has no room.
+    pub fn new(gpu: &Gpu, slots: usize) -> Result<Self> {
+        Ok(Self {
+            conserved: Buffer::new(gpu, "conserved", slots)?,
+            energy: Buffer::new(gpu, "energy", 3 * slots)?,
+            work: Buffer::new(gpu, "work", 2 * slots)?,
+            owed_flow: Buffer::new(gpu, "owed_flow", slots)?,
+            owed_energy: Buffer::new(gpu, "owed_energy", slots)?,
+        })
+    }
+}

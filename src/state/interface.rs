@@ -1,0 +1,33 @@
+//! Where gas and solid meet, and the unknowns of the pressure system.
+
+use crate::error::Result;
+use crate::gpu::{Buffer, Gpu};
+
+/// Marks of cells and vertices, in padded slots.
+#[derive(Debug)]
+pub struct Interface {
+    /// Word of each slot: kind, previous kind, flags, blocked fraction.
+    pub cells: Buffer<u32>,
+    /// Solid volume and mean compliance of each cell.
+    pub fill: Buffer<[f32; 2]>,
+    /// Vertex ghost pressure before the solve; its change after.
+    pub ghost: Buffer<f32>,
+    /// Place of a vertex in the list of those that carry P, h and Q apart.
+    pub extra: Buffer<u32>,
+}
+
+impl Interface {
+    /// Allocates for a number of slots; without solids only what the gas needs.
+    ///
+    /// # Errors
+    /// If the device has no room.
+    pub fn new(gpu: &Gpu, slots: usize, solids: bool) -> Result<Self> {
+        let solid_slots = if solids { slots } else { 1 };
+        Ok(Self {
+            cells: Buffer::new(gpu, "cells", slots)?,
+            fill: Buffer::new(gpu, "fill", slots)?,
+            ghost: Buffer::new(gpu, "ghost", solid_slots)?,
+            extra: Buffer::new(gpu, "extra", solid_slots)?,
+        })
+    }
+}

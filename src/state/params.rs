@@ -1,0 +1,199 @@
+//! What one run fixes, as shaders see it.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{Grid, constants};
+use crate::gpu::WORKGROUP;
+use crate::numerics::Scan;
+use crate::scene::{Boundary, InterfacePressure, Pair, Power, Scene};
+
+/// Mirror of `Params` in `shaders/shared/params.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Params {
+    /// Cells per axis, 1 on inactive axes.
+    pub cells: [u32; 3],
+    /// Length of every cell, node and vertex array.
+    pub slots: u32,
+    /// Cells per axis with the ring.
+    pub stride: [u32; 3],
+    /// Particles.
+    pub particles: u32,
+    /// Low corner of the domain \[m\].
+    pub origin: [f32; 3],
+    /// Cell edge \[m\].
+    pub spacing: f32,
+    /// Gravity \[m s^-2\].
+    pub gravity: [f32; 3],
+    /// Ratio of specific heats.
+    pub gamma: f32,
+    /// Ambient density \[kg m^-3\].
+    pub ambient_density: f32,
+    /// Ambient pressure \[Pa\].
+    pub ambient_pressure: f32,
+    /// Courant number of the material velocity.
+    pub cfl: f32,
+    /// Cap of c dt / dx.
+    pub max_courant: f32,
+    /// Cap of dt over the previous dt.
+    pub max_growth: f32,
+    /// Fixed step \[s\], 0 for none.
+    pub fixed_step: f32,
+    /// Courant number of the elastic sub-steps.
+    pub elastic_cfl: f32,
+    /// Fastest elastic wave of any body \[m s^-1\].
+    pub wave_speed: f32,
+    /// Share of a cell that makes it solid.
+    pub solid_threshold: f32,
+    /// Least node mass that the pressure solve sees \[kg\].
+    pub mass_floor: f32,
+    /// Relative tolerance of the solve.
+    pub tolerance: f32,
+    /// Vertices that may carry P, h and Q apart.
+    pub extra_capacity: u32,
+    /// Iterations after which a solve counts as stalled.
+    pub max_iterations: u32,
+    /// Probes.
+    pub probes: u32,
+    /// Sum of weights that may meet at one node, scatter form of p2g.
+    pub crowd: f32,
+    /// Steps that the history ring holds.
+    pub history: u32,
+    /// Bodies.
+    pub bodies: u32,
+    /// Largest number of sub-steps of one step.
+    pub max_substeps: u32,
+    /// Groups that leave partial results.
+    pub groups: u32,
+    /// Keeps `side` on a 16-byte boundary.
+    pub unused: u32,
+    /// Kind of each side: x-, x+, y-, y+, z-, z+.
+    pub side: [u32; 8],
+    /// Density and momentum of each inlet.
+    pub inlet_flow: [[f32; 4]; 6],
+    /// Total energy per volume of each inlet, first entry.
+    pub inlet_energy: [[f32; 4]; 6],
+    /// Groups of each dispatch of a prefix sum over all slots and one more.
+    pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
+}
+
+/// What the scene's particles add to the parameters.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SolidLimits {
+    /// Number of particles.
+    pub particles: u32,
+    /// Largest density of a particle \[kg m^-3\].
+    pub max_density: f64,
+    /// Fastest elastic wave \[m s^-1\].
+    pub wave_speed: f64,
+    /// Largest number of particles that fill one cell at rest.
+    pub per_cell: f64,
+}
+
+/// Smallest share of a full node's mass that the solve sees: lighter nodes would rule its conditioning.
+const MASS_FLOOR: f64 = 0.01;
+/// Crowding, relative to bodies at rest, that the scatter form of p2g has room for.
+const CROWDING: f64 = 16.0;
+/// Steps that the history ring holds; the host reads it before it wraps.
+pub const HISTORY: u32 = 256;
+
+impl Params {
+    /// Parameters of a scene on its grid.
+    #[must_use]
+    pub fn new(scene: &Scene, grid: &Grid, solids: &SolidLimits, extra_capacity: u32) -> Params {
+        let (time, numerics) = (&scene.time, &scene.numerics);
+        let cell_volume = scene.domain.cell_volume();
+        let mut params = Params {
+            cells: grid.cells,
+            slots: grid.slots() as u32,
+            stride: grid.strides(),
+            particles: solids.particles,
+            origin: grid.origin,
+            spacing: grid.spacing,
+            gravity: scene.gravity.map(|g| g as f32),
+            gamma: scene.gas.gamma as f32,
+            ambient_density: scene.gas.ambient.density as f32,
+            ambient_pressure: scene.gas.ambient.pressure as f32,
+            cfl: time.cfl as f32,
+            max_courant: time.max_courant as f32,
+            max_growth: time.max_growth as f32,
+            fixed_step: time.fixed_step.unwrap_or(0.0) as f32,
+            elastic_cfl: numerics.elastic_cfl as f32,
+            wave_speed: solids.wave_speed as f32,
+            solid_threshold: numerics.solid_threshold as f32,
+            mass_floor: (MASS_FLOOR * solids.max_density * cell_volume) as f32,
+            tolerance: numerics.tolerance as f32,
+            extra_capacity,
+            max_iterations: numerics.max_iterations,
+            probes: scene.probes.len() as u32,
+            crowd: (CROWDING * solids.per_cell.max(1.0)) as f32,
+            history: HISTORY,
+            bodies: scene.bodies.len() as u32,
+            max_substeps: numerics.max_substeps,
+            groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, constants::PARTIALS),
+            unused: 0,
+            side: [0; 8],
+            inlet_flow: [[0.0; 4]; 6],
+            inlet_energy: [[0.0; 4]; 6],
+            scan: [[0; 4]; constants::SCAN_DISPATCHES],
+        };
+        for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
+            *entry = [x, y, z, 0];
+        }
+        for (index, side) in scene.boundary.sides().iter().enumerate() {
+            params.side[index] = match side {
+                Boundary::Wall => 0,
+                Boundary::Inlet(state) => {
+                    let [density, x, y, z, energy] = state.conserved(scene.gas.gamma).map(|v| v as f32);
+                    params.inlet_flow[index] = [density, x, y, z];
+                    params.inlet_energy[index][0] = energy;
+                    1
+                }
+                Boundary::Outlet => 2,
+            };
+        }
+        params
+    }
+}
+
+/// Values of the pipeline overrides: dimension and the switches of the method.
+#[must_use]
+pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
+    let numerics = &scene.numerics;
+    let flag = |on: bool| f64::from(u8::from(on));
+    vec![
+        ("DIM", f64::from(scene.domain.dimension)),
+        ("SOLIDS", flag(solids)),
+        ("QUADRATIC", flag(numerics.pair == Pair::B2b1)),
+        ("PREDICTOR", flag(numerics.predictor)),
+        ("LIMITER", flag(numerics.limiter)),
+        ("BLENDING", flag(numerics.blending)),
+        ("LEDGER", flag(numerics.ledger)),
+        ("MIDPOINT_POWER", flag(numerics.power == Power::Midpoint)),
+        ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
+        (
+            "INTERFACE",
+            match numerics.interface {
+                InterfacePressure::Resolved => 0.0,
+                InterfacePressure::H => 1.0,
+                InterfacePressure::Single => 2.0,
+            },
+        ),
+    ]
+}
+
+/// Kind of a slot outside of the domain: WALL behind any wall side, else GHOST.
+#[must_use]
+pub fn kind_outside(params: &Params, cell: [i32; 3], dimension: u32) -> u32 {
+    let behind = |axis: usize| {
+        if cell[axis] < 0 {
+            Some(2 * axis)
+        } else if cell[axis] >= params.cells[axis] as i32 {
+            Some(2 * axis + 1)
+        } else {
+            None
+        }
+    };
+    let wall = (0..dimension as usize).filter_map(behind).any(|side| params.side[side] == 0);
+    if wall { constants::WALL } else { constants::GHOST }
+}

@@ -1,0 +1,99 @@
+//! The particles of the solids and the nodes they write to.
+
+use crate::error::Result;
+use crate::gpu::{Buffer, Gpu};
+use crate::scene::Scene;
+
+/// Buffers of the particles, structure of arrays.
+#[derive(Debug)]
+pub struct Particles {
+    /// Number of particles.
+    pub count: u32,
+    /// Position \[m\] and mass \[kg\].
+    pub position: Buffer<[f32; 4]>,
+    /// Velocity \[m s^-1\] and volume at rest \[m^3\].
+    pub velocity: Buffer<[f32; 4]>,
+    /// Columns of the affine matrix \[s^-1\]; w: ghost pressure \[Pa\], plastic strain, material index.
+    pub affine: Buffer<[f32; 4]>,
+    /// Columns of the deformation gradient; w: body index, 1 while inside the domain, unused.
+    pub deformation: Buffer<[f32; 4]>,
+    /// Kirchhoff stress times volume at rest \[J\]: xx, yy, zz; then xy, yz, zx.
+    pub stress: Buffer<[f32; 4]>,
+    /// Particle indices, cell by cell.
+    pub order: Buffer<u32>,
+    /// First entry of each slot in `order`, and the end.
+    pub cell_start: Buffer<u32>,
+    /// Velocity and mass of the grid nodes, padded slots.
+    pub node: Buffer<[f32; 4]>,
+}
+
+/// Host arrays of the particles at the start.
+#[derive(Debug, Default)]
+pub struct ParticleStart {
+    position: Vec<[f32; 4]>,
+    velocity: Vec<[f32; 4]>,
+    affine: Vec<[f32; 4]>,
+    deformation: Vec<[f32; 4]>,
+    /// Largest density \[kg m^-3\].
+    pub max_density: f64,
+    /// Fastest elastic wave \[m s^-1\].
+    pub wave_speed: f64,
+}
+
+impl ParticleStart {
+    /// Seeds the bodies of a scene; the ghost pressure starts at the ambient pressure.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let mut start = Self::default();
+        let materials: Vec<_> = scene.materials.values().collect();
+        let bits = f32::from_bits;
+        for seed in scene.seed_particles() {
+            let [x, y, z] = seed.position.map(|v| v as f32);
+            let [u, v, w] = seed.velocity.map(|v| v as f32);
+            start.position.push([x, y, z, (seed.density * seed.volume) as f32]);
+            start.velocity.push([u, v, w, seed.volume as f32]);
+            let ghost = scene.gas.ambient.pressure as f32;
+            start.affine.extend([[0.0, 0.0, 0.0, ghost], [0.0; 4], [0.0, 0.0, 0.0, bits(seed.material)]]);
+            start.deformation.extend([[1.0, 0.0, 0.0, bits(seed.body)], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]]);
+            start.max_density = start.max_density.max(seed.density);
+            let wave_speed = materials[seed.material as usize].wave_speed(seed.density);
+            start.wave_speed = start.wave_speed.max(wave_speed);
+        }
+        start
+    }
+
+    /// Number of particles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether the scene has no bodies.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+}
+
+impl Particles {
+    /// Allocates and uploads.
+    ///
+    /// # Errors
+    /// If the device has no room.
+    pub fn new(gpu: &Gpu, slots: usize, start: &ParticleStart) -> Result<Self> {
+        let count = start.len();
+        let solid_slots = if start.is_empty() { 1 } else { slots };
+        let particles = Self {
+            count: count as u32,
+            position: Buffer::from_slice(gpu, "position", &start.position)?,
+            velocity: Buffer::from_slice(gpu, "velocity", &start.velocity)?,
+            affine: Buffer::from_slice(gpu, "affine", &start.affine)?,
+            deformation: Buffer::from_slice(gpu, "deformation", &start.deformation)?,
+            stress: Buffer::new(gpu, "stress", 2 * count)?,
+            order: Buffer::new(gpu, "order", count)?,
+            cell_start: Buffer::new(gpu, "cell_start", solid_slots + 1)?,
+            node: Buffer::new(gpu, "node", solid_slots)?,
+        };
+        Ok(particles)
+    }
+}
