@@ -6,3 +6,5 @@ mod reference;
 mod reference_exact;
 #[path = "suite/reference_tables.rs"]
 mod reference_tables;
+#[path = "suite/reference_solids.rs"]
+mod reference_solids;

@@ -106,10 +106,10 @@ pub(crate) fn radial_density(n: usize, extent: f64, power: i32, t: f64) -> Vec<f
     let mut u: Vec<[f64; 3]> = (0..n).map(start).collect();
     let primitive = |u: [f64; 3]| [u[0], u[1] / u[0], (GAMMA - 1.0) * (u[2] - 0.5 * u[1] * u[1] / u[0])];
     let rate = |u: &[[f64; 3]]| -> Vec<[f64; 3]> {
+        let values: Vec<Primitive> = u.iter().map(|u| primitive(*u)).collect();
         let q = |i: i64| {
-            let mut value = primitive(u[if i < 0 { (-1 - i) as usize } else { (i as usize).min(n - 1) }]);
-            value[1] *= if i < 0 { -1.0 } else { 1.0 };
-            value
+            let [density, velocity, pressure] = values[if i < 0 { (-1 - i) as usize } else { (i as usize).min(n - 1) }];
+            [density, if i < 0 { -velocity } else { velocity }, pressure]
         };
         let slope = |i: i64| [0, 1, 2].map(|k| limited(q(i)[k] - q(i - 1)[k], q(i + 1)[k] - q(i)[k]));
         let side = |i: i64, s: f64| [0, 1, 2].map(|k| q(i)[k] + s * slope(i)[k]);
@@ -117,7 +117,7 @@ pub(crate) fn radial_density(n: usize, extent: f64, power: i32, t: f64) -> Vec<f
         let radius = |i: usize| (i as f64 * dr).powi(power);
         let cell = |i: usize| {
             let volume = (((i + 1) as f64 * dr).powi(power + 1) - (i as f64 * dr).powi(power + 1)) / f64::from(power + 1);
-            let pressure = primitive(u[i])[2] * (radius(i + 1) - radius(i)) / volume;
+            let pressure = values[i][2] * (radius(i + 1) - radius(i)) / volume;
             let net = [0, 1, 2].map(|k| (radius(i) * faces[i][k] - radius(i + 1) * faces[i + 1][k]) / volume);
             [net[0], net[1] + pressure, net[2]]
         };
