@@ -4,7 +4,7 @@
 mod reference;
 #[path = "suite/reference_exact.rs"]
 mod reference_exact;
-#[path = "suite/reference_tables.rs"]
-mod reference_tables;
 #[path = "suite/reference_solids.rs"]
 mod reference_solids;
+#[path = "suite/reference_tables.rs"]
+mod reference_tables;

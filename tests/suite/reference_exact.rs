@@ -72,7 +72,8 @@ pub(crate) fn sample(left: Primitive, right: Primitive, s: f64) -> Primitive {
 pub(crate) fn riemann_density(left: Primitive, right: Primitive, n: usize, t: f64) -> Vec<f64> {
     let points = 200;
     let at = |i: usize, k: usize| (i as f64 + (k as f64 + 0.5) / points as f64) / n as f64;
-    let mean = |i: usize| (0..points).map(|k| sample(left, right, (at(i, k) - 0.5) / t)[0]).sum::<f64>() / points as f64;
+    let mean =
+        |i: usize| (0..points).map(|k| sample(left, right, (at(i, k) - 0.5) / t)[0]).sum::<f64>() / points as f64;
     (0..n).map(mean).collect()
 }
 
@@ -116,7 +117,8 @@ pub(crate) fn radial_density(n: usize, extent: f64, power: i32, t: f64) -> Vec<f
         let faces: Vec<_> = (0..=n as i64).map(|i| hllc(side(i - 1, 0.5), side(i, -0.5))).collect();
         let radius = |i: usize| (i as f64 * dr).powi(power);
         let cell = |i: usize| {
-            let volume = (((i + 1) as f64 * dr).powi(power + 1) - (i as f64 * dr).powi(power + 1)) / f64::from(power + 1);
+            let volume =
+                (((i + 1) as f64 * dr).powi(power + 1) - (i as f64 * dr).powi(power + 1)) / f64::from(power + 1);
             let pressure = values[i][2] * (radius(i + 1) - radius(i)) / volume;
             let net = [0, 1, 2].map(|k| (radius(i) * faces[i][k] - radius(i + 1) * faces[i + 1][k]) / volume);
             [net[0], net[1] + pressure, net[2]]

@@ -4,14 +4,21 @@ use crate::reference::coupled_solve::{Inputs, System, assemble, dot};
 use crate::reference::grid::Grid;
 use crate::reference::material::Material;
 use crate::reference::step::{Report, advance_to, step};
+use crate::reference::{
+    Gas, g2p, gas_advection, interface, intermediate_pressure, mpm_grid_update, p2g, particle_sort,
+};
 use crate::reference::{Pair, Particle, Problem, SOLID, Shared, Side, State};
-use crate::reference::{Gas, gas_advection, interface, intermediate_pressure, p2g, particle_sort};
 use crate::reference_exact::slab_path;
 use crate::reference_tables::Noise;
 use glam::{DMat3, DVec3};
 
 /// Particles on a lattice of `per_axis` per cell and axis wherever `inside` says so.
-pub(crate) fn lattice(problem: &Problem, per_axis: i32, density: f64, inside: impl Fn([f64; 3]) -> bool) -> Vec<Particle> {
+pub(crate) fn lattice(
+    problem: &Problem,
+    per_axis: i32,
+    density: f64,
+    inside: impl Fn([f64; 3]) -> bool,
+) -> Vec<Particle> {
     let grid = &problem.grid;
     let volume0 = grid.volume() / f64::from(per_axis.pow(grid.dimension as u32));
     let particle = |position: [f64; 3]| Particle {
@@ -24,7 +31,6 @@ pub(crate) fn lattice(problem: &Problem, per_axis: i32, density: f64, inside: im
         ghost_pressure: problem.ambient.1,
         plastic_strain: 0.0,
         material: 0,
-        body: 0,
         active: true,
     };
     let mut all = Vec::new();
@@ -45,7 +51,13 @@ pub(crate) fn lattice(problem: &Problem, per_axis: i32, density: f64, inside: im
 }
 
 /// Largest position error, mass drift, energy drift and mean iterations of the driven slab.
-fn slab(path: &[(f64, f64, f64)], density: f64, young: f64, n: usize, configure: impl Fn(&mut Problem)) -> (f64, f64, f64, f64) {
+fn slab(
+    path: &[(f64, f64, f64)],
+    density: f64,
+    young: f64,
+    n: usize,
+    configure: impl Fn(&mut Problem),
+) -> (f64, f64, f64, f64) {
     let mut problem = Problem::new(Grid::new(&[n as i32], [0.0; 3], 1.0 / n as f64), [Side::Wall; 6]);
     problem.materials = vec![Material::new(young, 0.3, f64::INFINITY)];
     configure(&mut problem);
@@ -97,7 +109,9 @@ fn slab_table(sizes: &[usize], cases: &[(f64, f64, &[f64])]) {
         for (n, expected) in sizes.iter().zip(*table) {
             let old = slab(&path, *density, *young, *n, old_rules);
             let new = slab(&path, *density, *young, *n, |_| {});
-            println!("density {density} E {young} N {n}: position, mass, energy, PCG: old rules {old:?}, new {new:?}, table {expected}");
+            println!(
+                "density {density} E {young} N {n}: position, mass, energy, PCG: old rules {old:?}, new {new:?}, table {expected}"
+            );
             assert!(old.0 < 1.15 * expected && new.0 < 1.15 * expected, "position error");
             assert!(old.1 < 1e-13 * *n as f64 && new.1 < 1e-13 * *n as f64, "mass drift");
             assert!(new.2.abs() < 1e-3, "energy drift");
@@ -147,7 +161,10 @@ fn shell_at_rest_stays_at_rest() {
             sound_steps += step(&problem, &mut state, 0.5 / 32.0 / 1.4_f64.sqrt()).iterations;
         }
         let (speed, totals) = (fastest(&state), state.gas_totals(&problem));
-        println!("{shared:?}: fastest particle {speed:.1e}, momentum {:.1e}, iterations {sound_steps}", totals[1].hypot(totals[2]));
+        println!(
+            "{shared:?}: fastest particle {speed:.1e}, momentum {:.1e}, iterations {sound_steps}",
+            totals[1].hypot(totals[2])
+        );
         assert!(speed < 1e-12);
     }
 }
@@ -185,7 +202,9 @@ fn exploding_shell() {
 fn exploding_shell_fine() {
     for n in [64, 96] {
         let (mass, energy, centre, volume, iterations) = explode(n, 0.35, |_| {});
-        println!("{n}: mass {mass:.1e}, energy {energy:.4}, centre {centre:.1e}, det F {volume:?}, PCG {iterations:.1}");
+        println!(
+            "{n}: mass {mass:.1e}, energy {energy:.4}, centre {centre:.1e}, det F {volume:?}, PCG {iterations:.1}"
+        );
         assert!(mass.abs() < 1e-12 && energy.abs() < 0.02);
     }
 }
@@ -204,7 +223,8 @@ fn cylinder(n: i32, configure: impl Fn(&mut Problem)) -> (f64, f64, f64) {
     let reports = advance_to(&problem, &mut state, 0.30);
     let centre = state.particles.iter().map(|p| p.position).sum::<DVec3>() / state.particles.len() as f64;
     let touched: usize = reports.iter().map(|r| r.limited + r.floored).sum();
-    println!("{n}: {} steps, limited or floored {touched}", reports.len());
+    let substeps = reports.iter().map(|r| r.substeps).max();
+    println!("{n}: {} steps, limited or floored {touched}, at most {substeps:?} elastic sub-steps", reports.len());
     (centre.x, centre.y, reports.iter().map(|r| r.iterations).sum::<usize>() as f64 / reports.len() as f64)
 }
 
@@ -223,7 +243,10 @@ fn random_system(dimension: usize, pair: Pair, shared: Shared, seed: u64) -> Sys
     let mut noise = Noise(seed);
     let cells = [12, 7, 5];
     let inlet = Side::Inlet { density: 1.0, velocity: [0.3, 0.0, 0.0], pressure: 1.0 };
-    let mut problem = Problem::new(Grid::new(&cells[..dimension], [0.0; 3], 0.1), [inlet, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Outlet]);
+    let mut problem = Problem::new(
+        Grid::new(&cells[..dimension], [0.0; 3], 0.1),
+        [inlet, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Outlet],
+    );
     (problem.numerics.pair, problem.numerics.shared) = (pair, shared);
     problem.materials = vec![Material::new(50.0, 0.3, f64::INFINITY)];
     let obstacle = problem.grid.slot([9, i32::from(dimension > 1), 0]);
@@ -250,7 +273,9 @@ fn random_system(dimension: usize, pair: Pair, shared: Shared, seed: u64) -> Sys
 #[test]
 fn operator_is_symmetric_and_positive() {
     for dimension in 1..=3 {
-        for (pair, shared, seed) in [(Pair::B1b0, Shared::Resolved, 1), (Pair::B2b1, Shared::H, 2), (Pair::B1b0, Shared::Single, 3)] {
+        for (pair, shared, seed) in
+            [(Pair::B1b0, Shared::Resolved, 1), (Pair::B2b1, Shared::H, 2), (Pair::B1b0, Shared::Single, 3)]
+        {
             let system = random_system(dimension, pair, shared, seed);
             let mut noise = Noise(seed + 10);
             let mut random = || -> Vec<f64> {
@@ -287,7 +312,15 @@ fn interior_stencils() {
         let faces = interface::interface(&problem, state.cells.clone(), &bins, &nodes);
         let intermediate = &intermediate_pressure::intermediate(&problem, &faces, &state.gas, 0.1);
         let star = &state.gas;
-        let system = assemble(&Inputs { problem: &problem, interface: &faces, bins: &bins, star, intermediate, nodes: &nodes, dt: 0.1 });
+        let system = assemble(&Inputs {
+            problem: &problem,
+            interface: &faces,
+            bins: &bins,
+            star,
+            intermediate,
+            nodes: &nodes,
+            dt: 0.1,
+        });
         let row = system.rows.iter().find(|row| row.node == problem.grid.slot([4, 4, 0]) && row.axis == 0);
         let row = row.expect("an inner node has a row");
         for y in 0..4 {
@@ -299,4 +332,118 @@ fn interior_stencils() {
             }
         }
     }
+}
+
+/// 120 particles of a ninth of a cell, each alone in its cell, hit by a Mach 3 shock: mean v_x, smallest pressure, floor events.
+fn fragments(density: f64, configure: impl Fn(&mut Problem)) -> (f64, f64, f64, usize) {
+    let behind = Side::Inlet { density: 5.4, velocity: [20.0 / 9.0, 0.0, 0.0], pressure: 31.0 / 3.0 };
+    let sides = [behind, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Wall];
+    let mut problem = Problem::new(Grid::new(&[48, 48], [0.0; 3], 1.0 / 48.0), sides);
+    problem.materials = vec![Material::new(1e4, 0.3, f64::INFINITY)];
+    problem.ambient = (1.4, 1.0);
+    configure(&mut problem);
+    let mut particles = lattice(&problem, 1, density, |x| x[0] > 0.2 && x[0] < 0.62);
+    let mut noise = Noise(5);
+    let cell = |p: &Particle| problem.grid.cell_of(p.position.to_array());
+    particles.retain(|p| (cell(p)[0] + 3 * cell(p)[1]) % 8 == 0);
+    particles.truncate(120);
+    for particle in &mut particles {
+        particle.volume0 /= 9.0;
+        particle.mass /= 9.0;
+        particle.position += DVec3::new(noise.next(), noise.next(), 0.0) * (0.3 / 48.0);
+    }
+    let gas = |x: [f64; 3]| if x[0] < 0.12 { (5.4, [20.0 / 9.0, 0.0, 0.0], 31.0 / 3.0) } else { (1.4, [0.0; 3], 1.0) };
+    let mut state = State::new(&problem, gas, particles);
+    let mut least = f64::INFINITY;
+    let (mut floored, mut steps) = (0, 0);
+    for _ in 0..20 {
+        let time = state.time + 0.01;
+        let reports = advance_to(&problem, &mut state, time);
+        steps += reports.len();
+        floored += reports.iter().map(|r| r.floored).sum::<usize>();
+        let gas = (0..problem.grid.slots()).filter(|s| state.cells[*s] == crate::reference::GAS);
+        least = least.min(gas.map(|slot| state.gas.pressure(slot, 1.4)).fold(f64::INFINITY, f64::min));
+    }
+    let mean = state.particles.iter().map(|p| p.velocity.x).sum::<f64>() / state.particles.len() as f64;
+    println!("{steps} steps");
+    (mean, fastest(&state), least, floored)
+}
+
+#[test]
+#[ignore = "a minute"]
+fn fragments_follow_the_gas() {
+    for density in [1.0, 10.0, 1000.0] {
+        let (mean, most, least, floored) =
+            fragments(density, |p| p.numerics.predictor = std::env::var("NOPRED").is_err());
+        println!(
+            "density {density}: mean v_x {mean:.3}, fastest {most:.2}, least p {least:.2e}, floored {floored}; table 2.30, 2.29, 0.44"
+        );
+        assert!(least > 0.0);
+    }
+}
+
+#[test]
+fn stress_is_the_derivative_of_the_energy() {
+    let material = Material::new(3.0, 0.3, f64::INFINITY);
+    let energy = |f: DMat3| {
+        let j = f.determinant();
+        let square: f64 = f.to_cols_array().iter().map(|x| x * x).sum();
+        0.5 * material.mu * (square - 3.0 - 2.0 * j.ln()) + 0.5 * material.lambda * j.ln().powi(2)
+    };
+    let mut noise = Noise(3);
+    for _ in 0..20 {
+        let mut f = DMat3::IDENTITY;
+        (0..3).for_each(|c| f.col_mut(c).as_mut().iter_mut().for_each(|x| *x += 0.3 * noise.next()));
+        let stress = material.stress(f);
+        for (row, column) in [(0, 0), (1, 0), (2, 1)] {
+            let mut turn = DMat3::ZERO;
+            turn.col_mut(column)[row] = 1e-5;
+            let slope = (energy(f + turn * f) - energy(f - turn * f)) / 2e-5;
+            assert!((slope - stress.col(column)[row]).abs() < 1e-7, "{slope}");
+        }
+    }
+    assert!(material.stress(DMat3::IDENTITY).abs_diff_eq(DMat3::ZERO, 1e-15));
+}
+
+#[test]
+fn plastic_return_meets_the_yield_surface() {
+    let material = Material::new(3.0, 0.3, 0.2);
+    let mut noise = Noise(4);
+    for _ in 0..20 {
+        let mut f = DMat3::IDENTITY;
+        (0..3).for_each(|c| f.col_mut(c).as_mut().iter_mut().for_each(|x| *x += 0.4 * noise.next()));
+        let (returned, strain) = material.plastic_return(f);
+        assert!((returned.determinant() / f.determinant() - 1.0).abs() < 1e-12, "volume is kept");
+        assert!(strain > 0.0);
+        let (again, more) = material.plastic_return(returned * (1.0 + 1e-12));
+        assert!(more < 1e-10 && again.abs_diff_eq(returned, 1e-9), "{more}");
+    }
+}
+
+/// A free elastic bar of 40 cells without gas: time of the first half period of its lowest mode, in units of length / wave speed.
+#[test]
+fn elastic_bar_vibrates_at_its_frequency() {
+    let mut problem = Problem::new(Grid::new(&[60], [0.0; 3], 1.0), [Side::Wall; 6]);
+    problem.materials = vec![Material::new(100.0, 0.0, f64::INFINITY)];
+    let mut particles = lattice(&problem, 4, 1.0, |x| x[0] > 10.0 && x[0] < 50.0);
+    let shape = |x: f64| (std::f64::consts::PI * (x - 10.0) / 40.0).cos();
+    let start: Vec<f64> = particles.iter().map(|p| shape(p.position.x)).collect();
+    for (particle, shape) in particles.iter_mut().zip(&start) {
+        particle.velocity.x = 1e-3 * shape;
+    }
+    let still = vec![0.0; problem.grid.slots()];
+    let (mut time, dt) = (0.0, 0.01);
+    let amplitude = |p: &[Particle]| p.iter().zip(&start).map(|(p, s)| p.velocity.x * s).sum::<f64>();
+    let mut before = amplitude(&particles);
+    while amplitude(&particles) > 0.0 {
+        before = amplitude(&particles);
+        let mut nodes = p2g::p2g(&problem, &particles);
+        mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, dt);
+        g2p::g2p(&problem, &nodes.velocity, &still, 0.0, dt, &mut particles);
+        time += dt;
+    }
+    let after = amplitude(&particles);
+    let quarter = time - dt * after / (after - before);
+    println!("quarter period {quarter:.4}, exact {:.4}", 40.0 / 10.0 / 2.0);
+    assert!((quarter / 2.0 - 1.0).abs() < 0.02);
 }

@@ -38,6 +38,8 @@ fn run_case(case: &Case, n: usize, pair: Pair, predictor: bool) -> (f64, Vec<Rep
     problem.numerics.tolerance = 1e-6;
     let mut state = two_states(&problem, left, right);
     let reports = advance_to(&problem, &mut state, time);
+    assert!(reports.iter().all(|r| r.converged));
+    assert!((reports.iter().map(|r| r.dt).sum::<f64>() / time - 1.0).abs() < 1e-12);
     let reference = exact::riemann_density(left, right, n, time);
     let density = |i: usize| state.gas.conserved[problem.grid.slot([i as i32, 0, 0])][0];
     ((0..n).map(|i| (density(i) - reference[i]).abs() / n as f64).sum(), reports)
@@ -52,14 +54,19 @@ fn print_case(case: &Case, n: usize, pair: Pair, predictor: bool) -> f64 {
     let (error, reports) = run_case(case, n, pair, predictor);
     let (mean, most) = iterations(&reports);
     let touched: usize = reports.iter().map(|r| r.limited + r.floored).sum();
-    println!("{:9} {pair:?} N {n} predictor {predictor}: L1 {error:.5}, PCG {mean:.1}/{most}, {} steps, touched {touched}", case.0, reports.len());
+    println!(
+        "{:9} {pair:?} N {n} predictor {predictor}: L1 {error:.5}, PCG {mean:.1}/{most}, {} steps, touched {touched}",
+        case.0,
+        reports.len()
+    );
     error
 }
 
 /// L1 at N = 400, both pairs, without and with the predictor.
 #[test]
 fn shock_tubes() {
-    let plain = [[0.00479, 0.00828, 0.00747, 0.0168, 0.506, 0.00596], [0.00482, 0.00828, 0.0075, 0.0172, 0.497, 0.0062]];
+    let plain =
+        [[0.00479, 0.00828, 0.00747, 0.0168, 0.506, 0.00596], [0.00482, 0.00828, 0.0075, 0.0172, 0.497, 0.0062]];
     let predicted = [0.00311, 0.00750, 0.00587, 0.0129, 0.495, 0.00502];
     for (k, case) in CASES.iter().enumerate() {
         for (row, pair) in [Pair::B1b0, Pair::B2b1].into_iter().enumerate() {
@@ -74,8 +81,10 @@ fn shock_tubes() {
 /// L1 at N = 100 and 200.
 #[test]
 fn shock_tubes_coarse() {
-    let rows = [[0.0132, 0.00815], [0.0213, 0.0129], [0.0194, 0.0133], [0.0469, 0.0294], [1.19, 0.921], [0.016, 0.0102]];
-    let predicted = [[0.00997, 0.00566], [0.0201, 0.0117], [0.0165, 0.0109], [0.0395, 0.0240], [1.19, 0.908], [0.0147, 0.00895]];
+    let rows =
+        [[0.0132, 0.00815], [0.0213, 0.0129], [0.0194, 0.0133], [0.0469, 0.0294], [1.19, 0.921], [0.016, 0.0102]];
+    let predicted =
+        [[0.00997, 0.00566], [0.0201, 0.0117], [0.0165, 0.0109], [0.0395, 0.0240], [1.19, 0.908], [0.0147, 0.00895]];
     for (k, case) in CASES.iter().enumerate() {
         for (column, n) in [100, 200].into_iter().enumerate() {
             for (predictor, expected) in [(false, rows[k][column]), (true, predicted[k][column])] {
@@ -115,10 +124,15 @@ fn explosion(n: usize, pair: Pair, predictor: bool) -> (f64, f64, Vec<Report>) {
 
 #[test]
 fn circular_explosion() {
-    for (pair, predictor, expected) in [(Pair::B1b0, false, 0.0169), (Pair::B2b1, false, 0.0176), (Pair::B1b0, true, 0.0144)] {
+    for (pair, predictor, expected) in
+        [(Pair::B1b0, false, 0.0169), (Pair::B2b1, false, 0.0176), (Pair::B1b0, true, 0.0144)]
+    {
         let (error, asymmetry, reports) = explosion(64, pair, predictor);
         let (mean, most) = iterations(&reports);
-        println!("{pair:?} 64 {predictor}: L1 {error:.5}, asymmetry {asymmetry:.1e}, PCG {mean:.1}/{most}, {} steps", reports.len());
+        println!(
+            "{pair:?} 64 {predictor}: L1 {error:.5}, asymmetry {asymmetry:.1e}, PCG {mean:.1}/{most}, {} steps",
+            reports.len()
+        );
         assert!((error / expected - 1.0).abs() < 0.08, "{error}");
         assert!(asymmetry < 1e-12);
     }
@@ -131,7 +145,10 @@ fn circular_explosion_fine() {
         for (pair, predictor) in [(Pair::B1b0, false), (Pair::B2b1, false), (Pair::B1b0, true)] {
             let (error, asymmetry, reports) = explosion(n, pair, predictor);
             let (mean, most) = iterations(&reports);
-            println!("{pair:?} {n} {predictor}: L1 {error:.5}, asymmetry {asymmetry:.1e}, PCG {mean:.1}/{most}, {} steps", reports.len());
+            println!(
+                "{pair:?} {n} {predictor}: L1 {error:.5}, asymmetry {asymmetry:.1e}, PCG {mean:.1}/{most}, {} steps",
+                reports.len()
+            );
         }
     }
 }
@@ -157,7 +174,9 @@ fn rest_noise(pair: Pair, s: f64, predictor: bool) -> f64 {
     let sound = 1.4_f64.sqrt();
     for c in problem.grid.interior() {
         let (density, u, p) = (1.0 + 1e-3 * noise.next(), 1e-3 * sound * noise.next(), 1.0 + 1e-3 * noise.next());
-        state.gas.set(problem.grid.slot(c), crate::reference::Gas::conserved_from_primitive(density, [u, 0.0, 0.0], p, 1.4));
+        state
+            .gas
+            .set(problem.grid.slot(c), crate::reference::Gas::conserved_from_primitive(density, [u, 0.0, 0.0], p, 1.4));
     }
     fill_ghosts(&problem, &state.cells, &mut state.gas);
     for _ in 0..400 {
@@ -208,5 +227,37 @@ fn one_two_and_three_dimensions_agree() {
         let difference = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         println!("axis {axis} of {dimension}: {difference:.1e}");
         assert!(difference < 1e-8);
+    }
+}
+
+/// Mach 3 flow over a step: positions of the first cell with rho > 2.5 on the floor, the top wall and at y = 0.5.
+#[test]
+#[ignore = "minutes"]
+fn forward_step() {
+    let n = 40;
+    let inflow = Side::Inlet { density: 1.4, velocity: [3.0, 0.0, 0.0], pressure: 1.0 };
+    let sides = [inflow, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Wall];
+    let mut problem = Problem::new(Grid::new(&[3 * n, n], [0.0; 3], 1.0 / f64::from(n)), sides);
+    problem.numerics.predictor = false;
+    for c in problem.grid.interior() {
+        let x = problem.grid.centre(c);
+        let slot = problem.grid.slot(c);
+        problem.obstacles[slot] = x[0] > 0.6 && x[1] < 0.2;
+    }
+    let mut state = State::new(&problem, |_| (1.4, [3.0, 0.0, 0.0], 1.0), Vec::new());
+    let reports = advance_to(&problem, &mut state, 4.0);
+    let first = |row: i32| {
+        let dense = |i: &i32| state.gas.conserved[problem.grid.slot([*i, row, 0])][0] > 2.5;
+        (0..3 * n).find(dense).map_or(f64::NAN, |i| (f64::from(i) + 0.5) / f64::from(n))
+    };
+    let positions = [first(0), first(n - 1), first(n / 2)];
+    let touched: usize = reports.iter().map(|r| r.limited + r.floored).sum();
+    println!(
+        "{positions:?}, {} steps, touched {touched}, PCG {:?}; table 0.338, 0.713, 0.463, 1570 steps",
+        reports.len(),
+        iterations(&reports)
+    );
+    for (found, expected) in positions.iter().zip([0.338, 0.713, 0.463]) {
+        assert!((found - expected).abs() < 1.5 / f64::from(n), "{found} {expected}");
     }
 }

@@ -29,10 +29,7 @@ pub(crate) fn weight(pair: Pair) -> [f64; 3] {
 
 /// Product of `overlap` over the active axes other than `axis`.
 pub(crate) fn tangential(grid: &Grid, overlap: &[[f64; 2]; 3], axis: usize, node: [i32; 3], corner: [i32; 3]) -> f64 {
-    (0..grid.dimension)
-        .filter(|d| *d != axis)
-        .map(|d| overlap[(node[d] + 1) as usize][corner[d] as usize])
-        .product()
+    (0..grid.dimension).filter(|d| *d != axis).map(|d| overlap[(node[d] + 1) as usize][corner[d] as usize]).product()
 }
 
 /// Mass weight of a node of an element, product over the active axes.

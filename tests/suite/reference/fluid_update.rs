@@ -8,14 +8,22 @@ use super::intermediate_pressure::face_velocity;
 use super::{GAS, Gas, Pair, Problem, SOLID, internal_energy, kinetic_energy};
 
 /// Pressure of the face above `low`.
-pub(crate) fn face_pressure(problem: &Problem, interface: &Interface, solution: &Solution, axis: usize, low: [i32; 3]) -> f64 {
+pub(crate) fn face_pressure(
+    problem: &Problem,
+    interface: &Interface,
+    solution: &Solution,
+    axis: usize,
+    low: [i32; 3],
+) -> f64 {
     let grid = &problem.grid;
     let high = shift(low, axis, 1);
     let (a, b) = (interface.cells[grid.slot(low)], interface.cells[grid.slot(high)]);
-    if a == GAS && b == GAS && problem.numerics.pair == Pair::B2b1 {
-        if let Some(smooth) = smooth_pressure(problem, interface, &solution.pressure[P], axis, high) {
-            return smooth;
-        }
+    if a == GAS
+        && b == GAS
+        && problem.numerics.pair == Pair::B2b1
+        && let Some(smooth) = smooth_pressure(problem, interface, &solution.pressure[P], axis, high)
+    {
+        return smooth;
     }
     let field = if a == SOLID || b == SOLID { H } else { P };
     let corners: Vec<_> = grid.offsets(0, 1).into_iter().filter(|k| k[axis] == 0).collect();
@@ -23,7 +31,13 @@ pub(crate) fn face_pressure(problem: &Problem, interface: &Interface, solution: 
 }
 
 /// The face pressure whose difference is the B2B1 force; None where it needs a vertex without gas.
-fn smooth_pressure(problem: &Problem, interface: &Interface, pressure: &[f64], axis: usize, high: [i32; 3]) -> Option<f64> {
+fn smooth_pressure(
+    problem: &Problem,
+    interface: &Interface,
+    pressure: &[f64],
+    axis: usize,
+    high: [i32; 3],
+) -> Option<f64> {
     let grid = &problem.grid;
     let mut sum = 0.0;
     for off in grid.offsets(-1, 2).into_iter().filter(|o| o[axis] < 2) {
@@ -77,13 +91,13 @@ pub(crate) fn fluid_update(
     };
     let mut pressure = [vec![0.0; grid.slots()], vec![0.0; grid.slots()], vec![0.0; grid.slots()]];
     let mut next = star.clone();
-    for axis in 0..grid.dimension {
+    for (axis, pressure) in pressure.iter_mut().enumerate().take(grid.dimension) {
         for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
-            pressure[axis][grid.slot(low)] = face_pressure(problem, interface, solution, axis, low);
+            pressure[grid.slot(low)] = face_pressure(problem, interface, solution, axis, low);
         }
         for c in &gas_slots {
             let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));
-            let difference = pressure[axis][above] - pressure[axis][below];
+            let difference = pressure[above] - pressure[below];
             next.conserved[above][1 + axis] -= dt / grid.spacing * difference;
         }
     }
@@ -113,10 +127,18 @@ pub(crate) fn fluid_update(
 }
 
 /// Keeps the internal energy above a tenth of its value after advection; returns how many cells it touched.
-pub(crate) fn energy_floor(problem: &Problem, cells: &[u32], star: &Gas, gas: &mut Gas, ledger: &mut [[f64; 5]]) -> usize {
+pub(crate) fn energy_floor(
+    problem: &Problem,
+    cells: &[u32],
+    star: &Gas,
+    gas: &mut Gas,
+    ledger: &mut [[f64; 5]],
+) -> usize {
     let volume = problem.grid.volume();
     let mut touched = 0;
-    for slot in (0..cells.len()).filter(|slot| cells[*slot] == GAS && problem.grid.contains(problem.grid.coordinates(*slot))) {
+    for slot in
+        (0..cells.len()).filter(|slot| cells[*slot] == GAS && problem.grid.contains(problem.grid.coordinates(*slot)))
+    {
         let mut u = gas.get(slot);
         let floor = 0.1 * internal_energy(star.get(slot));
         if internal_energy(u) >= floor {

@@ -35,7 +35,14 @@ pub(crate) fn ghost_change(problem: &Problem, interface: &Interface, bins: &Bins
 }
 
 /// One sub-step of length dt; `share` of the ghost-pressure change is applied.
-pub(crate) fn g2p(problem: &Problem, velocity: &[[f64; 3]], change: &[f64], share: f64, dt: f64, particles: &mut [Particle]) {
+pub(crate) fn g2p(
+    problem: &Problem,
+    velocity: &[[f64; 3]],
+    change: &[f64],
+    share: f64,
+    dt: f64,
+    particles: &mut [Particle],
+) {
     let grid = &problem.grid;
     for particle in particles.iter_mut().filter(|particle| particle.active) {
         let (mut v, mut affine, mut gradient) = (DVec3::ZERO, DMat3::ZERO, DMat3::ZERO);

@@ -23,7 +23,9 @@ pub(crate) fn fill_ghosts(problem: &Problem, cells: &[u32], gas: &mut Gas) {
             }
         });
         let value = match inlet {
-            Some((density, velocity, pressure)) => Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma),
+            Some((density, velocity, pressure)) => {
+                Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma)
+            }
             None => gas.get(grid.slot([0, 1, 2].map(|d| c[d].clamp(0, grid.cells[d] - 1)))),
         };
         gas.set(slot, value);
@@ -57,7 +59,13 @@ pub(crate) fn split_flux(stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f6
 }
 
 /// Both fluxes of one face, None where no gas touches it.
-pub(crate) fn face_flux(problem: &Problem, interface: &Interface, gas: &Gas, axis: usize, low: [i32; 3]) -> Option<([f64; 5], [f64; 5])> {
+pub(crate) fn face_flux(
+    problem: &Problem,
+    interface: &Interface,
+    gas: &Gas,
+    axis: usize,
+    low: [i32; 3],
+) -> Option<([f64; 5], [f64; 5])> {
     let grid = &problem.grid;
     let at = |by: i32| {
         let mut c = shift(low, axis, by);
@@ -79,7 +87,8 @@ pub(crate) fn face_flux(problem: &Problem, interface: &Interface, gas: &Gas, axi
     let (weno, first) = split_flux(&stencil, axis);
     let blocked = if kind(other) == SOLID { interface.blocked[at(other)] } else { 1.0 };
     let velocity = if kind(other) == SOLID { interface.face_velocity[axis][at(0)] } else { 0.0 };
-    let blend = |passable: [f64; 5]| [0, 1, 2, 3, 4].map(|k| blocked * velocity * value[k] + (1.0 - blocked) * passable[k]);
+    let blend =
+        |passable: [f64; 5]| [0, 1, 2, 3, 4].map(|k| blocked * velocity * value[k] + (1.0 - blocked) * passable[k]);
     Some((blend(weno), blend(first)))
 }
 
@@ -157,7 +166,14 @@ pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, dt: f
 }
 
 /// One forward Euler stage; books what enters solid cells on the ledger with `share` of the step.
-fn stage(problem: &Problem, interface: &Interface, gas: &Gas, dt: f64, share: f64, ledger: &mut [[f64; 5]]) -> (Gas, usize) {
+fn stage(
+    problem: &Problem,
+    interface: &Interface,
+    gas: &Gas,
+    dt: f64,
+    share: f64,
+    ledger: &mut [[f64; 5]],
+) -> (Gas, usize) {
     let grid = &problem.grid;
     let (through, touched) = limited(problem, interface, gas, dt);
     let mut next = gas.clone();
@@ -167,15 +183,15 @@ fn stage(problem: &Problem, interface: &Interface, gas: &Gas, dt: f64, share: f6
             next.set(slot, updated(problem, gas, &through, c, dt));
         } else if interface.cells[slot] == SOLID {
             let scale = share * dt * grid.area();
-            for axis in 0..grid.dimension {
+            for (axis, through) in through.iter().enumerate().take(grid.dimension) {
                 let below = grid.slot(shift(c, axis, -1));
                 let above = grid.slot(shift(c, axis, 1));
                 for k in 0..5 {
                     if interface.cells[below] == GAS {
-                        ledger[slot][k] += scale * through[axis][below][k];
+                        ledger[slot][k] += scale * through[below][k];
                     }
                     if interface.cells[above] == GAS {
-                        ledger[slot][k] -= scale * through[axis][slot][k];
+                        ledger[slot][k] -= scale * through[slot][k];
                     }
                 }
             }
@@ -185,7 +201,13 @@ fn stage(problem: &Problem, interface: &Interface, gas: &Gas, dt: f64, share: f6
 }
 
 /// Advects the gas over one step (TVD-RK2); returns the state after advection and the number of limited cells.
-pub(crate) fn advect(problem: &Problem, interface: &Interface, gas: &Gas, dt: f64, ledger: &mut [[f64; 5]]) -> (Gas, usize) {
+pub(crate) fn advect(
+    problem: &Problem,
+    interface: &Interface,
+    gas: &Gas,
+    dt: f64,
+    ledger: &mut [[f64; 5]],
+) -> (Gas, usize) {
     let grid = &problem.grid;
     let mut before = gas.clone();
     fill_ghosts(problem, &interface.cells, &mut before);

@@ -102,7 +102,14 @@ fn blocked_fraction(problem: &Problem, volume: f64) -> f64 {
 }
 
 /// Pressure of the gas film at a vertex of a wall face normal to `axis`.
-fn film_pressure(problem: &Problem, cells: &[u32], bins: &Bins, gas_pressure: &[f64], axis: usize, vertex: [i32; 3]) -> f64 {
+fn film_pressure(
+    problem: &Problem,
+    cells: &[u32],
+    bins: &Bins,
+    gas_pressure: &[f64],
+    axis: usize,
+    vertex: [i32; 3],
+) -> f64 {
     let grid = &problem.grid;
     let own = bins.ghost_pressure[grid.slot(vertex)];
     if !problem.numerics.film_nearest {

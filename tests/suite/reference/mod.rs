@@ -201,7 +201,6 @@ pub(crate) struct Particle {
     pub(crate) ghost_pressure: f64,
     pub(crate) plastic_strain: f64,
     pub(crate) material: usize,
-    pub(crate) body: u32,
     pub(crate) active: bool,
 }
 
@@ -220,9 +219,14 @@ pub(crate) struct State {
 
 impl State {
     /// Gas from (density, velocity, pressure) per cell centre, and the cell kinds that the particles give.
-    pub(crate) fn new(problem: &Problem, gas: impl Fn([f64; 3]) -> (f64, [f64; 3], f64), particles: Vec<Particle>) -> Self {
+    pub(crate) fn new(
+        problem: &Problem,
+        gas: impl Fn([f64; 3]) -> (f64, [f64; 3], f64),
+        particles: Vec<Particle>,
+    ) -> Self {
         let grid = &problem.grid;
-        let mut cells_gas = Gas { conserved: vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()], energy: vec![1.0; grid.slots()] };
+        let mut cells_gas =
+            Gas { conserved: vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()], energy: vec![1.0; grid.slots()] };
         for c in grid.interior() {
             let (density, velocity, pressure) = gas(grid.centre(c));
             cells_gas.set(grid.slot(c), Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma));

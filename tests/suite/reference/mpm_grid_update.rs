@@ -14,8 +14,8 @@ pub(crate) fn add_forces(velocity: &mut [[f64; 3]], mass: &[f64], force: &[[f64;
 /// Adds gravity on nodes with mass.
 pub(crate) fn add_gravity(problem: &Problem, nodes: &mut Nodes, dt: f64) {
     for (v, _) in nodes.velocity.iter_mut().zip(&nodes.mass).filter(|(_, mass)| **mass > 0.0) {
-        for d in 0..problem.grid.dimension {
-            v[d] += dt * problem.gravity[d];
+        for (v, gravity) in v.iter_mut().zip(problem.gravity).take(problem.grid.dimension) {
+            *v += dt * gravity;
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What the particles mean for the cells they lie in, and their ghost pressure at the vertices.
 
-use super::grid::{add, Grid};
+use super::grid::{Grid, add};
 use super::{Particle, Problem};
 use glam::DVec3;
 

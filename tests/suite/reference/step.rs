@@ -2,7 +2,10 @@
 
 use super::coupled_solve::{Inputs, coupled_solve};
 use super::{Problem, State};
-use super::{fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g, particle_sort, time_step};
+use super::{
+    fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g, particle_sort,
+    time_step,
+};
 
 /// What a step did.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,14 +61,7 @@ pub(crate) fn step(problem: &Problem, state: &mut State, dt: f64) -> Report {
     }
     gas_advection::fill_ghosts(problem, &faces.cells, &mut state.gas);
     state.time += dt;
-    Report {
-        dt,
-        iterations: solution.iterations,
-        converged: solution.converged,
-        limited,
-        floored: touched,
-        substeps,
-    }
+    Report { dt, iterations: solution.iterations, converged: solution.converged, limited, floored: touched, substeps }
 }
 
 /// Runs to a time with steps by rule; the last one is shortened.
