@@ -63,18 +63,18 @@ fn pocket(problem: &Problem, state: &State, bins: &Bins, c: [i32; 3]) -> [f64; 5
     super::Gas::conserved_from_primitive(density, velocity.to_array(), pressure, problem.gamma)
 }
 
-/// Part of its ledger that a gas cell may apply at once.
+/// Part of its ledger that a gas cell may apply at once; none where even a small part would empty its internal energy.
 pub(crate) fn settled_part(u: [f64; 5], owed: [f64; 5], volume: f64) -> f64 {
     let mut part = f64::min(1.0, 0.1 * u[0] * volume / owed[0].abs());
     let internal = internal_energy(u);
-    for _ in 0..12 {
+    for _ in 0..=12 {
         let applied = [0, 1, 2, 3, 4].map(|k| u[k] + part * owed[k] / volume);
         if (internal_energy(applied) - internal).abs() <= 0.1 * internal {
-            break;
+            return part;
         }
         part *= 0.5;
     }
-    part
+    0.0
 }
 
 /// Gas cells apply a part of their ledger and hand the rest to gas neighbours; buried solid cells hand theirs on.
