@@ -100,7 +100,8 @@ fn hllc(l: Primitive, r: Primitive) -> [f64; 3] {
     [0, 1, 2].map(|k| flux[k] + s * (star[k] - u[k]))
 }
 
-/// Density of the explosion of (1, 0, 1) inside r = 0.4 into (0.125, 0, 0.1), by n radial cells; power 1 cylinder, 2 sphere.
+/// Density of the explosion of (1, 0, 1) inside r = 0.4 into (0.125, 0, 0.1), n radial cells; power 1 cylinder,
+/// 2 sphere.
 pub(crate) fn radial_density(n: usize, extent: f64, power: i32, t: f64) -> Vec<f64> {
     let dr = extent / n as f64;
     let start = |i: usize| if (i as f64 + 0.5) * dr < 0.4 { [1.0, 0.0, 2.5] } else { [0.125, 0.0, 0.25] };

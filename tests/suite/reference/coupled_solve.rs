@@ -1,4 +1,4 @@
-//! The coupled pressure system: (S^-1 + dt^2 C^T M^-1 C) X = S^-1 X* + dt C^T V* - dt b, by Jacobi PCG on the increment.
+//! The coupled pressure system: (S^-1 + dt^2 C^T M^-1 C) X = S^-1 X* + dt C^T V* - dt b, by Jacobi PCG.
 
 use super::element;
 use super::grid::{add, shift, subtract};

@@ -1,4 +1,5 @@
-//! Index space: padded slots, one ring on active axes. Cells, nodes and vertices share it; vertex v is the low corner of cell v.
+//! Index space: padded slots, one ring on active axes. Cells, nodes and vertices share it; vertex v is the low corner
+//! of cell v.
 
 /// A uniform grid of cubes in one, two or three active axes.
 #[derive(Clone, Debug)]

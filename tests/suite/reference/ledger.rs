@@ -41,7 +41,7 @@ fn faces(grid: &Grid) -> Vec<[i32; 3]> {
     (0..grid.dimension).flat_map(|axis| [shift([0; 3], axis, -1), shift([0; 3], axis, 1)]).collect()
 }
 
-/// Gas of an uncovered cell without gas around it: at the ghost pressure, isentropic from ambient, moving with the solid.
+/// Gas of an uncovered cell without gas around it: at the ghost pressure, isentropic from ambient, with the solid.
 fn pocket(problem: &Problem, state: &State, bins: &Bins, c: [i32; 3]) -> [f64; 5] {
     let grid = &problem.grid;
     let corners: Vec<usize> = grid.offsets(0, 1).into_iter().map(|o| grid.slot(add(c, o))).collect();
