@@ -106,7 +106,7 @@ fn slab_table(sizes: &[usize], cases: &[(f64, f64, &[f64])]) {
             let old = slab(&path, *density, *young, *n, old_rules);
             let new = slab(&path, *density, *young, *n, |_| {});
             println!(
-                "density {density} E {young} N {n}: position, mass, energy, PCG: old {old:?}, new {new:?}, table {expected}"
+                "density {density} E {young} N {n}: x, mass, energy, PCG: old {old:?}, new {new:?}, table {expected}"
             );
             assert!(old.0 < 1.15 * expected && new.0 < 1.3 * expected, "position error");
             assert!(old.1 < 1e-13 * *n as f64 && new.1 < 1e-13 * *n as f64, "mass drift");
