@@ -16,6 +16,8 @@
 @group(0) @binding(7) var<storage, read_write> owed_energy: array<f32>;
 
 const FLOOR_SHARE = 0.1;
+// Internal energy is a difference of two float32 numbers: below some hundred units in the last place it means nothing.
+const RESOLVED_SHARE = 2e-5;
 
 @compute @workgroup_size(WORKGROUP)
 fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -28,7 +30,8 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         atomicMin(&control.fault, (STAGE_FLUID_UPDATE << 27u) | slot);
         return;
     }
-    let least = FLOOR_SHARE / (params.gamma * fill[slot].y * (params.gamma - 1.0));
+    let before = 1.0 / (params.gamma * fill[slot].y * (params.gamma - 1.0));
+    let least = max(FLOOR_SHARE * before, RESOLVED_SHARE * total);
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
     atomicAdd(&control.floored, 1u);
