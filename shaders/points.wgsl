@@ -131,6 +131,10 @@ fn particle_color(p: u32, ray: Ray, depth: f32) -> vec3f {
     let body = bitcast<u32>(deformation[3u * p].w);
     let plastic_strain = affine[3u * p + 1u].w;
     let base = BODY_COLORS[body % BODY_COLOR_COUNT] / (1.0 + max(plastic_strain, 0.0) / view.dark_strain);
+    if (view.parallel == 1u) {
+        // Discs of a few pixels would turn into a pattern under a light.
+        return base;
+    }
     let normal = (ray.start + depth * ray.direction - position[p].xyz) / radius_of(p);
     return lit(base, normal, -ray.direction);
 }
@@ -160,5 +164,5 @@ fn shade_surface(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroup
     color /= max(seen, 1.0);
     depth /= max(seen, 1.0);
     let coverage = seen / f32(SAMPLES * SAMPLES);
-    surface[i] = vec4u(bitcast<u32>(depth), bitcast<u32>(coverage), pack2x16float(color.rg), pack2x16float(vec2f(color.b, 0.0)));
+    surface[i] = vec4u(bitcast<u32>(depth), bitcast<u32>(coverage), pack2x16unorm(color.rg), pack2x16unorm(vec2f(color.b, 0.0)));
 }

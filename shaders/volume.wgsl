@@ -61,6 +61,10 @@ fn is_wall(cell: vec3i) -> bool {
     return all(cell >= vec3i(0)) && all(cell < vec3i(view.cells)) && kind_of(cells[slot_of(cell)]) == KIND_WALL;
 }
 
+fn cell_at(ray: Ray, distance: f32) -> vec3i {
+    return vec3i(floor((ray.start + distance * ray.direction - view.origin) / view.spacing));
+}
+
 // Walls are lit by the direction in which they end.
 fn wall_color(cell: vec3i) -> vec3f {
     var normal = vec3f(0.0);
@@ -72,6 +76,21 @@ fn wall_color(cell: vec3i) -> vec3f {
     }
     normal = normal / max(length(normal), 1e-6);
     return WALL_COLOR * (0.25 + 0.75 * max(dot(normal, view.light), 0.0));
+}
+
+// The cell by which a ray enters a wall, between a point before it and a point inside it.
+fn wall_entry(ray: Ray, before: f32, inside: f32) -> vec3i {
+    var outer = before;
+    var inner = inside;
+    for (var i = 0u; i < 8u; i++) {
+        let middle = 0.5 * (outer + inner);
+        if (is_wall(cell_at(ray, middle))) {
+            inner = middle;
+        } else {
+            outer = middle;
+        }
+    }
+    return cell_at(ray, inner);
 }
 
 // Entry and exit of the domain along a ray, in metres; empty if the exit is not behind the entry.
@@ -108,7 +127,7 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Li
     for (var s = from_distance + jitter * view.step; s < to_distance; s += view.step) {
         let place = (ray.start + s * ray.direction - view.origin) / view.spacing;
         if (view.obstacles == 1u && is_wall(vec3i(floor(place)))) {
-            return over(light, wall_color(vec3i(floor(place))), 1.0);
+            return over(light, wall_color(wall_entry(ray, max(s - view.step, from_distance), s)), 1.0);
         }
         let fraction = fraction_at(place);
         let contrast = abs(fraction - view.neutral) / max(view.neutral, 1.0 - view.neutral);

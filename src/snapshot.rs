@@ -4,6 +4,8 @@ use crate::state::Grid;
 
 /// Kind of a cell, bits 0..1 of a cell word.
 pub mod kind {
+    /// The bits of a cell word that hold the kind.
+    pub const MASK: u8 = 3;
     /// The cell holds gas; its gas values have meaning.
     pub const GAS: u8 = 0;
     /// The cell is covered by a solid body.

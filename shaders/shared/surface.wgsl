@@ -10,6 +10,6 @@ struct Surface {
 }
 
 fn unpack_surface(packed: vec4u) -> Surface {
-    let color = vec3f(unpack2x16float(packed.z), unpack2x16float(packed.w).x);
+    let color = vec3f(unpack2x16unorm(packed.z), unpack2x16unorm(packed.w).x);
     return Surface(bitcast<f32>(packed.x), bitcast<f32>(packed.y), color);
 }

@@ -50,7 +50,7 @@ impl Exporter for VtkExporter {
     }
 }
 
-/// Writes the gas as cell data. Inactive axes have no extent and lie in the cells' mid plane.
+/// Writes the gas as cell data. Inactive axes have no extent and lie at the origin, as the particles do.
 ///
 /// Gas values of cells without gas are NaN, which viewers leave blank; `kind` says what those cells are.
 pub fn write_fields(path: &Path, snapshot: &Snapshot) -> Result<()> {
@@ -58,10 +58,7 @@ pub fn write_fields(path: &Path, snapshot: &Snapshot) -> Result<()> {
     let active = |axis: usize| (axis as u32) < grid.dimension;
     let extent: Vec<_> = (0..3).map(|axis| format!("0 {}", if active(axis) { grid.cells[axis] } else { 0 })).collect();
     let extent = extent.join(" ");
-    let origin: Vec<_> = (0..3)
-        .map(|axis| grid.origin[axis] + if active(axis) { 0.0 } else { 0.5 * grid.spacing })
-        .map(|coordinate| format!("{coordinate:?}"))
-        .collect();
+    let origin = grid.origin.map(|coordinate| format!("{coordinate:?}"));
     let spacing = grid.spacing;
 
     let mut file = Appended::new("ImageData");

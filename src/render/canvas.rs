@@ -115,8 +115,7 @@ impl<'a> Canvas<'a> {
     /// Draws a frame of unit width just outside a rectangle.
     pub(crate) fn outline(&mut self, area: Rectangle, color: [u8; 3]) {
         let unit = self.lettering.unit();
-        let (x, y) = (area.x - unit, area.y - unit);
-        let (width, height) = (area.width + 2 * unit, area.height + 2 * unit);
+        let (x, y, width) = (area.x - unit, area.y - unit, area.width + 2 * unit);
         self.fill(Rectangle { x, y, width, height: unit }, color, 1.0);
         self.fill(Rectangle { x, y: area.bottom(), width, height: unit }, color, 1.0);
         self.fill(Rectangle { x, y: area.y, width: unit, height: area.height }, color, 1.0);
@@ -139,6 +138,18 @@ impl<'a> Canvas<'a> {
         let mut letters = Letters { canvas: self, left, top, scale };
         // Drawing into memory cannot fail: the error type has no values.
         let Ok(_) = Text::with_baseline(&text, Point::zero(), style, Baseline::Top).draw(&mut letters);
+    }
+
+    /// Draws a smooth round dot around a point given in pixels, inside `clip`.
+    pub(crate) fn dot(&mut self, point: [f32; 2], clip: Rectangle, color: [u8; 3], width: f32) {
+        let reach = 0.5 * width + 1.0;
+        let [x, y] = point;
+        for row in ((y - reach) as i32).max(clip.y)..((y + reach) as i32 + 1).min(clip.bottom()) {
+            for column in ((x - reach) as i32).max(clip.x)..((x + reach) as i32 + 1).min(clip.right()) {
+                let distance = (column as f32 + 0.5 - x).hypot(row as f32 + 0.5 - y);
+                self.blend(column, row, color, reach - 0.5 - distance);
+            }
+        }
     }
 
     /// Draws a smooth line through points given in pixels, inside `clip`.

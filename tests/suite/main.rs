@@ -1,7 +1,9 @@
 //! The test suite: one binary, one module per subject.
 
 mod common;
+mod export;
 mod gpu;
 mod layering;
 mod numerics;
+mod render;
 mod shaders;

@@ -1,0 +1,108 @@
+//! The fields as pictures know them: names, units, and the smallest range worth showing.
+
+use crate::scene::{Field, GasState};
+
+/// All fields with the constants that shaders switch on.
+const CODES: [(&str, Field); 7] = [
+    ("FIELD_DENSITY", Field::Density),
+    ("FIELD_PRESSURE", Field::Pressure),
+    ("FIELD_VELOCITY", Field::Velocity),
+    ("FIELD_TEMPERATURE", Field::Temperature),
+    ("FIELD_SCHLIEREN", Field::Schlieren),
+    ("FIELD_MACH", Field::Mach),
+    ("FIELD_VORTICITY", Field::Vorticity),
+];
+
+/// Changes below this fraction of the ambient state are rounding, and drawn as uniform.
+const SMALLEST_CONTRAST: f64 = 2e-3;
+
+/// Number of a field in the shaders.
+pub(super) fn code(field: Field) -> u32 {
+    CODES.iter().position(|(_, known)| *known == field).unwrap_or_default() as u32
+}
+
+/// The constants that give each field its number in WGSL.
+pub(super) fn constants() -> String {
+    CODES.iter().enumerate().map(|(code, (name, _))| format!("const {name}: u32 = {code}u;\n")).collect()
+}
+
+/// Keyword of a field, as in scene files.
+pub(super) fn name(field: Field) -> &'static str {
+    match field {
+        Field::Density => "density",
+        Field::Pressure => "pressure",
+        Field::Velocity => "velocity",
+        Field::Temperature => "temperature",
+        Field::Schlieren => "schlieren",
+        Field::Mach => "mach",
+        Field::Vorticity => "vorticity",
+    }
+}
+
+/// Caption of the colour bar, with the unit.
+pub(super) fn caption(field: Field) -> &'static str {
+    match field {
+        Field::Density => "density [kg/m\u{b3}]",
+        Field::Pressure => "pressure [Pa]",
+        Field::Velocity => "speed [m/s]",
+        Field::Temperature => "p/rho [m\u{b2}/s\u{b2}]",
+        Field::Schlieren => "density gradient [kg/m^4]",
+        Field::Mach => "Mach number",
+        Field::Vorticity => "vorticity [1/s]",
+    }
+}
+
+/// Whether the range of a field always starts at zero.
+fn starts_at_zero(field: Field) -> bool {
+    matches!(field, Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity)
+}
+
+/// The range to show for the values seen: from zero for magnitudes, and never so narrow that rounding becomes a pattern.
+pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamma: f64, spacing: f64) -> [f64; 2] {
+    let sound_speed = (gamma * ambient.pressure / ambient.density).sqrt();
+    let scale = match field {
+        Field::Density => ambient.density,
+        Field::Pressure => ambient.pressure,
+        Field::Temperature => ambient.pressure / ambient.density,
+        Field::Velocity => sound_speed,
+        Field::Mach => 1.0,
+        Field::Schlieren => ambient.density / spacing,
+        Field::Vorticity => sound_speed / spacing,
+    };
+    let smallest = SMALLEST_CONTRAST * scale;
+    if seen[0] > seen[1] {
+        return if starts_at_zero(field) { [0.0, smallest] } else { [scale - smallest, scale + smallest] };
+    }
+    if starts_at_zero(field) {
+        return [0.0, seen[1].max(smallest)];
+    }
+    let missing = (smallest - (seen[1] - seen[0])).max(0.0);
+    [seen[0] - 0.5 * missing, seen[1] + 0.5 * missing]
+}
+
+/// Moves a range shown before towards the new one: wider at once, narrower by a fifth of the way, so that colours do not
+/// flicker from frame to frame.
+pub(super) fn follow(before: Option<[f64; 2]>, now: [f64; 2]) -> [f64; 2] {
+    const SHRINK: f64 = 0.2;
+    let Some([low, high]) = before else { return now };
+    [
+        if now[0] < low { now[0] } else { low + SHRINK * (now[0] - low) },
+        if now[1] > high { now[1] } else { high + SHRINK * (now[1] - high) },
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_never_empty_and_follow_slowly() {
+        let air = GasState { density: 1.0, velocity: [0.0; 3], pressure: 1.0 };
+        let range = shown_range(Field::Density, [1.0, 1.0], &air, 1.4, 0.1);
+        assert!((range[1] - range[0] - 2e-3).abs() < 1e-12);
+        assert_eq!(shown_range(Field::Velocity, [0.5, 3.0], &air, 1.4, 0.1), [0.0, 3.0]);
+        let nothing = shown_range(Field::Pressure, [f64::INFINITY, f64::NEG_INFINITY], &air, 1.4, 0.1);
+        assert!(nothing[0] < nothing[1]);
+        assert_eq!(follow(Some([0.0, 10.0]), [-1.0, 5.0]), [-1.0, 9.0]);
+    }
+}

@@ -1,0 +1,87 @@
+//! VTK files: the head, the offsets and the raw bytes agree with the snapshot.
+
+use std::path::Path;
+
+use brisance::export::{self, Moment};
+use brisance::snapshot::{ParticleSample, Snapshot, kind};
+use brisance::state::Grid;
+
+fn snapshot(dimension: u32) -> Snapshot {
+    let cells = std::array::from_fn(|axis| if (axis as u32) < dimension { 4 + axis as u32 } else { 1 });
+    let grid = Grid { dimension, cells, origin: [0.5, 1.0, 1.5], spacing: 0.25 };
+    let count = grid.cell_count();
+    let number = |index: usize| index as f32;
+    let mut kinds = vec![kind::GAS; count];
+    kinds[1] = kind::SOLID;
+    let particle = |index: usize| ParticleSample {
+        position: [number(index), 0.5, 0.25],
+        velocity: [1.0, number(index), 3.0],
+        mass: 2.0,
+        volume0: 0.5,
+        ghost_pressure: -4.0,
+        plastic_strain: 0.125,
+        deformation: [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.5]],
+        body: index as u32,
+        material: 1,
+    };
+    Snapshot {
+        time: 0.1,
+        step: 3,
+        grid,
+        gamma: 1.4,
+        kind: kinds,
+        density: (0..count).map(number).collect(),
+        velocity: (0..count).map(|index| [number(index), 10.0, -1.0]).collect(),
+        pressure: vec![1.0; count],
+        energy: vec![2.5; count],
+        particles: (0..5).map(particle).collect(),
+    }
+}
+
+/// The values of one array of an appended raw file.
+fn array(file: &Path, name: &str) -> Vec<f32> {
+    let bytes = std::fs::read(file).unwrap();
+    let mark = b"<AppendedData encoding=\"raw\">\n_";
+    let start = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + mark.len();
+    let head = std::str::from_utf8(&bytes[..start]).unwrap();
+    let entry = head.lines().find(|line| line.contains(&format!("Name=\"{name}\""))).unwrap();
+    let offset: usize = entry.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+    let at = start + offset;
+    let length = u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize;
+    bytes[at + 8..at + 8 + length].chunks_exact(4).map(|word| f32::from_le_bytes(word.try_into().unwrap())).collect()
+}
+
+#[test]
+fn vtk_files_hold_the_snapshot() {
+    for (dimension, extent) in [(1, "0 4 0 0 0 0"), (2, "0 4 0 5 0 0"), (3, "0 4 0 5 0 6")] {
+        // Kept after the test, for VTK's own reader.
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("vtk_{dimension}d"));
+        let snapshot = snapshot(dimension);
+        let mut exporters = export::open(&["vtk".to_owned()], &folder).unwrap();
+        for index in 0..2 {
+            let time = 0.1 * f64::from(index);
+            let moment = Moment { index, title: "t", time, step: 3, pictures: &[], snapshot: Some(&snapshot) };
+            assert!(exporters[0].needs_snapshot());
+            exporters[0].write(&moment).unwrap();
+        }
+        let fields = folder.join("fields/0001.vti");
+        let head = String::from_utf8_lossy(&std::fs::read(&fields).unwrap()).into_owned();
+        assert!(head.contains(&format!("WholeExtent=\"{extent}\"")), "{dimension}D");
+        let density = array(&fields, "density");
+        assert!(density[1].is_nan() && density[0] == 0.0 && density[2..] == snapshot.density[2..]);
+        assert_eq!(array(&fields, "velocity")[6..9], [2.0, 10.0, -1.0]);
+        let particles = folder.join("particles/0001.vtp");
+        assert_eq!(array(&particles, "J"), [3.0; 5]);
+        assert_eq!(array(&particles, "volume"), [1.5; 5]);
+        assert_eq!(array(&particles, "Points")[3..6], [1.0, 0.5, 0.25]);
+        let series = std::fs::read_to_string(folder.join("particles.pvd")).unwrap();
+        assert!(series.contains("timestep=\"0.1\" group=\"\" part=\"0\" file=\"particles/0001.vtp\""));
+    }
+}
+
+#[test]
+fn unknown_format_lists_the_known_ones() {
+    let error = export::open(&["gif".to_owned()], Path::new("out")).err().unwrap();
+    assert_eq!(error.to_string(), "no export format `gif`; there are: png, vtk");
+    assert_eq!(error.exit_code(), 2);
+}

@@ -1,0 +1,278 @@
+//! Pictures of a synthetic state: a dense blob of hot gas beside the middle, a ring or shell of particles around it, one obstacle.
+
+use std::path::Path;
+
+use brisance::export::{self, Exporter, Moment};
+use brisance::gpu::{Buffer, Gpu, GpuOptions};
+use brisance::render::{ParticleBuffers, Picture, Renderer, SceneBuffers, View};
+use brisance::scene::Scene;
+use brisance::state::Grid;
+
+/// Buffers that play a simulation's state.
+struct State {
+    grid: Grid,
+    conserved: Buffer<[f32; 4]>,
+    energy: Buffer<f32>,
+    cells: Buffer<u32>,
+    particles: u32,
+    position: Buffer<[f32; 4]>,
+    velocity: Buffer<[f32; 4]>,
+    affine: Buffer<[f32; 4]>,
+    deformation: Buffer<[f32; 4]>,
+}
+
+const BLOB: [f32; 3] = [0.35, 0.6, 0.5];
+
+fn scene(dimension: u32, cells: u32, size: [u32; 2], more: &str) -> Scene {
+    let cells = vec![cells; dimension as usize];
+    let edges = vec![1.0; dimension as usize];
+    let text = format!(
+        "title = \"Synthetic state\"\n\
+         domain = {{ dimension = {dimension}, cells = {cells:?}, size = {edges:?} }}\n\
+         gas.ambient = {{ density = 1.0, pressure = 1.0 }}\n\
+         time = {{ until = 1.0, frames = 1 }}\n\
+         render.size = {size:?}\n{more}"
+    );
+    Scene::parse(&text, "synthetic.toml", &[]).expect("the scene of the test is valid")
+}
+
+impl State {
+    fn new(gpu: &Gpu, scene: &Scene) -> Self {
+        let dimension = scene.domain.dimension;
+        let spacing = scene.domain.spacing() as f32;
+        let grid = Grid { dimension, cells: scene.domain.cells, origin: [0.0; 3], spacing };
+        let ring: [i32; 3] = grid.padding().map(|n| n as i32);
+        let (mut conserved, mut energy, mut cells) =
+            (vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()], vec![2.5; grid.slots()], vec![2_u32; grid.slots()]);
+        for (slot, cell) in every_cell(&grid, ring) {
+            let inside = (0..3).all(|axis| cell[axis] >= 0 && cell[axis] < grid.cells[axis] as i32);
+            let centre = grid.centre(cell);
+            let r = distance(&grid, centre);
+            let wall = dimension > 1 && centre[0] > 0.85 && centre[1] < 0.15 && (dimension < 3 || centre[2] < 0.3);
+            let solid = (r - 0.28).abs() < 0.03;
+            cells[slot] = if !inside || wall { 2 } else { u32::from(solid) };
+            let density = 1.0 + 3.0 * (1.0 / (1.0 + ((r - 0.2) / 0.012).exp()));
+            let speed = r * (-r * r * 40.0).exp();
+            conserved[slot] = [density, density * speed, 0.0, 0.0];
+            energy[slot] = 2.5 * density.powf(1.4) + 0.5 * density * speed * speed;
+        }
+        let points = shell(&grid);
+        let four = |values: Vec<[f32; 4]>, label: &str| Buffer::from_slice(gpu, label, &values).unwrap();
+        let volume = (0.5 * spacing).powi(dimension as i32);
+        let deformation = points.iter().flat_map(|point| {
+            let body = f32::from_bits(u32::from(point[0] > BLOB[0]));
+            [[1.0, 0.0, 0.0, body], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]]
+        });
+        let affine = points.iter().flat_map(|point| [[0.0; 4], [0.0, 0.0, 0.0, point[1].powi(4)], [0.0; 4]]);
+        Self {
+            grid,
+            conserved: four(conserved, "conserved"),
+            energy: Buffer::from_slice(gpu, "energy", &energy).unwrap(),
+            cells: Buffer::from_slice(gpu, "cells", &cells).unwrap(),
+            particles: points.len() as u32,
+            position: four(points.iter().map(|&[x, y, z]| [x, y, z, 1.0]).collect(), "position"),
+            velocity: four(points.iter().map(|point| [0.1 + 0.1 * point[0], 0.0, 0.0, volume]).collect(), "velocity"),
+            affine: four(affine.collect(), "affine"),
+            deformation: four(deformation.collect(), "deformation"),
+        }
+    }
+
+    fn buffers(&self) -> SceneBuffers<'_> {
+        SceneBuffers {
+            grid: self.grid,
+            conserved: self.conserved.raw(),
+            energy: self.energy.raw(),
+            cells: self.cells.raw(),
+            particles: Some(ParticleBuffers {
+                count: self.particles,
+                position: self.position.raw(),
+                velocity: self.velocity.raw(),
+                affine: self.affine.raw(),
+                deformation: self.deformation.raw(),
+            }),
+        }
+    }
+}
+
+fn every_cell(grid: &Grid, ring: [i32; 3]) -> impl Iterator<Item = (usize, [i32; 3])> {
+    let stride = grid.strides().map(|n| n as usize);
+    (0..grid.slots()).map(move |slot| {
+        let place = [slot % stride[0], slot / stride[0] % stride[1], slot / (stride[0] * stride[1])];
+        (slot, std::array::from_fn(|axis| place[axis] as i32 - ring[axis]))
+    })
+}
+
+fn distance(grid: &Grid, point: [f32; 3]) -> f32 {
+    (0..grid.dimension as usize).map(|axis| (point[axis] - BLOB[axis]).powi(2)).sum::<f32>().sqrt()
+}
+
+/// Points of a half-cell lattice within a shell around the blob, one quarter left out.
+fn shell(grid: &Grid) -> Vec<[f32; 3]> {
+    let fine = grid.cells.map(|n| if n > 1 { 2 * n } else { 1 });
+    let step = 0.5 * grid.spacing;
+    let mut points = Vec::new();
+    for index in 0..fine.iter().product::<u32>() {
+        let place = [index % fine[0], index / fine[0] % fine[1], index / (fine[0] * fine[1])];
+        let point = place.map(|n| (n as f32 + 0.5) * step);
+        let left_out = grid.dimension > 1 && point[0] > BLOB[0] && point[1] < BLOB[1];
+        if (distance(grid, point) - 0.28).abs() < 0.03 && !left_out {
+            points.push(point);
+        }
+    }
+    points
+}
+
+fn gpu() -> Gpu {
+    Gpu::new(&GpuOptions::default()).expect("the suite needs an adapter; a software one will do")
+}
+
+fn render(dimension: u32, cells: u32, size: [u32; 2], more: &str) -> Vec<Picture> {
+    let gpu = gpu();
+    let scene = scene(dimension, cells, size, more);
+    let state = State::new(&gpu, &scene);
+    let mut renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
+    let pictures = renderer.render(0.0125).unwrap();
+    for picture in &pictures {
+        assert_eq!(picture.frame.rgba.len(), 4 * (size[0] * size[1]) as usize);
+        let path =
+            Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{dimension}d_{}_{}.png", picture.name, size[1]));
+        export::png::write(&path, &picture.frame, &[]).unwrap();
+    }
+    assert_eq!(pictures, Renderer::new(&gpu, &scene, &state.buffers()).unwrap().render(0.0125).unwrap(), "equal bits");
+    pictures
+}
+
+fn pixel(picture: &Picture, x: u32, y: u32) -> [i32; 3] {
+    let first = 4 * (y * picture.frame.width + x) as usize;
+    std::array::from_fn(|channel| i32::from(picture.frame.rgba[first + channel]))
+}
+
+fn brightness(color: [i32; 3]) -> i32 {
+    color.iter().sum()
+}
+
+#[test]
+fn slice_has_y_up_and_the_range_of_its_field() {
+    let pictures = render(2, 48, [320, 200], "output.fields = [\"density\", \"schlieren\"]\nrender.particles = false");
+    assert_eq!(pictures[0].name, "density");
+    let [low, high] = pictures[0].range;
+    assert!((low - 1.0).abs() < 0.01 && (high - 4.0).abs() < 0.01, "{low} {high}");
+    // The blob lies left of the middle and above it: 0.6 of the way up.
+    let (columns, rows) = (0..320, 0..200);
+    let bright = |x: u32, y: u32| {
+        let [red, green, blue] = pixel(&pictures[0], x, y);
+        red > 200 && green > 200 && blue < 90
+    };
+    let seen: Vec<_> =
+        columns.flat_map(|x| rows.clone().map(move |y| (x, y))).filter(|&(x, y)| x < 220 && bright(x, y)).collect();
+    let mean_y = seen.iter().map(|place| place.1).sum::<u32>() / seen.len() as u32;
+    assert!(seen.len() > 200 && mean_y < 100, "{} pixels, mean row {mean_y}", seen.len());
+    assert_eq!(pictures[1].range[0], 0.0);
+}
+
+#[test]
+fn every_field_can_be_drawn() {
+    let fields = r#"["density", "pressure", "velocity", "temperature", "schlieren", "mach", "vorticity"]"#;
+    for dimension in [2, 3] {
+        for picture in render(dimension, 20, [96, 64], &format!("output.fields = {fields}")) {
+            assert!(picture.range[0] < picture.range[1], "{} in {dimension}D: {:?}", picture.name, picture.range);
+        }
+    }
+}
+
+#[test]
+fn smallest_frames_do_not_overflow() {
+    for size in [[16, 16], [16, 300], [300, 16]] {
+        for dimension in 1..=3 {
+            render(dimension, 8, size, "");
+        }
+    }
+}
+
+#[test]
+fn given_range_is_kept() {
+    let pictures = render(2, 16, [64, 64], "render.range = [0.5, 7.5]");
+    assert_eq!(pictures[0].range, [0.5, 7.5]);
+}
+
+#[test]
+fn volume_shows_the_particles_in_front() {
+    let with = render(3, 24, [192, 108], "");
+    let without = render(3, 24, [192, 108], "render.particles = false");
+    let changed =
+        |x: u32, y: u32| (brightness(pixel(&with[0], x, y)) - brightness(pixel(&without[0], x, y))).abs() > 40;
+    let count = (0..192).flat_map(|x| (0..108).map(move |y| (x, y))).filter(|&(x, y)| changed(x, y)).count();
+    assert!(count > 300, "{count} pixels show particles");
+}
+
+#[test]
+fn lines_of_one_dimension() {
+    let pictures = render(1, 100, [640, 480], "");
+    assert_eq!(pictures.len(), 1);
+    assert!(pictures[0].range[0] < 1.0 && pictures[0].range[1] > 4.0);
+}
+
+#[test]
+#[ignore = "large pictures for the eye: cargo test -- --ignored pictures, then look into target/tmp"]
+fn pictures_to_look_at() {
+    let block = "\n[[obstacles]]\nname = \"block\"\nshape.box = { center = [0.95, 0.05, 0.1], size = [0.2, 0.2, 0.4] }";
+    render(1, 200, [1280, 720], "");
+    let fields = r#"output.fields = ["density", "schlieren"]"#;
+    render(2, 128, [1280, 720], &format!("{fields}\nrender.colormap = \"inferno\""));
+    render(3, 64, [1280, 720], &format!("render.colormap = \"inferno\"{block}"));
+    render(3, 64, [1024, 640], "render.mode = \"density\"\nrender.colormap = \"magma\"");
+}
+
+#[test]
+fn view_has_the_offsets_of_the_shader() {
+    let shader = gpu().shader("slice.wgsl", &brisance::render::shader_constants()).unwrap();
+    let (module, _) = shader.compile().unwrap();
+    let (_, view) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("View")).unwrap();
+    let wgpu::naga::TypeInner::Struct { members, span } = &view.inner else { panic!("View is a struct") };
+    let offset =
+        |name: &str| members.iter().find(|member| member.name.as_deref() == Some(name)).unwrap().offset as usize;
+    macro_rules! same {
+        ($($field:ident),*) => { $(assert_eq!(offset(stringify!($field)), std::mem::offset_of!(View, $field));)* };
+    }
+    same!(cells, dimension, origin, spacing, eye, parallel, right, half_height, up, gamma, forward, field, light);
+    same!(
+        particle_scale,
+        size,
+        particles,
+        squares,
+        low,
+        high,
+        neutral,
+        opacity,
+        step,
+        obstacles,
+        contrast,
+        dark_strain
+    );
+    assert_eq!(*span as usize, size_of::<View>());
+}
+
+#[test]
+fn png_tells_where_it_comes_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let pictures = render(2, 16, [64, 48], "output.fields = [\"pressure\", \"density\"]");
+    let moment =
+        Moment { index: 7, title: "Sod \u{2192} shell", time: 0.0125, step: 42, pictures: &pictures, snapshot: None };
+    export::png::PngExporter::new(folder.path()).write(&moment).unwrap();
+    let file = std::fs::File::open(folder.path().join("frames/0007.png")).unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    let rgb: Vec<u8> = pictures[0].frame.rgba.chunks_exact(4).flat_map(|pixel| pixel[..3].to_vec()).collect();
+    assert_eq!(pixels, rgb);
+    let info = reader.info();
+    let text = |key: &str| {
+        info.uncompressed_latin1_text.iter().find(|chunk| chunk.keyword == key).map(|chunk| chunk.text.clone())
+    };
+    assert_eq!(text("Time").as_deref(), Some("0.0125"));
+    assert_eq!(text("Step").as_deref(), Some("42"));
+    assert_eq!(text("Field").as_deref(), Some("pressure"));
+    assert!(text("Range").is_some());
+    assert_eq!(info.utf8_text[0].get_text().unwrap(), "Sod \u{2192} shell");
+    assert!(folder.path().join("frames/density/0007.png").exists());
+}
