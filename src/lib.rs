@@ -8,6 +8,7 @@ pub mod material;
 pub mod math;
 pub mod numerics;
 pub mod render;
+pub mod riemann;
 pub mod scene;
 pub mod simulation;
 pub mod snapshot;

@@ -1,14 +1,353 @@
-//! Checks that types cannot express.
+//! Checks that types cannot express: limits, references, geometry. Every finding names key, value, limit and remedy.
 
-use toml::de::DeTable;
+use std::collections::BTreeSet;
 
-use super::Scene;
-use super::source::Finding;
+use toml::de::{DeTable, DeValue};
+
+use super::check_shape;
+use super::source::{Finding, walk};
+use super::{Boundaries, Boundary, GasState, Scene};
+use crate::material::kind_names;
+
+/// Cells per active axis at least: the advection stencil needs this many.
+const FEWEST_CELLS: u32 = 3;
+/// Cells and their ring at most: positions are 32-bit integers on the device.
+const MOST_SLOTS: u64 = i32::MAX as u64;
+/// Edges of a cell may differ by this much, relative: what decimal numbers in a file lose.
+const CUBE_TOLERANCE: f64 = 1e-6;
+
+/// Keys that hold one number per axis.
+const VECTORS: [&str; 15] = [
+    "cells", "origin", "size", "velocity", "center", "axis", "from", "to", "point", "normal", "offset", "about",
+    "radii", "position", "gravity",
+];
 
 /// Numbers that are not finite and vectors of the wrong length, in the text itself.
-pub(super) fn numbers(_root: &DeTable<'_>, _findings: &mut Vec<Finding>) {}
+pub(super) fn numbers(root: &DeTable<'_>, findings: &mut Vec<Finding>) {
+    let domain = root.get("domain").and_then(|domain| domain.get_ref().get("dimension"));
+    let dimension =
+        domain.and_then(|value| value.get_ref().as_integer()).and_then(|value| value.as_str().parse::<usize>().ok());
+    walk(root, &mut |path, place, value| match value {
+        DeValue::Float(number) if !number.as_str().parse::<f64>().is_ok_and(f64::is_finite) => {
+            let message = format!("{} is not finite", number.as_str());
+            findings.push(Finding {
+                span: Some(place),
+                ..Finding::new(path, message, "give a finite number, or leave the key out")
+            });
+        }
+        DeValue::Array(entries) => {
+            let key = path.rsplit('.').next().unwrap_or(path);
+            let vector = VECTORS.contains(&key) && !path.starts_with("render.");
+            if let Some(dimension @ 1..=3) = dimension.filter(|d| vector && entries.len() != *d && entries.len() != 3) {
+                let message = format!("{} entries in a scene of dimension {dimension}", entries.len());
+                findings.push(Finding {
+                    span: Some(place),
+                    ..Finding::new(path, message, format!("give {dimension} numbers, one per axis"))
+                });
+            }
+        }
+        _ => {}
+    });
+}
 
 /// Everything that is wrong with a scene.
-pub(super) fn findings(_scene: &Scene) -> Vec<Finding> {
-    Vec::new()
+pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
+    let mut check = Check { scene, findings: Vec::new() };
+    check.domain();
+    let sound_domain = check.findings.is_empty();
+    check.gas();
+    check.boundary();
+    check.materials();
+    check.names();
+    let before = check.findings.len();
+    check.geometry();
+    check.time();
+    check.numerics();
+    check.output();
+    check.expect();
+    if sound_domain && check.findings.len() == before {
+        check_shape::places(scene, &mut check.findings);
+    }
+    check.findings
+}
+
+struct Check<'s> {
+    scene: &'s Scene,
+    findings: Vec<Finding>,
+}
+
+impl Check<'_> {
+    fn add(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
+        self.findings.push(Finding::new(path, message, help));
+    }
+
+    fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
+        if !(value > 0.0 && value.is_finite()) {
+            self.add(path, format!("{value} is not positive"), format!("give a finite number above 0 {unit}"));
+        }
+    }
+
+    /// A fraction: above 0 and at most `most`.
+    fn fraction(&mut self, path: &str, value: f64, most: f64) {
+        if !(value > 0.0 && value <= most) {
+            self.add(path, format!("{value} is out of range"), format!("give a number above 0 and at most {most}"));
+        }
+    }
+
+    fn count(&mut self, path: impl Into<String>, value: u32, least: u32, most: u32) {
+        if !(least..=most).contains(&value) {
+            self.add(path, format!("{value} is out of range"), format!("give a whole number from {least} to {most}"));
+        }
+    }
+
+    /// A vector that must be finite and vanish along inactive axes.
+    fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
+        let axes = self.scene.domain.axes().min(3);
+        if vector.iter().any(|x| !x.is_finite()) {
+            self.add(path, format!("{vector:?} is not finite"), "give finite numbers");
+        } else if vector[axes..].iter().any(|x| *x != 0.0) {
+            let help = format!("the scene has {axes} axes: leave the other entries out or give 0");
+            self.add(path, format!("{vector:?} leaves the active axes"), help);
+        }
+    }
+
+    fn state(&mut self, path: &str, state: &GasState) {
+        self.positive(format!("{path}.density"), state.density, "[kg m^-3]");
+        self.positive(format!("{path}.pressure"), state.pressure, "[Pa]");
+        self.planar(format!("{path}.velocity"), state.velocity);
+    }
+
+    fn domain(&mut self) {
+        let domain = &self.scene.domain;
+        if !(1..=3).contains(&domain.dimension) {
+            self.add("domain.dimension", format!("{} is no number of axes", domain.dimension), "give 1, 2 or 3");
+            return;
+        }
+        let axes = domain.axes();
+        for d in 0..axes {
+            if domain.cells[d] < FEWEST_CELLS {
+                let message = format!("{:?}: too few cells along axis {}", &domain.cells[..axes], ["x", "y", "z"][d]);
+                self.add(
+                    "domain.cells",
+                    message,
+                    format!("give at least {FEWEST_CELLS} cells along every active axis"),
+                );
+            }
+            if !(domain.size[d] > 0.0 && domain.size[d].is_finite()) {
+                let message = format!("{:?}: no length along axis {}", &domain.size[..axes], ["x", "y", "z"][d]);
+                self.add("domain.size", message, "give finite lengths above 0 [m]");
+            }
+        }
+        if domain.cells[axes..].iter().any(|n| *n != 1) {
+            let message = format!("{:?} in a scene of dimension {axes}", domain.cells);
+            self.add("domain.cells", message, format!("give {axes} entries; inactive axes have one cell"));
+        }
+        self.planar("domain.origin", domain.origin);
+        let slots = (0..axes).map(|d| u64::from(domain.cells[d]) + 2).fold(1, u64::saturating_mul);
+        if slots > MOST_SLOTS {
+            let message = format!("{:?}: {slots} cells with their ring", &domain.cells[..axes]);
+            self.add("domain.cells", message, format!("give at most {MOST_SLOTS} in all"));
+        }
+        self.cubes();
+    }
+
+    fn cubes(&mut self) {
+        let domain = &self.scene.domain;
+        let edges = (0..domain.axes()).map(|d| domain.size[d] / f64::from(domain.cells[d])).collect::<Vec<_>>();
+        let even = edges.iter().all(|edge| (edge / edges[0] - 1.0).abs() <= CUBE_TOLERANCE);
+        if self.findings.is_empty() && !even {
+            let matching = domain.size.map(|size| (size / edges[0]).round().max(1.0));
+            let help = format!(
+                "cells must be cubes: size / cells must be equal along all axes, for example cells = {:?}",
+                &matching[..domain.axes()]
+            );
+            self.add("domain.cells", format!("cells of edges {edges:?}"), help);
+        }
+    }
+
+    fn gas(&mut self) {
+        let gas = &self.scene.gas;
+        if !(gas.gamma > 1.0 && gas.gamma.is_finite()) {
+            self.add("gas.gamma", format!("{} is out of range", gas.gamma), "give a number above 1; air has 1.4");
+        }
+        self.state("gas.ambient", &gas.ambient);
+        for (index, region) in gas.regions.iter().enumerate() {
+            self.state(&format!("gas.regions[{index}]"), &region.state);
+        }
+        self.planar("gravity", self.scene.gravity);
+    }
+
+    fn boundary(&mut self) {
+        for (side, name) in self.scene.boundary.sides().iter().zip(Boundaries::NAMES) {
+            let index = Boundaries::NAMES.iter().position(|other| *other == name).unwrap_or(0);
+            let (axis, outward) = (index / 2, if index % 2 == 0 { -1.0 } else { 1.0 });
+            let path = format!("boundary.{name}");
+            if axis >= self.scene.domain.axes() && *side != Boundary::Wall {
+                let help = format!("the scene has {} axes; remove the key", self.scene.domain.dimension);
+                self.add(&path, "this side belongs to an inactive axis", help);
+            }
+            if let Boundary::Inlet(state) = side {
+                self.state(&format!("{path}.inlet"), state);
+                if state.velocity[axis] * outward > 0.0 {
+                    let message = format!("{:?} points out of the domain", state.velocity);
+                    self.add(
+                        format!("{path}.inlet.velocity"),
+                        message,
+                        "turn the velocity round, or make the side an \"outlet\"",
+                    );
+                }
+            }
+        }
+    }
+
+    fn materials(&mut self) {
+        for (name, material) in &self.scene.materials {
+            for (parameter, value, allowed) in material.findings() {
+                let path = format!("materials.{name}.{}.{parameter}", material.kind().name);
+                self.add(path, format!("{value} is out of range"), format!("give {allowed}"));
+            }
+        }
+        for (index, body) in self.scene.bodies.iter().enumerate() {
+            let path = format!("bodies[{index}]");
+            self.positive(format!("{path}.density"), body.density, "[kg m^-3]");
+            self.planar(format!("{path}.velocity"), body.velocity);
+            self.count(format!("{path}.particles_per_cell"), body.particles_per_cell, 1, 8);
+            if !self.scene.materials.contains_key(&body.material) {
+                let known = self.scene.materials.keys().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
+                let help = if known.is_empty() {
+                    format!(
+                        "the scene has no materials; add [materials.{}] with one of {}",
+                        body.material,
+                        kind_names()
+                    )
+                } else {
+                    format!("the scene has {known}")
+                };
+                self.add(format!("{path}.material"), format!("unknown material `{}`", body.material), help);
+            }
+        }
+    }
+
+    fn names(&mut self) {
+        let scene = self.scene;
+        let bodies = scene.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
+        let obstacles = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect::<Vec<_>>();
+        let probes = scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>();
+        for (list, names) in [("bodies", bodies), ("obstacles", obstacles), ("probes", probes)] {
+            let mut seen = BTreeSet::new();
+            for (index, name) in names.into_iter().enumerate() {
+                if name.is_empty() || name.contains([',', '"', '\n']) {
+                    let help = "names head columns of tables: give text without commas, quotes or line breaks";
+                    self.add(format!("{list}[{index}].name"), format!("`{name}` is no name"), help);
+                } else if !seen.insert(name) {
+                    self.add(
+                        format!("{list}[{index}].name"),
+                        format!("`{name}` is taken"),
+                        "give every entry its own name",
+                    );
+                }
+            }
+        }
+    }
+
+    fn geometry(&mut self) {
+        let scene = self.scene;
+        let regions =
+            scene.gas.regions.iter().enumerate().map(|(i, region)| (format!("gas.regions[{i}].shape"), &region.shape));
+        let bodies = scene.bodies.iter().enumerate().map(|(i, body)| (format!("bodies[{i}].shape"), &body.shape));
+        let obstacles =
+            scene.obstacles.iter().enumerate().map(|(i, obstacle)| (format!("obstacles[{i}].shape"), &obstacle.shape));
+        for (path, shape) in regions.chain(bodies).chain(obstacles) {
+            check_shape::sizes(&path, shape, &mut self.findings);
+        }
+        for (index, probe) in scene.probes.iter().enumerate() {
+            let path = format!("probes[{index}].position");
+            self.planar(&path, probe.position);
+            let domain = &scene.domain;
+            let within = |d: usize| (domain.origin[d]..=domain.origin[d] + domain.size[d]).contains(&probe.position[d]);
+            if !(0..domain.axes().min(3)).all(within) {
+                self.add(&path, format!("{:?} lies outside the domain", probe.position), check_shape::extent(domain));
+            }
+        }
+    }
+
+    fn time(&mut self) {
+        let time = &self.scene.time;
+        self.positive("time.until", time.until, "[s]");
+        self.fraction("time.cfl", time.cfl, 1.0);
+        self.count("time.frames", time.frames, 1, 1_000_000);
+        self.positive("time.max_courant", time.max_courant, "");
+        if !(time.max_growth > 1.0 && time.max_growth.is_finite()) {
+            self.add("time.max_growth", format!("{} is out of range", time.max_growth), "give a finite number above 1");
+        }
+        if let Some(step) = time.fixed_step {
+            self.positive("time.fixed_step", step, "[s], or leave it out");
+        }
+    }
+
+    fn numerics(&mut self) {
+        let numerics = &self.scene.numerics;
+        if !(numerics.tolerance > 0.0 && numerics.tolerance < 1.0) {
+            let message = format!("{} is out of range", numerics.tolerance);
+            self.add(
+                "numerics.tolerance",
+                message,
+                "give a number above 0 and below 1; single precision reaches about 1e-6",
+            );
+        }
+        self.count("numerics.max_iterations", numerics.max_iterations, 1, 100_000);
+        self.fraction("numerics.solid_threshold", numerics.solid_threshold, 1.0);
+        self.fraction("numerics.elastic_cfl", numerics.elastic_cfl, 1.0);
+        self.count("numerics.max_substeps", numerics.max_substeps, 1, 10_000);
+    }
+
+    fn output(&mut self) {
+        let render = &self.scene.render;
+        for pixels in render.size {
+            self.count("render.size", pixels, 16, 8192);
+        }
+        if let Some([low, high]) =
+            render.range.filter(|[low, high]| low.partial_cmp(high) != Some(std::cmp::Ordering::Less))
+        {
+            self.add("render.range", format!("[{low}, {high}] is empty"), "give the lower value first");
+        }
+        let Some(camera) = render.camera else { return };
+        let view: [f64; 3] = std::array::from_fn(|d| camera.target[d] - camera.eye[d]);
+        let [a, b] = [view, camera.up];
+        let across = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        if view == [0.0; 3] {
+            self.add("render.camera.eye", "eye and target are the same point", "move one of them");
+        } else if across.iter().all(|x| x.abs() < 1e-9) {
+            self.add("render.camera.up", format!("{b:?} is zero or points along the view"), "give another direction");
+        }
+        if !(1.0..=170.0).contains(&camera.fov_degrees) {
+            let message = format!("{} is out of range", camera.fov_degrees);
+            self.add("render.camera.fov_degrees", message, "give a number from 1 to 170 [degrees]");
+        }
+    }
+
+    fn expect(&mut self) {
+        let expect = &self.scene.expect;
+        if expect.density_l1.is_some() && self.scene.riemann().is_none() {
+            let help = "it needs a scene of dimension 1 whose start has two states: ambient and one region that reaches one end";
+            self.add("expect.density_l1", "this scene has no exact solution", help);
+        }
+        let closed = self.scene.boundary.closed(self.scene.domain.dimension);
+        if !closed && (expect.gas_mass_drift.is_some() || expect.energy_drift.is_some()) {
+            let key = if expect.gas_mass_drift.is_some() { "gas_mass_drift" } else { "energy_drift" };
+            self.add(format!("expect.{key}"), "the domain is open", "remove the key, or make every side a \"wall\"");
+        }
+        for (index, expected) in expect.bodies.iter().enumerate() {
+            let path = format!("expect.bodies[{index}]");
+            if self.scene.bodies.iter().all(|body| body.name != expected.body) {
+                self.add(
+                    format!("{path}.body"),
+                    format!("unknown body `{}`", expected.body),
+                    "name an entry of bodies",
+                );
+            }
+            self.positive(format!("{path}.tolerance"), expected.tolerance, "[m]");
+            self.planar(format!("{path}.center"), expected.center);
+        }
+    }
 }

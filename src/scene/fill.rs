@@ -72,9 +72,6 @@ impl Scene {
     pub fn seed_particles(&self) -> Vec<Seed> {
         let mut seeds = Vec::new();
         for (index, body) in self.bodies.iter().enumerate() {
-            let earlier = &self.bodies[..index];
-            let free =
-                |point| earlier.iter().all(|other| other.shape.distance(point) >= 0.0) && !self.inside_obstacle(point);
             let per_cell = f64::from(body.particles_per_cell).powi(self.domain.dimension as i32);
             let seed = |position| Seed {
                 position,
@@ -85,12 +82,28 @@ impl Scene {
                 material: self.material_index(&body.material).unwrap_or(0),
             };
             self.each_point(&body.shape, body.particles_per_cell, |point| {
-                if body.shape.distance(point) < 0.0 && free(point) {
+                if self.owner(point) == Some(index) {
                     seeds.push(seed(point));
                 }
             });
         }
         seeds
+    }
+
+    /// True if a body gets at least one particle.
+    pub(super) fn has_particles(&self, index: usize) -> bool {
+        let body = &self.bodies[index];
+        let mut found = false;
+        self.each_point(&body.shape, body.particles_per_cell, |point| {
+            found = found || self.owner(point) == Some(index);
+        });
+        found
+    }
+
+    /// The body that a point belongs to: the first that holds it; none inside obstacles.
+    fn owner(&self, point: [f64; 3]) -> Option<usize> {
+        let first = self.bodies.iter().position(|body| body.shape.distance(point) < 0.0);
+        first.filter(|_| !self.inside_obstacle(point))
     }
 
     fn inside_obstacle(&self, point: [f64; 3]) -> bool {

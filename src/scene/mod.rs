@@ -7,6 +7,7 @@
 
 mod boundary;
 mod check;
+mod check_shape;
 mod distance;
 mod fill;
 mod load;
@@ -23,6 +24,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use crate::material::Material;
+use crate::riemann::ExactRiemann;
 pub use boundary::{Boundaries, Boundary};
 pub use fill::Seed;
 pub use settings::{
@@ -290,6 +292,37 @@ impl Scene {
         };
         let finite = |density: f64| if density.is_finite() { density } else { 1.0 };
         self.materials.iter().map(|(name, material)| material.params(finite(lightest(name)))).collect()
+    }
+
+    /// The exact solution of a shock tube and the place of its jump: a scene of dimension 1 with no bodies, obstacles or gravity
+    /// whose gas starts as one region in ambient gas, so that the two ends differ and one jump lies between them.
+    #[must_use]
+    pub fn riemann(&self) -> Option<(ExactRiemann, f64)> {
+        let plain = self.domain.dimension == 1
+            && self.bodies.is_empty()
+            && self.obstacles.is_empty()
+            && self.gravity == [0.0; 3];
+        let [region] = &self.gas.regions[..] else { return None };
+        let inside = |x: f64| region.shape.distance([x, 0.0, 0.0]) < 0.0;
+        let (mut low, mut high) = (self.domain.origin[0], self.domain.origin[0] + self.domain.size[0]);
+        let primitive = |x: f64| {
+            let state = self.gas_at([x, 0.0, 0.0]);
+            (state.density, state.velocity[0], state.pressure)
+        };
+        let nudge = 1e-9 * self.domain.size[0];
+        let (left, right) = (primitive(low + nudge), primitive(high - nudge));
+        if !plain || inside(low + nudge) == inside(high - nudge) {
+            return None;
+        }
+        let first = inside(low + nudge);
+        while high - low > 1e-14 * self.domain.size[0] {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if inside(middle) == first { low = middle } else { high = middle }
+        }
+        Some((ExactRiemann::new(self.gas.gamma, left, right), 0.5 * (low + high)))
     }
 
     /// The JSON schema of scene files (draft 2020-12).

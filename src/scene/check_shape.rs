@@ -1,0 +1,191 @@
+//! Checks of shapes: sizes, and whether things lie in the domain.
+
+use super::source::Finding;
+use super::{Body, Domain, Scene, Shape};
+
+/// Sample points per axis when looking for parts of a body outside the domain.
+const SAMPLES: f64 = 64.0;
+
+/// Sizes that are not positive, directions without length, empty lists.
+pub(super) fn sizes(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
+    let mut add =
+        |key: &str, message: String, help: &str| findings.push(Finding::new(format!("{path}.{key}"), message, help));
+    let mut positive = |key: &str, value: f64| {
+        // infinite: an entry that was left out; the text holds no infinite numbers
+        if value.is_nan() || value <= 0.0 {
+            add(key, format!("{value} is not positive"), "give a length above 0 [m]");
+        }
+    };
+    match shape {
+        Shape::Box { size, round, .. } => {
+            size.iter().for_each(|edge| positive("box.size", *edge));
+            let most = size.iter().fold(f64::INFINITY, |a, b| a.min(0.5 * b));
+            if !(0.0..=most).contains(round) {
+                add(
+                    "box.round",
+                    format!("{round} is out of range"),
+                    "give a length from 0 to half the shortest edge [m]",
+                );
+            }
+        }
+        Shape::Sphere { radius, .. } => positive("sphere.radius", *radius),
+        Shape::Ellipsoid { radii, .. } => radii.iter().for_each(|radius| positive("ellipsoid.radii", *radius)),
+        Shape::Cylinder { axis, radius, height, .. } => {
+            positive("cylinder.radius", *radius);
+            positive("cylinder.height", height.unwrap_or(f64::INFINITY));
+            direction(path, "cylinder.axis", *axis, findings);
+        }
+        Shape::Capsule { radius, .. } => positive("capsule.radius", *radius),
+        Shape::Cone { axis, radius, top_radius, height, .. } => {
+            positive("cone.height", *height);
+            if !(*radius >= 0.0 && *top_radius >= 0.0 && radius + top_radius > 0.0) {
+                add(
+                    "cone.radius",
+                    format!("{radius} and top_radius {top_radius}"),
+                    "give radii of at least 0, one of them positive [m]",
+                );
+            }
+            direction(path, "cone.axis", *axis, findings);
+        }
+        Shape::Torus { axis, major, minor, .. } => {
+            positive("torus.major", *major);
+            positive("torus.minor", *minor);
+            direction(path, "torus.axis", *axis, findings);
+        }
+        Shape::HalfSpace { normal, .. } => direction(path, "half_space.normal", *normal, findings),
+        Shape::Polygon { points, height, .. } => {
+            positive("polygon.height", height.unwrap_or(f64::INFINITY));
+            if points.len() < 3 {
+                add("polygon.points", format!("{} corners", points.len()), "give at least 3 corners");
+            }
+        }
+        _ => combined(path, shape, findings),
+    }
+}
+
+/// Shapes made of shapes.
+fn combined(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
+    let positive = |key: &str, value: f64, findings: &mut Vec<Finding>| {
+        if value.is_nan() || value <= 0.0 {
+            findings.push(Finding::new(
+                format!("{path}.{key}"),
+                format!("{value} is not positive"),
+                "give a number above 0",
+            ));
+        }
+    };
+    match shape {
+        Shape::Translate { shape, .. } => sizes(&format!("{path}.translate.shape"), shape, findings),
+        Shape::Rotate { axis, shape, .. } => {
+            direction(path, "rotate.axis", *axis, findings);
+            sizes(&format!("{path}.rotate.shape"), shape, findings);
+        }
+        Shape::Scale { factor, shape, .. } => {
+            positive("scale.factor", *factor, findings);
+            sizes(&format!("{path}.scale.shape"), shape, findings);
+        }
+        Shape::Shell { thickness, shape } => {
+            positive("shell.thickness", *thickness, findings);
+            sizes(&format!("{path}.shell.shape"), shape, findings);
+        }
+        Shape::SmoothUnion { radius, shapes } => {
+            positive("smooth_union.radius", *radius, findings);
+            list(&format!("{path}.smooth_union.shapes"), shapes, findings);
+        }
+        Shape::Union(shapes) => list(&format!("{path}.union"), shapes, findings),
+        Shape::Intersection(shapes) => list(&format!("{path}.intersection"), shapes, findings),
+        Shape::Difference(shapes) => list(&format!("{path}.difference"), shapes, findings),
+        // single shapes are checked by `sizes`
+        _ => {}
+    }
+}
+
+fn list(path: &str, shapes: &[Shape], findings: &mut Vec<Finding>) {
+    if shapes.is_empty() {
+        findings.push(Finding::new(path, "the list is empty", "give at least one shape"));
+    }
+    for (index, shape) in shapes.iter().enumerate() {
+        sizes(&format!("{path}[{index}]"), shape, findings);
+    }
+}
+
+fn direction(path: &str, key: &str, vector: [f64; 3], findings: &mut Vec<Finding>) {
+    if vector == [0.0; 3] {
+        findings.push(Finding::new(
+            format!("{path}.{key}"),
+            "the direction has no length",
+            "give a vector that is not zero",
+        ));
+    }
+}
+
+/// Bodies, obstacles and regions that miss the domain, and bodies that reach out of it.
+pub(super) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
+    for (index, region) in scene.gas.regions.iter().enumerate() {
+        misses(scene, &format!("gas.regions[{index}].shape"), &region.shape, findings);
+    }
+    for (index, obstacle) in scene.obstacles.iter().enumerate() {
+        misses(scene, &format!("obstacles[{index}].shape"), &obstacle.shape, findings);
+    }
+    for (index, body) in scene.bodies.iter().enumerate() {
+        let path = format!("bodies[{index}].shape");
+        if misses(scene, &path, &body.shape, findings) {
+            continue;
+        }
+        if let Some(point) = outside_point(&scene.domain, body) {
+            let message = format!("body `{}` reaches out of the domain, at {point:?} for example", body.name);
+            let help = format!("{}; move or shrink the body, or cut it with an intersection", extent(&scene.domain));
+            findings.push(Finding::new(&path, message, help));
+        } else if !scene.has_particles(index) {
+            let message = format!("body `{}` holds no particle", body.name);
+            let help = "it is thinner than the particle spacing, or covered by obstacles or earlier bodies: enlarge it, \
+                        refine the grid or raise particles_per_cell";
+            findings.push(Finding::new(&path, message, help));
+        }
+    }
+}
+
+/// The domain in words.
+pub(super) fn extent(domain: &Domain) -> String {
+    let range = |d: usize| format!("{} to {}", domain.origin[d], domain.origin[d] + domain.size[d]);
+    let ranges = (0..domain.axes().min(3)).map(|d| format!("{} from {}", ["x", "y", "z"][d], range(d)));
+    format!("the domain has {}", ranges.collect::<Vec<_>>().join(", "))
+}
+
+fn misses(scene: &Scene, path: &str, shape: &Shape, findings: &mut Vec<Finding>) -> bool {
+    let domain = &scene.domain;
+    let (low, high) = shape.bounds();
+    let apart = |d: usize| high[d] <= domain.origin[d] || low[d] >= domain.origin[d] + domain.size[d];
+    let outside = (0..domain.axes()).any(apart);
+    if outside {
+        let corner = |v: [f64; 3]| v[..domain.axes()].to_vec();
+        let message = format!("lies outside the domain, between {:?} and {:?}", corner(low), corner(high));
+        findings.push(Finding::new(path, message, format!("{}; move the shape or enlarge the domain", extent(domain))));
+    }
+    outside
+}
+
+/// A point of a bounded body outside the domain. Endless bodies, such as a half space, are cut at the sides.
+fn outside_point(domain: &Domain, body: &Body) -> Option<[f64; 3]> {
+    let (low, high) = body.shape.bounds();
+    let axes = domain.axes();
+    let slack = 1e-9 * domain.spacing();
+    let beyond = |d: usize, x: f64| x < domain.origin[d] - slack || x > domain.origin[d] + domain.size[d] + slack;
+    if (0..axes).any(|d| !low[d].is_finite() || !high[d].is_finite())
+        || !(0..axes).any(|d| beyond(d, low[d]) || beyond(d, high[d]))
+    {
+        return None;
+    }
+    let finest = domain.spacing() / f64::from(body.particles_per_cell);
+    let count = |d: usize| if d < axes { ((high[d] - low[d]) / finest).ceil().clamp(1.0, SAMPLES) as u32 } else { 1 };
+    let at = |d: usize, index: u32| {
+        if d < axes { low[d] + (high[d] - low[d]) * (f64::from(index) + 0.5) / f64::from(count(d)) } else { 0.0 }
+    };
+    let total = count(0) * count(1) * count(2);
+    let point = |index: u32| {
+        let steps = [index % count(0), index / count(0) % count(1), index / (count(0) * count(1))];
+        std::array::from_fn(|d| at(d, steps[d]))
+    };
+    let outside = |point: &[f64; 3]| (0..axes).any(|d| beyond(d, point[d])) && body.shape.distance(*point) < 0.0;
+    (0..total).map(point).find(outside)
+}
