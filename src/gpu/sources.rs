@@ -10,7 +10,6 @@ macro_rules! sources {
 /// All embedded shaders: path below `shaders/`, text.
 #[rustfmt::skip]
 pub const SOURCES: &[(&str, &str)] = sources![
-<<<<<<< HEAD
     "diagnostics.wgsl",
     "field.wgsl",
     "fluid_floor.wgsl",
@@ -61,17 +60,5 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "step_control.wgsl",
     "time_step.wgsl",
     "vertex_pressure.wgsl",
-=======
-    "field.wgsl",
-    "points.wgsl",
-    "reduce.wgsl",
-    "scan.wgsl",
-    "shared/color.wgsl",
-    "shared/reduce.wgsl",
-    "shared/surface.wgsl",
-    "shared/thread.wgsl",
-    "shared/view.wgsl",
-    "slice.wgsl",
->>>>>>> render
     "volume.wgsl",
 ];
