@@ -27,26 +27,31 @@ pub(super) fn numbers(root: &DeTable<'_>, findings: &mut Vec<Finding>) {
     let domain = root.get("domain").and_then(|domain| domain.get_ref().get("dimension"));
     let dimension =
         domain.and_then(|value| value.get_ref().as_integer()).and_then(|value| value.as_str().parse::<usize>().ok());
-    walk(root, &mut |path, place, value| match value {
-        DeValue::Float(number) if !number.as_str().parse::<f64>().is_ok_and(f64::is_finite) => {
-            let message = format!("{} is not finite", number.as_str());
-            findings.push(Finding {
-                span: Some(place),
-                ..Finding::new(path, message, "give a finite number, or leave the key out")
-            });
-        }
-        DeValue::Array(entries) => {
-            let key = path.rsplit('.').next().unwrap_or(path);
-            let vector = VECTORS.contains(&key) && !path.starts_with("render.");
-            if let Some(dimension @ 1..=3) = dimension.filter(|d| vector && entries.len() != *d && entries.len() != 3) {
-                let message = format!("{} entries in a scene of dimension {dimension}", entries.len());
+    walk(root, &mut |entry| {
+        let (path, place) = (entry.path, entry.place());
+        match entry.value.get_ref() {
+            DeValue::Float(number) if !number.as_str().parse::<f64>().is_ok_and(f64::is_finite) => {
+                let message = format!("{} is not finite", number.as_str());
                 findings.push(Finding {
                     span: Some(place),
-                    ..Finding::new(path, message, format!("give {dimension} numbers, one per axis"))
+                    ..Finding::new(path, message, "give a finite number, or leave the key out")
                 });
             }
+            DeValue::Array(entries) => {
+                let key = path.rsplit('.').next().unwrap_or(path);
+                let vector = VECTORS.contains(&key) && !path.starts_with("render.");
+                if let Some(dimension @ 1..=3) =
+                    dimension.filter(|d| vector && entries.len() != *d && entries.len() != 3)
+                {
+                    let message = format!("{} entries in a scene of dimension {dimension}", entries.len());
+                    findings.push(Finding {
+                        span: Some(place),
+                        ..Finding::new(path, message, format!("give {dimension} numbers, one per axis"))
+                    });
+                }
+            }
+            _ => {}
         }
-        _ => {}
     });
 }
 
@@ -156,7 +161,7 @@ impl Check<'_> {
         let edges = (0..domain.axes()).map(|d| domain.size[d] / f64::from(domain.cells[d])).collect::<Vec<_>>();
         let even = edges.iter().all(|edge| (edge / edges[0] - 1.0).abs() <= CUBE_TOLERANCE);
         if self.findings.is_empty() && !even {
-            let matching = domain.size.map(|size| (size / edges[0]).round().max(1.0));
+            let matching = domain.size.map(|size| (size / edges[0]).round().max(1.0) as u32);
             let help = format!(
                 "cells must be cubes: size / cells must be equal along all axes, for example cells = {:?}",
                 &matching[..domain.axes()]

@@ -39,6 +39,8 @@ pub(super) struct Source {
     parts: Vec<Range<usize>>,
     /// Every key path with the place of its value.
     places: Vec<(String, Range<usize>)>,
+    /// Every key path with the place of the key itself.
+    keys: Vec<(String, Range<usize>)>,
 }
 
 impl Source {
@@ -52,7 +54,7 @@ impl Source {
             buffer.push_str(line);
             parts.push(start..buffer.len());
         }
-        Source { name: name.to_owned(), buffer, parts, places: Vec::new() }
+        Source { name: name.to_owned(), buffer, parts, places: Vec::new(), keys: Vec::new() }
     }
 
     /// The text of the scene file alone.
@@ -92,14 +94,17 @@ impl Source {
 
     /// Remembers where every key of the document stands.
     pub(super) fn index(&mut self, root: &DeTable<'_>) {
-        self.places.clear();
-        walk(root, &mut |path, place, _| self.places.push((path.to_owned(), place)));
+        walk(root, &mut |entry| {
+            self.places.push((entry.path.to_owned(), entry.place()));
+            self.keys.extend(entry.key.map(|key| (entry.path.to_owned(), key)));
+        });
     }
 
     /// The innermost key whose place holds the given one.
     pub(super) fn path_at(&self, span: &Range<usize>) -> String {
         let holds = |place: &Range<usize>| place.start <= span.start && span.end <= place.end;
-        let inner = self.places.iter().filter(|(_, place)| holds(place)).min_by_key(|(_, place)| place.len());
+        let inner =
+            self.places.iter().chain(&self.keys).filter(|(_, place)| holds(place)).min_by_key(|(_, place)| place.len());
         inner.map(|(path, _)| path.clone()).unwrap_or_default()
     }
 
@@ -151,34 +156,44 @@ fn count(findings: usize) -> String {
     if findings == 1 { "1 error".to_owned() } else { format!("{findings} errors") }
 }
 
-/// Calls `visit` with path, place and value of every key.
-pub(super) fn walk<'a>(root: &DeTable<'a>, visit: &mut impl FnMut(&str, Range<usize>, &DeValue<'a>)) {
-    for (key, value) in root {
-        walk_value(key.get_ref(), Some(key.span()), value, visit);
+/// A key of a document.
+pub(super) struct Entry<'e, 'a> {
+    /// Key path.
+    pub path: &'e str,
+    /// Place of the key; entries of lists have none.
+    pub key: Option<Range<usize>>,
+    /// The value and its place.
+    pub value: &'e Spanned<DeValue<'a>>,
+}
+
+impl Entry<'_, '_> {
+    /// Where to point at: the value, or the key of a table that has no text of its own.
+    pub(super) fn place(&self) -> Range<usize> {
+        let place = self.value.span();
+        self.key.clone().filter(|_| place.is_empty()).unwrap_or(place)
     }
 }
 
-fn walk_value<'a>(
-    path: &str,
-    key: Option<Range<usize>>,
-    value: &Spanned<DeValue<'a>>,
-    visit: &mut impl FnMut(&str, Range<usize>, &DeValue<'a>),
-) {
-    // a table or array written over several lines is shown by its key
-    let place = match (value.get_ref(), key) {
-        (DeValue::Table(_) | DeValue::Array(_), Some(key)) if value.span().is_empty() => key,
-        _ => value.span(),
-    };
-    visit(path, place, value.get_ref());
+/// Calls `visit` with every key.
+pub(super) fn walk<'a>(root: &DeTable<'a>, visit: &mut impl FnMut(Entry<'_, 'a>)) {
+    for (key, value) in root {
+        walk_value(Entry { path: key.get_ref(), key: Some(key.span()), value }, visit);
+    }
+}
+
+fn walk_value<'a>(entry: Entry<'_, 'a>, visit: &mut impl FnMut(Entry<'_, 'a>)) {
+    let Entry { path, value, .. } = entry;
+    visit(entry);
     match value.get_ref() {
         DeValue::Table(table) => {
-            for (key, inner) in table {
-                walk_value(&format!("{path}.{}", key.get_ref()), Some(key.span()), inner, visit);
+            for (key, value) in table {
+                let path = format!("{path}.{}", key.get_ref());
+                walk_value(Entry { path: &path, key: Some(key.span()), value }, visit);
             }
         }
         DeValue::Array(array) => {
-            for (index, inner) in array.iter().enumerate() {
-                walk_value(&format!("{path}[{index}]"), None, inner, visit);
+            for (index, value) in array.iter().enumerate() {
+                walk_value(Entry { path: &format!("{path}[{index}]"), key: None, value }, visit);
             }
         }
         _ => {}

@@ -1,0 +1,18 @@
+// What every material law takes and gives. Mirror of MaterialParams: src/material/mod.rs.
+
+struct MaterialParams {
+    mu: f32,            // shear modulus [Pa]
+    lambda: f32,        // first Lame constant [Pa]
+    yield_stress: f32,  // [Pa]; the largest f32 for laws that do not yield
+    density: f32,       // lowest density of the bodies made of it [kg m^-3]
+    kind: u32,          // position in the registry
+    ghost_modulus: f32, // of the ghost pressure, q = -ghost_modulus (J - 1) [Pa]
+    pad0: f32,
+    pad1: f32,
+}
+
+// What plastic flow leaves of a deformation gradient.
+struct PlasticReturn {
+    deformation: mat3x3f,  // the elastic part
+    plastic_strain: f32,   // equivalent plastic strain that the flow added
+}

@@ -1,0 +1,60 @@
+// 3x3 matrices: inverse, outer product, trace, eigen-decomposition of symmetric ones. Columns first, as everywhere in WGSL.
+
+const IDENTITY = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+
+// a b^T
+fn outer_product(a: vec3f, b: vec3f) -> mat3x3f {
+    return mat3x3f(a * b.x, a * b.y, a * b.z);
+}
+
+fn trace(a: mat3x3f) -> f32 {
+    return a[0].x + a[1].y + a[2].z;
+}
+
+// Rows of the inverse are cross products of the columns over the determinant. The caller checks the determinant.
+fn inverse(a: mat3x3f) -> mat3x3f {
+    let scale = 1.0 / dot(a[0], cross(a[1], a[2]));
+    return transpose(mat3x3f(cross(a[1], a[2]) * scale, cross(a[2], a[0]) * scale, cross(a[0], a[1]) * scale));
+}
+
+fn diagonal(d: vec3f) -> mat3x3f {
+    return mat3x3f(d.x, 0.0, 0.0, 0.0, d.y, 0.0, 0.0, 0.0, d.z);
+}
+
+struct Eigen {
+    values: vec3f,     // unsorted
+    vectors: mat3x3f,  // columns, orthonormal: a = vectors diag(values) vectors^T
+}
+
+// A symmetric matrix in the basis of its rotated axes.
+struct Jacobi {
+    diagonal: vec3f,  // xx, yy, zz
+    off: vec3f,       // xy, yz, zx
+    vectors: mat3x3f,
+}
+
+// Rotates x and y so that xy vanishes, then renames the axes y, z, x -> x, y, z.
+// Stable form of the rotation: t = sgn(theta) / (|theta| + sqrt(theta^2 + 1)), theta = (yy - xx) / (2 xy). [Golub & Van Loan, 8.5.2]
+fn jacobi_rotate(a: Jacobi) -> Jacobi {
+    let theta = 0.5 * (a.diagonal.y - a.diagonal.x);
+    // theta / xy overflows when xy is far below it; scaled by xy nothing does
+    let reach = abs(theta) + sqrt(theta * theta + a.off.x * a.off.x);
+    let t = select(0.0, select(-a.off.x, a.off.x, theta >= 0.0) / reach, reach > 0.0);
+    let c = inverseSqrt(1.0 + t * t);
+    let s = t * c;
+    let turned_diagonal = a.diagonal + vec3f(-t, t, 0.0) * a.off.x;
+    let turned_off = vec3f(0.0, s * a.off.z + c * a.off.y, c * a.off.z - s * a.off.y);
+    let turned_x = c * a.vectors[0] - s * a.vectors[1];
+    let turned_y = s * a.vectors[0] + c * a.vectors[1];
+    return Jacobi(turned_diagonal.yzx, turned_off.yzx, mat3x3f(turned_y, a.vectors[2], turned_x));
+}
+
+// Eigenvalues and eigenvectors by cyclic Jacobi rotations: three rotations name the axes as before and make one sweep.
+// Convergence is quadratic; five sweeps reach f32 rounding from any start.
+fn symmetric_eigen(a: mat3x3f) -> Eigen {
+    var state = Jacobi(vec3f(a[0].x, a[1].y, a[2].z), vec3f(a[1].x, a[2].y, a[0].z), IDENTITY);
+    for (var rotation = 0u; rotation < 15u; rotation++) {
+        state = jacobi_rotate(state);
+    }
+    return Eigen(state.diagonal, state.vectors);
+}

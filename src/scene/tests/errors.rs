@@ -1,0 +1,199 @@
+//! Every kind of mistake is reported with its line, its key and what is allowed.
+
+use super::{BASE, parse, report};
+
+/// The report must hold every one of the words.
+fn expect(text: &str, overrides: &[&str], words: &[&str]) {
+    let report = report(text, overrides);
+    for word in words {
+        assert!(report.contains(word), "no `{word}` in\n{report}");
+    }
+}
+
+fn with(extra: &str) -> String {
+    format!("{BASE}{extra}")
+}
+
+#[test]
+fn syntax() {
+    expect("title = \"a\"\n[domain\n", &[], &["test.toml:2:", "unclosed table"]);
+}
+
+#[test]
+fn unknown_key_lists_the_known_ones() {
+    let text = BASE.replace("until", "util = 3.0\nuntil");
+    expect(&text, &[], &["test.toml:10:1", "unknown field `util`", "`until`", "time.util"]);
+}
+
+#[test]
+fn unknown_key_inside_a_region() {
+    let region =
+        "[[gas.regions]]\nshape = { sphere = { center = [0.5, 0.5], radius = 0.1 } }\ndensity = 1.0\npresure = 2.0\n";
+    expect(&with(region), &[], &["test.toml:16:1", "unknown field `presure`", "`pressure`", "gas.regions[0].presure"]);
+}
+
+#[test]
+fn wrong_type() {
+    let text = BASE.replace("until = 1.0", "until = \"soon\"");
+    expect(&text, &[], &["test.toml:10:9", "time.until", "expected f64"]);
+}
+
+#[test]
+fn missing_key() {
+    expect(&BASE.replace("until = 1.0", "cfl = 0.5"), &[], &["test.toml:9:", "missing field `until`", "time"]);
+}
+
+#[test]
+fn unknown_shape_and_boundary() {
+    let obstacle = "[[obstacles]]\nname = \"o\"\nshape = { ball = { radius = 1.0 } }\n";
+    expect(&with(obstacle), &[], &["test.toml:15:", "unknown variant `ball`", "`sphere`"]);
+    expect(
+        &with("[boundary]\nx_min = \"open\"\n"),
+        &[],
+        &["test.toml:14:", "unknown variant `open`", "`outlet`", "boundary.x_min"],
+    );
+}
+
+#[test]
+fn unknown_material_kind_and_parameter() {
+    expect(&with("[materials.m]\njelly = { a = 1.0 }\n"), &[], &["test.toml:13:", "`jelly`", "`von_mises`"]);
+    expect(&with("[materials.m]\nneo_hookean = { young = 1.0 }\n"), &[], &["`young`", "`young_modulus`"]);
+}
+
+#[test]
+fn poisson_ratio_of_one_half() {
+    let text = BASE.replace("0.3", "0.5");
+    expect(&text, &[], &["test.toml:12:56", "materials.rubber.neo_hookean.poisson_ratio", "above -1 and below 0.5"]);
+}
+
+#[test]
+fn negative_density_and_pressure_are_both_reported() {
+    let text = BASE.replace("density = 1.0, pressure = 1.0", "density = -1.0, pressure = 0");
+    expect(&text, &[], &["test.toml:8:23", "gas.ambient.density", "gas.ambient.pressure", "above 0", "2 errors"]);
+}
+
+#[test]
+fn numbers_that_are_not_finite() {
+    expect(&BASE.replace("until = 1.0", "until = inf"), &[], &["test.toml:10:9", "time.until", "not finite"]);
+    expect(
+        &BASE.replace("size = [2.0, 1.0]", "size = [nan, 1.0]"),
+        &[],
+        &["test.toml:6:9", "domain.size[0]", "not finite"],
+    );
+}
+
+#[test]
+fn domains() {
+    expect(&BASE.replace("[20, 10]", "[20, 0]"), &[], &["test.toml:5:9", "domain.cells", "at least 3 cells"]);
+    expect(&BASE.replace("[20, 10]", "[20, -1]"), &[], &["test.toml:5:14", "u32"]);
+    expect(&BASE.replace("[20, 10]", "[20, 20]"), &[], &["domain.cells", "cubes", "cells = [20, 10]"]);
+    expect(&BASE.replace("[20, 10]", "[20]"), &[], &["domain.cells", "1 entries", "give 2 numbers"]);
+    expect(&BASE.replace("[2.0, 1.0]", "[2.0, -1.0]"), &[], &["domain.size", "axis y"]);
+    expect(&BASE.replace("dimension = 2", "dimension = 4"), &[], &["test.toml:4:13", "domain.dimension", "1, 2 or 3"]);
+    expect(&BASE.replace("[20, 10]", "[200000, 100000]"), &[], &["domain.cells", "at most"]);
+}
+
+fn body(shape: &str) -> String {
+    with(&format!("[[bodies]]\nname = \"b\"\nmaterial = \"rubber\"\ndensity = 1.0\nshape = {{ {shape} }}\n"))
+}
+
+#[test]
+fn bodies() {
+    let sphere = body("sphere = { center = [0.5, 0.5], radius = 0.2 }");
+    let missing = sphere.replace("material = \"rubber\"", "material = \"steel\"");
+    expect(&missing, &[], &["test.toml:15:12", "bodies[0].material", "unknown material `steel`", "`rubber`"]);
+    let outside = body("sphere = { center = [5.0, 0.5], radius = 0.2 }");
+    expect(&outside, &[], &["test.toml:17:9", "bodies[0].shape", "outside the domain", "x from 0 to 2"]);
+    let beyond = body("sphere = { center = [1.9, 0.5], radius = 0.2 }");
+    expect(&beyond, &[], &["bodies[0].shape", "reaches out of the domain"]);
+    let tiny = body("sphere = { center = [0.5, 0.5], radius = 0.001 }");
+    expect(&tiny, &[], &["bodies[0].shape", "holds no particle"]);
+    expect(&format!("{sphere}particles_per_cell = 0\n"), &[], &["particles_per_cell", "1 to 8"]);
+    expect(&format!("{sphere}velocity = [0.0, 0.0, 1.0]\n"), &[], &["bodies[0].velocity", "active axes"]);
+    let twice = format!("{sphere}{}", sphere.strip_prefix(BASE).expect("it starts with the base"));
+    expect(&twice, &[], &["bodies[1].name", "`b` is taken"]);
+}
+
+#[test]
+fn shapes() {
+    let negative = body("union = [{ sphere = { center = [0.5, 0.5], radius = -0.2 } }]");
+    expect(&negative, &[], &["bodies[0].shape.union[0].sphere.radius", "test.toml:17:63", "above 0"]);
+    expect(&body("union = []"), &[], &["bodies[0].shape.union", "the list is empty"]);
+    expect(&body("half_space = { point = [0.5, 0.5], normal = [0.0, 0.0] }"), &[], &["half_space.normal", "no length"]);
+    expect(&body("polygon = { points = [[0.1, 0.1], [0.2, 0.2]] }"), &[], &["polygon.points", "at least 3"]);
+    expect(
+        &body("box = { center = [0.5, 0.5], size = [0.2, 0.2], round = 0.2 }"),
+        &[],
+        &["box.round", "half the shortest edge"],
+    );
+    let scale = body("scale = { factor = 0.0, shape = { sphere = { center = [0.5, 0.5], radius = 0.1 } } }");
+    expect(&scale, &[], &["scale.factor", "above 0"]);
+}
+
+#[test]
+fn settings() {
+    for (setting, key) in [
+        ("[numerics]\ntolerance = 0.0\n", "numerics.tolerance"),
+        ("[numerics]\nmax_iterations = 0\n", "numerics.max_iterations"),
+        ("[numerics]\nsolid_threshold = 1.5\n", "numerics.solid_threshold"),
+        ("[render]\nsize = [8, 720]\n", "render.size"),
+        ("[render]\nrange = [1.0, 1.0]\n", "render.range"),
+        ("[render]\ncamera = { eye = [0, 0, 1], target = [0, 0, 0] }\n", "render.camera.up"),
+        ("[boundary]\nz_min = \"outlet\"\n", "boundary.z_min"),
+        ("[boundary]\nx_min = { inlet = { density = 1.0, pressure = 0.0 } }\n", "boundary.x_min.inlet.pressure"),
+        ("[boundary]\nx_max = { inlet = { density = 1.0, velocity = [1, 0], pressure = 1.0 } }\n", "out of the domain"),
+        ("[[probes]]\nname = \"p\"\nposition = [3.0, 0.5]\n", "probes[0].position"),
+        ("[expect]\ndensity_l1 = 0.1\n", "expect.density_l1"),
+        ("[expect]\nbodies = [{ body = \"x\", center = [0, 0], tolerance = 1 }]\n", "unknown body `x`"),
+        ("[boundary]\nx_min = \"outlet\"\n[expect]\ngas_mass_drift = 0.1\n", "the domain is open"),
+    ] {
+        expect(&with(setting), &[], &[key]);
+    }
+    for (setting, key) in
+        [("cfl = 2.0", "time.cfl"), ("frames = 0", "time.frames"), ("max_growth = 1.0", "time.max_growth")]
+    {
+        expect(&BASE.replace("until = 1.0", &format!("until = 1.0\n{setting}")), &[], &[key, "test.toml:11:"]);
+    }
+    expect(&BASE.replace("[gas]", "[gas]\ngamma = 1.0"), &[], &["gas.gamma", "test.toml:8:9"]);
+}
+
+#[test]
+fn overrides_reach_every_kind_of_key() {
+    let sphere = body("sphere = { center = [0.5, 0.5], radius = 0.2 }");
+    let scene = parse(
+        &sphere,
+        &[
+            "gas.ambient.density=2",
+            "bodies.0.density = 3.5",
+            "bodies[0].shape.sphere.radius=0.3",
+            "title=a new title",
+            "time.cfl=0.25",
+            "domain.cells=[40, 20]",
+        ],
+    );
+    assert_eq!(scene.gas.ambient.density, 2.0);
+    assert_eq!((scene.bodies[0].density, scene.domain.cells), (3.5, [40, 20, 1]));
+    assert_eq!((scene.title.as_str(), scene.time.cfl), ("a new title", 0.25));
+    assert_eq!(scene.bodies[0].shape.bounds().0[0], 0.2);
+    assert_eq!(parse(BASE, &["boundary.x_min=outlet"]).boundary.x_min, crate::scene::Boundary::Outlet);
+}
+
+#[test]
+fn overrides_have_their_own_place_in_messages() {
+    expect(BASE, &["gas.ambient.density=-2"], &["--set:1:21", "gas.ambient.density", "-2 is not positive"]);
+    expect(BASE, &["time.cfl=0.4", "time.ulti=2"], &["--set:1:", "unknown field `ulti`"]);
+    expect(BASE, &["time.cfl=fast"], &["--set:1:10", "time.cfl", "invalid type"]);
+    expect(BASE, &["time.cfl"], &["--set:1:1", "has no `=`"]);
+    expect(BASE, &["=3"], &["--set:1:1", "names no key"]);
+    expect(BASE, &["title.x=3"], &["--set:1:1", "inside a string"]);
+    expect(BASE, &["probes[0].name=a"], &["--set"]);
+    let sphere = body("sphere = { center = [0.5, 0.5], radius = 0.2 }");
+    expect(&sphere, &["bodies[1].density=2"], &["--set:1:1", "no entry of a list of 1"]);
+}
+
+#[test]
+fn file_that_does_not_exist() {
+    let error = crate::scene::Scene::load("/no/such.toml", &[]).expect_err("there is no such file");
+    assert_eq!(error.exit_code(), 9);
+    assert!(error.to_string().contains("/no/such.toml"));
+}

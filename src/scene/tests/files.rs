@@ -1,0 +1,107 @@
+//! The shipped scenes load, and every key is documented.
+
+use std::path::{Path, PathBuf};
+
+use super::{BASE, parse};
+use crate::scene::{Scene, schema};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn scene_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("the folder exists").map(|entry| entry.expect("readable").path());
+    let (folders, files): (Vec<_>, Vec<_>) = entries.partition(|path| path.is_dir());
+    let mut found = files.into_iter().filter(|path| path.extension().is_some_and(|e| e == "toml")).collect::<Vec<_>>();
+    found.extend(folders.iter().flat_map(|folder| scene_files(folder)));
+    found.sort();
+    found
+}
+
+#[test]
+fn every_scene_loads() {
+    let files = scene_files(&root().join("scenes"));
+    assert!(files.len() >= 13, "{files:?}");
+    for path in files {
+        let scene = Scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(scene.initial_gas().len(), scene.domain.cell_count());
+        assert_eq!(scene.seed_particles().is_empty(), scene.bodies.is_empty(), "{}", path.display());
+        let text = std::fs::read_to_string(&path).expect("it was read before");
+        assert!(
+            text.starts_with("# ") && text.contains("\n# Reference: ") && text.contains("\n[expect]"),
+            "{}",
+            path.display()
+        );
+    }
+}
+
+#[test]
+fn a_scene_survives_writing_and_reading() {
+    for path in scene_files(&root().join("scenes")) {
+        let scene = Scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let text = toml::to_string(&scene).expect("a scene is plain data");
+        assert_eq!(Scene::parse(&text, "written.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}")), scene);
+        let json = serde_json::to_string(&scene).expect("a scene is plain data");
+        assert_eq!(serde_json::from_str::<Scene>(&json).expect("what was written reads"), scene);
+    }
+}
+
+#[test]
+fn resolution_scales_all_axes() {
+    let scene = parse(BASE, &[]);
+    assert_eq!(scene.with_resolution(64).expect("32 rows").domain.cells, [64, 32, 1]);
+    let error = scene.with_resolution(25).expect_err("12.5 rows").to_string();
+    assert!(error.contains("multiple of 2"), "{error}");
+}
+
+#[test]
+fn defaults_depend_on_the_dimension() {
+    let body = "[[bodies]]\nname = \"b\"\nmaterial = \"rubber\"\ndensity = 1.0\nshape = { box = { center = [0.5], size = [0.5] } }\n";
+    let line =
+        BASE.replace("dimension = 2", "dimension = 1").replace("[20, 10]", "[20]").replace("[2.0, 1.0]", "[2.0]");
+    assert_eq!(parse(&format!("{line}{body}"), &[]).bodies[0].particles_per_cell, 4);
+    let plane = body.replace("[0.5]", "[0.5, 0.5]");
+    assert_eq!(parse(&format!("{BASE}{plane}"), &[]).bodies[0].particles_per_cell, 2);
+}
+
+/// Collects the names of properties and the values of enumerations.
+fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
+    match schema {
+        serde_json::Value::Object(entries) => {
+            for (name, value) in entries {
+                match (name.as_str(), value) {
+                    ("properties", serde_json::Value::Object(properties)) => found.extend(properties.keys().cloned()),
+                    ("const", serde_json::Value::String(text)) => found.push(text.clone()),
+                    ("enum", serde_json::Value::Array(texts)) => {
+                        found.extend(texts.iter().filter_map(|text| text.as_str().map(str::to_owned)));
+                    }
+                    _ => {}
+                }
+                keys(value, found);
+            }
+        }
+        serde_json::Value::Array(entries) => entries.iter().for_each(|entry| keys(entry, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_key_is_documented() {
+    let text = std::fs::read_to_string(root().join("docs/scenes.md")).expect("docs/scenes.md exists");
+    let schema = serde_json::from_str(&schema()).expect("the schema is JSON");
+    let mut found = Vec::new();
+    keys(&schema, &mut found);
+    assert!(found.len() > 120, "{}", found.len());
+    for key in ["smooth_union", "von_mises", "yield_stress", "b2b1", "outlet", "tolerance"] {
+        assert!(found.iter().any(|other| other == key), "the schema lost {key}");
+    }
+    let missing = found.iter().filter(|key| !text.contains(&format!("`{key}`"))).collect::<Vec<_>>();
+    assert!(missing.is_empty(), "docs/scenes.md does not mention {missing:?}");
+}
+
+#[test]
+fn the_shock_tube_knows_its_exact_solution() {
+    let scene = Scene::load(root().join("scenes/gas/sod.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let (exact, jump) = scene.riemann().expect("one jump");
+    assert!((jump - 0.5).abs() < 1e-12 && (exact.star_pressure - 0.30313018).abs() < 1e-8);
+}
