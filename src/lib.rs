@@ -1,7 +1,10 @@
 //! Brisance: compressible gas, shock waves and the solids they bend, tear and shatter, in one coupled pressure solve.
 
+pub mod bodies;
+pub mod cli;
 pub mod diagnostics;
 pub mod error;
+pub mod expect;
 pub mod export;
 pub mod gpu;
 pub mod material;

@@ -5,6 +5,7 @@ pub mod control;
 pub mod gas;
 pub mod grid;
 pub mod interface;
+pub mod memory;
 pub mod params;
 pub mod particles;
 
@@ -12,6 +13,7 @@ pub use control::Control;
 pub use gas::GasState;
 pub use grid::Grid;
 pub use interface::Interface;
+pub use memory::MemoryPlan;
 pub use params::{HISTORY, Params};
 pub use particles::{ParticleStart, Particles};
 
