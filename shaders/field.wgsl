@@ -2,6 +2,7 @@
 // evaluate_field: reads conserved, energy, cells; writes field, NO_VALUE where there is no gas.
 // find_range: reads field; writes the least and largest value that each workgroup saw.
 // pack_corners: reads field; writes, per cube between eight cell centres, their fractions of the range in 8 bits each.
+// mark_bricks: reads corners; writes 1 for every brick of cubes that the ray march must enter, 0 for transparent ones.
 
 #include "shared/thread.wgsl"
 #include "shared/reduce.wgsl"
@@ -13,6 +14,7 @@
 @group(0) @binding(4) var<storage, read_write> field: array<f32>;
 @group(0) @binding(5) var<storage, read_write> ranges: array<vec2f>;
 @group(0) @binding(6) var<storage, read_write> corners: array<vec2u>;
+@group(0) @binding(7) var<storage, read_write> bricks: array<u32>;
 
 fn has_gas(slot: u32) -> bool {
     return kind_of(cells[slot]) == KIND_GAS;
@@ -158,4 +160,30 @@ fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     let near = vec4f(fractions[0], fractions[1], fractions[2], fractions[3]);
     let far = vec4f(fractions[4], fractions[5], fractions[6], fractions[7]);
     corners[i] = vec2u(pack4x8unorm(near), pack4x8unorm(far));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+               @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, groups, local);
+    let grid = brick_grid();
+    if (i >= grid.x * grid.y * grid.z) {
+        return;
+    }
+    let cubes = view.cells + 1u;
+    let first = BRICK * vec3u(i % grid.x, (i / grid.x) % grid.y, i / (grid.x * grid.y));
+    let end = min(first + BRICK, cubes);
+    var seen = false;
+    for (var z = first.z; z < end.z; z++) {
+        for (var y = first.y; y < end.y; y++) {
+            for (var x = first.x; x < end.x; x++) {
+                let packed = corners[x + cubes.x * (y + cubes.y * z)];
+                let near = abs(unpack4x8unorm(packed.x) - view.neutral);
+                let far = abs(unpack4x8unorm(packed.y) - view.neutral);
+                let most = max(near, far);
+                seen = seen || max(max(most.x, most.y), max(most.z, most.w)) > FAINTEST * contrast_scale();
+            }
+        }
+    }
+    bricks[i] = u32(seen);
 }

@@ -4,6 +4,7 @@
 #include "shared/index.wgsl"
 #include "shared/control.wgsl"
 #include "shared/bspline.wgsl"
+#include "shared/matrix.wgsl"
 #include "shared/material.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -69,8 +70,8 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
         let v_node = node[slot_of(s.base + offset)].xyz;
         let away = world_from_cell(s.base + offset) - x;
         v += weight.w * v_node;
-        c += outer(weight.w * v_node, away);
-        gradient += outer(v_node, weight.xyz);
+        c += outer_product(weight.w * v_node, away);
+        gradient += outer_product(v_node, weight.xyz);
     }
     c = c * (4.0 / (params.spacing * params.spacing));
     let kind = bitcast<u32>(affine[3u * p + 2u].w);
@@ -78,7 +79,7 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     var f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
     f = f + time * gradient * f;
     let returned = return_map(material.kind, f, material);
-    f = returned.f;
+    f = returned.deformation;
     let volume = determinant(f);
     if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {
         atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
@@ -89,7 +90,7 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     x += time * v;
     let inside_domain = keep_inside(&x);
     if !inside_domain { atomicAdd(&control.escaped, 1u); }
-    let tau = stress_kirchhoff(material.kind, f, material) * velocity[p].w;
+    let tau = kirchhoff_stress(material.kind, f, material) * velocity[p].w;
     position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
     velocity[p] = vec4f(v, velocity[p].w);
     affine[3u * p] = vec4f(c[0], q);

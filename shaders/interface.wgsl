@@ -5,9 +5,7 @@
 // particle and nothing around it is that full: fragments]
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
-#include "shared/matrix.wgsl"
 #include "shared/material.wgsl"
-#include "shared/bspline.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;
 @group(0) @binding(2) var<storage, read> affine: array<vec4f>;

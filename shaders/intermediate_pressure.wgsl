@@ -7,7 +7,6 @@
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/control.wgsl"
-#include "shared/reconstruct.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

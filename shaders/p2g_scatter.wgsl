@@ -3,7 +3,6 @@
 // share in this very state and from the crowd a node may see; a node that could hold more raises a fault instead of wrapping.
 // Same reads and writes as p2g.wgsl; velocity, mass and force come out in the same places.
 #include "shared/index.wgsl"
-#include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/bspline.wgsl"
 #include "shared/particle.wgsl"

@@ -2,7 +2,6 @@
 // Reads positions. Writes cell_start (first entry of each slot in `order`) and order. On return `order` lists the active
 // particles cell by cell, ascending by index inside a cell: the same on every run, whatever the order of the atomics.
 #include "shared/index.wgsl"
-#include "shared/control.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;
 @group(0) @binding(2) var<storage, read> deformation: array<vec4f>;

@@ -1,6 +1,6 @@
 // Ray march through a three-dimensional field, with bodies and walls inside it and the edges of the domain around it.
 // Emission and absorption [Max 1995]: dC/ds = sigma (c - C) along the ray, front to back.
-// draw_volume: reads corners, cells, colors, surface, edges; writes pixels.
+// draw_volume: reads corners, bricks, cells, colors, surface, edges; writes pixels.
 
 #include "shared/thread.wgsl"
 #include "shared/view.wgsl"
@@ -21,6 +21,7 @@ struct Edge {
 @group(0) @binding(4) var<storage, read> surface: array<vec4u>;
 @group(0) @binding(5) var<storage, read> edges: array<Edge, 12>;
 @group(0) @binding(6) var<storage, read_write> pixels: array<u32>;
+@group(0) @binding(7) var<storage, read> bricks: array<u32>;
 
 const BACKGROUND_TOP: vec3f = vec3f(0.0045, 0.0060, 0.0100);
 const BACKGROUND_BOTTOM: vec3f = vec3f(0.0200, 0.0240, 0.0330);
@@ -104,39 +105,65 @@ fn domain_span(ray: Ray) -> vec2f {
     return vec2f(max(max(low.x, max(low.y, low.z)), 0.0), min(high.x, min(high.y, high.z)));
 }
 
-// Coverage of this pixel by the edges of the domain that lie before (or not before) a depth along the view axis.
-fn edge_coverage(pixel: vec2f, middle: f32, front: bool) -> f32 {
-    var coverage = 0.0;
+// Coverage of this pixel by the edges of the domain: by those nearer than `front` along the view axis, and by those behind
+// the middle of the domain.
+fn edge_coverage(pixel: vec2f, front: f32, middle: f32) -> vec2f {
+    var coverage = vec2f(0.0);
     for (var e = 0u; e < 12u; e++) {
         let edge = edges[e];
         let along = edge.to_point - edge.from_point;
         let part = clamp(dot(pixel - edge.from_point, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
-        let distance = length(pixel - edge.from_point - part * along);
+        let amount = clamp(1.2 - length(pixel - edge.from_point - part * along), 0.0, 1.0);
         // Perspective makes the inverse of the depth linear on the picture.
         let depth = 1.0 / mix(1.0 / edge.depths.x, 1.0 / edge.depths.y, part);
-        if ((depth < middle) == front) {
-            coverage = max(coverage, clamp(1.2 - distance, 0.0, 1.0));
-        }
+        coverage = max(coverage, vec2f(0.60, 0.35) * amount * vec2f(f32(depth < front), f32(depth >= middle)));
     }
-    return coverage * select(0.35, 0.60, front);
+    return coverage;
+}
+
+// Steps to the end of a transparent brick, 0 in others. Steps are whole, so that leaping changes no sample.
+fn steps_to_leap(ray: Ray, place: vec3f) -> f32 {
+    let from_cube = place + 0.5;
+    let brick = vec3u(clamp(from_cube, vec3f(0.0), vec3f(view.cells) + 0.999)) / BRICK;
+    let grid = brick_grid();
+    if (bricks[brick.x + grid.x * (brick.y + grid.y * brick.z)] == 1u) {
+        return 0.0;
+    }
+    let ahead = vec3f(BRICK * (brick + vec3u(ray.direction > vec3f(0.0))));
+    let speed = select(ray.direction, vec3f(1e-9), abs(ray.direction) < vec3f(1e-9)) / view.spacing;
+    let exits = (ahead - from_cube) / speed;
+    return max(ceil(min(exits.x, min(exits.y, exits.z)) / view.step), 1.0);
+}
+
+// Light of the gas in one step.
+fn gas_light(light: Light, place: vec3f) -> Light {
+    let fraction = fraction_at(place);
+    let contrast = abs(fraction - view.neutral) / contrast_scale();
+    if (contrast < FAINTEST) {
+        return light;
+    }
+    let absorbed = 1.0 - exp(-view.opacity * contrast * contrast * view.step);
+    return over(light, table_color(fraction), absorbed);
 }
 
 // Gathers light from the gas between two distances.
 fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Light) -> Light {
     var light = before;
-    for (var s = from_distance + jitter * view.step; s < to_distance; s += view.step) {
+    var s = from_distance + jitter * view.step;
+    while (s < to_distance && light.passing > DARK) {
         let place = (ray.start + s * ray.direction - view.origin) / view.spacing;
-        if (view.obstacles == 1u && is_wall(vec3i(floor(place)))) {
-            return over(light, wall_color(wall_entry(ray, max(s - view.step, from_distance), s)), 1.0);
-        }
-        let fraction = fraction_at(place);
-        let contrast = abs(fraction - view.neutral) / max(view.neutral, 1.0 - view.neutral);
-        if (contrast > 0.01) {
-            let absorbed = 1.0 - exp(-view.opacity * contrast * contrast * view.step);
-            light = over(light, table_color(fraction), absorbed);
-            if (light.passing < DARK) {
-                break;
+        if (view.obstacles == 1u) {
+            if (is_wall(vec3i(floor(place)))) {
+                return over(light, wall_color(wall_entry(ray, max(s - view.step, from_distance), s)), 1.0);
             }
+            light = gas_light(light, place);
+            s += view.step;
+        } else {
+            let leap = steps_to_leap(ray, place);
+            if (leap == 0.0) {
+                light = gas_light(light, place);
+            }
+            s += max(leap, 1.0) * view.step;
         }
     }
     return light;
@@ -159,15 +186,15 @@ fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups)
     let middle = dot(centre - view.eye, view.forward);
     let body_depth = select(1e30, body.depth * dot(ray.direction, view.forward), body.coverage > 0.0);
 
-    var light = Light(vec3f(0.0), 1.0);
-    light = over(light, EDGE_COLOR, edge_coverage(pixel, min(middle, body_depth), true));
+    let edge = edge_coverage(pixel, min(middle, body_depth), middle);
+    var light = over(Light(vec3f(0.0), 1.0), EDGE_COLOR, edge.x);
     let meeting = select(span.y, clamp(body.depth, span.x, max(span.x, span.y)), body.coverage > 0.0);
     light = march(ray, span.x, meeting, jitter, light);
     light = over(light, body.color, body.coverage);
     if (light.passing > DARK && meeting < span.y) {
         light = march(ray, meeting, span.y, jitter, light);
     }
-    light = over(light, EDGE_COLOR, edge_coverage(pixel, middle, false));
+    light = over(light, EDGE_COLOR, edge.y);
     let background = mix(BACKGROUND_TOP, BACKGROUND_BOTTOM, pixel.y / f32(view.size.y));
     light = over(light, background, 1.0);
     pixels[i] = packed_pixel(light.color, hash_unit(i ^ 0x9e3779b9u));

@@ -1,21 +1,52 @@
 // Compressible neo-Hookean rubber: psi = mu/2 (tr(F F^T) - 3) - mu ln J + lambda/2 (ln J)^2, J = det F.
-// F is 3x3 in every dimension, with 1 on inactive axes (plane strain).
+// F is 3x3 in every dimension, with 1 on inactive axes (plane strain). Everything is computed from the displacement gradient
+// H = F - I, which is exact where F is near I: differences such as F F^T - I would lose small strains to cancellation.
 #include "shared/material.wgsl"
 #include "shared/matrix.wgsl"
 
-// F F^T - I from the displacement gradient H = F - I: exact where F is near I and the difference would cancel.
+// F F^T - I.
 fn strain_neo_hookean(f: mat3x3f) -> mat3x3f {
     let h = f - IDENTITY;
     return h + transpose(h) + h * transpose(h);
 }
 
+// What J - 1 has besides the trace of H: its second invariant and its determinant.
+fn nonlinear_volume(h: mat3x3f) -> f32 {
+    let minors = h[0].x * h[1].y - h[0].y * h[1].x + h[0].x * h[2].z - h[0].z * h[2].x + h[1].y * h[2].z - h[1].z * h[2].y;
+    return minors + determinant(h);
+}
+
+// 2 (artanh z - z), z = x / (2 + x), for |x| < 1/4: the terms left out are below 1e-9 of ln(1 + x).
+fn tail_of_logarithm(x: f32) -> f32 {
+    let z = x / (2.0 + x);
+    let square = z * z;
+    return 2.0 * z * square * (1.0 / 3.0 + square * (1.0 / 5.0 + square * (1.0 / 7.0)));
+}
+
+// ln(1 + x) = 2 artanh(x / (2 + x)), accurate for small x.
+fn log_one_plus(x: f32) -> f32 {
+    if abs(x) < 0.25 {
+        return 2.0 * x / (2.0 + x) + tail_of_logarithm(x);
+    }
+    return log(1.0 + x);
+}
+
+// x - ln(1 + x), accurate for small x.
+fn excess_over_logarithm(x: f32) -> f32 {
+    if abs(x) < 0.25 {
+        return x * x / (2.0 + x) - tail_of_logarithm(x);
+    }
+    return x - log(1.0 + x);
+}
+
 // Kirchhoff stress tau = mu (F F^T - I) + lambda ln J I. An inverted F (J <= 0) has none; the caller reports it.
 fn stress_neo_hookean(f: mat3x3f, m: MaterialParams) -> mat3x3f {
-    let volume = determinant(f);
-    if volume <= 0.0 {
+    let h = f - IDENTITY;
+    let swelling = trace(h) + nonlinear_volume(h);
+    if swelling <= -1.0 {
         return mat3x3f();
     }
-    return m.mu * strain_neo_hookean(f) + m.lambda * log(volume) * IDENTITY;
+    return m.mu * strain_neo_hookean(f) + m.lambda * log_one_plus(swelling) * IDENTITY;
 }
 
 // Elastic: everything stays.
@@ -23,14 +54,19 @@ fn return_neo_hookean(f: mat3x3f, m: MaterialParams) -> PlasticReturn {
     return PlasticReturn(f, 0.0);
 }
 
-// Energy per reference volume [J m^-3].
+// Energy per reference volume [J m^-3]. The parts of tr(F F^T - I) / 2 and ln J that are linear in H cancel:
+// what is left is |H|^2 / 2 - (J - 1 - tr H) + (J - 1 - ln J).
 fn energy_neo_hookean(f: mat3x3f, m: MaterialParams) -> f32 {
-    let volume = determinant(f);
-    if volume <= 0.0 {
+    let h = f - IDENTITY;
+    let nonlinear = nonlinear_volume(h);
+    let swelling = trace(h) + nonlinear;
+    if swelling <= -1.0 {
         return 0.0;
     }
-    let swelling = log(volume);
-    return 0.5 * m.mu * trace(strain_neo_hookean(f)) - m.mu * swelling + 0.5 * m.lambda * swelling * swelling;
+    let square = dot(h[0], h[0]) + dot(h[1], h[1]) + dot(h[2], h[2]);
+    let logarithm = log_one_plus(swelling);
+    let distortion = 0.5 * square - nonlinear + excess_over_logarithm(swelling);
+    return m.mu * distortion + 0.5 * m.lambda * logarithm * logarithm;
 }
 
 // Pressure wave at rest, sqrt((lambda + 2 mu) / rho) [m s^-1].

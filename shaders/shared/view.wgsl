@@ -81,6 +81,16 @@ fn cell_count() -> u32 {
     return view.cells.x * view.cells.y * view.cells.z;
 }
 
+// Bricks of BRICK^3 cubes between cell centres, per axis.
+fn brick_grid() -> vec3u {
+    return (view.cells + BRICK) / BRICK;
+}
+
+// Largest distance of a fraction of the range from the transparent one.
+fn contrast_scale() -> f32 {
+    return max(view.neutral, 1.0 - view.neutral);
+}
+
 fn kind_of(word: u32) -> u32 {
     return word & 3u;
 }

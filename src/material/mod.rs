@@ -72,11 +72,11 @@ const POISSON_RATIO: Parameter = Parameter {
 /// Constants that every law is built from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constants {
-    /// Shear modulus mu [Pa].
+    /// Shear modulus mu `[Pa]`.
     pub mu: f64,
-    /// First Lame constant lambda [Pa].
+    /// First Lame constant lambda `[Pa]`.
     pub lambda: f64,
-    /// Yield stress [Pa]; infinite for laws that do not yield.
+    /// Yield stress `[Pa]`; infinite for laws that do not yield.
     pub yield_stress: f64,
 }
 
@@ -100,17 +100,17 @@ pub struct Material {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct MaterialParams {
-    /// Shear modulus [Pa].
+    /// Shear modulus `[Pa]`.
     pub mu: f32,
-    /// First Lame constant of the elastic stress [Pa].
+    /// First Lame constant of the elastic stress `[Pa]`.
     pub lambda: f32,
-    /// Yield stress [Pa]; `f32::MAX` for laws that do not yield.
+    /// Yield stress `[Pa]`; `f32::MAX` for laws that do not yield.
     pub yield_stress: f32,
-    /// Lowest density of the bodies made of it [kg m^-3].
+    /// Lowest density of the bodies made of it `[kg m^-3]`.
     pub density: f32,
     /// Position in [`KINDS`].
     pub kind: u32,
-    /// Modulus of the ghost pressure, q = -ghost_modulus (J - 1) [Pa]; equal to lambda.
+    /// Modulus of the ghost pressure, q = -ghost_modulus (J - 1) `[Pa]`; equal to lambda.
     pub ghost_modulus: f32,
     /// Unused.
     pub pad0: f32,
@@ -159,31 +159,31 @@ impl Material {
         self.kind().parameters.iter().position(|p| p.name == name).map(|index| self.values[index])
     }
 
-    /// Shear modulus mu [Pa].
+    /// Shear modulus mu `[Pa]`.
     #[must_use]
     pub fn mu(&self) -> f64 {
         self.constants().mu
     }
 
-    /// First Lame constant lambda [Pa].
+    /// First Lame constant lambda `[Pa]`.
     #[must_use]
     pub fn lambda(&self) -> f64 {
         self.constants().lambda
     }
 
-    /// Yield stress [Pa]; infinite for laws that do not yield.
+    /// Yield stress `[Pa]`; infinite for laws that do not yield.
     #[must_use]
     pub fn yield_stress(&self) -> f64 {
         self.constants().yield_stress
     }
 
-    /// Speed of pressure waves at rest, sqrt((lambda + 2 mu) / rho) [m s^-1].
+    /// Speed of pressure waves at rest, sqrt((lambda + 2 mu) / rho) `[m s^-1]`.
     #[must_use]
     pub fn wave_speed(&self, density: f64) -> f64 {
         ((self.lambda() + 2.0 * self.mu()) / density).sqrt()
     }
 
-    /// The material as the device sees it, for a body of the given density [kg m^-3].
+    /// The material as the device sees it, for a body of the given density `[kg m^-3]`.
     #[must_use]
     pub fn params(&self, density: f64) -> MaterialParams {
         let Constants { mu, lambda, yield_stress } = self.constants();
@@ -306,7 +306,7 @@ pub fn wgsl_includes() -> String {
     KINDS.iter().map(|kind| format!("#include \"materials/{}.wgsl\"\n", kind.name)).collect()
 }
 
-/// WGSL functions that ask the material `kind` (its number in [`KINDS`]): `stress`, `return_map`, `elastic_energy`, `wave_speed`.
+/// WGSL functions that ask the material `kind` (its number in [`KINDS`]): `kirchhoff_stress`, `return_map`, `elastic_energy`, `wave_speed`.
 /// They need the files of [`wgsl_includes`].
 #[must_use]
 pub fn wgsl_switch() -> String {
@@ -350,7 +350,7 @@ struct Question {
 const QUESTIONS: [Question; 4] = [
     Question {
         summary: "Kirchhoff stress [Pa] of the deformation gradient f.",
-        name: "stress",
+        name: "kirchhoff_stress",
         function: "stress",
         parameters: "f: mat3x3f, m: MaterialParams",
         arguments: "f, m",

@@ -17,6 +17,12 @@ const SAMPLES: u32 = 2;
 /// Workgroups that search the range; each leaves one pair of values.
 const RANGE_GROUPS: u32 = 64;
 
+/// Cubes along each edge of a brick, the unit of empty space that the ray march leaps over.
+const BRICK: u32 = 4;
+
+/// Contrasts below this are transparent: a little over one step of 8 bits.
+const FAINTEST: f32 = 0.01;
+
 /// Marks cells without gas in the field.
 const NO_VALUE: f32 = -3.0e38;
 
@@ -29,7 +35,7 @@ pub(super) struct Kernels {
     targets: Targets,
     evaluate_field: Bound,
     find_range: Bound,
-    pack_corners: Option<Bound>,
+    pack: Option<[Bound; 2]>,
     points: Option<Points>,
     draw: Bound,
 }
@@ -42,6 +48,7 @@ struct Targets {
     field: Buffer<f32>,
     ranges: Buffer<[f32; 2]>,
     corners: Buffer<[u32; 2]>,
+    bricks: Buffer<u32>,
     edges: Buffer<[Vec4; 2]>,
     surface: Buffer<[u32; 4]>,
     pixels: Buffer<u32>,
@@ -63,6 +70,7 @@ pub fn constants() -> String {
     let _ = writeln!(text, "const KIND_GAS: u32 = {}u;\nconst KIND_WALL: u32 = {}u;", kind::GAS, kind::WALL);
     let _ = writeln!(text, "const SAMPLES: u32 = {SAMPLES}u;\nconst NO_VALUE: f32 = {NO_VALUE:e};");
     let _ = writeln!(text, "const COLOR_COUNT: u32 = {TABLE_LENGTH}u;");
+    let _ = writeln!(text, "const BRICK: u32 = {BRICK}u;\nconst FAINTEST: f32 = {FAINTEST};");
     let count = BODY_COLORS.len();
     let colors = BODY_COLORS.map(|color| {
         let [red, green, blue] = color.map(|channel| linear_from_srgb(f32::from(channel) / 255.0));
@@ -89,7 +97,7 @@ impl Kernels {
         let volume = grid.dimension == 3;
         let cube_count = if volume { grid.cells.map(|n| u64::from(n) + 1).iter().product() } else { 0 };
         let pixel_count = u64::from(template.size[0]) * u64::from(template.size[1]);
-        let targets = Targets::new(gpu, grid.cell_count(), cube_count as usize, template)?;
+        let targets = Targets::new(gpu, template, grid.cell_count(), cube_count as usize)?;
 
         let view = ("view", targets.view.raw());
         let (field, corners) = (("field", targets.field.raw()), ("corners", targets.corners.raw()));
@@ -98,9 +106,15 @@ impl Kernels {
             kernel(gpu, "field.wgsl", "evaluate_field")?.bind(gpu, &[&gas[..], &[view, field]].concat())?;
         let find_range =
             kernel(gpu, "field.wgsl", "find_range")?.bind(gpu, &[view, field, ("ranges", targets.ranges.raw())])?;
-        let pack_corners = volume
-            .then(|| kernel(gpu, "field.wgsl", "pack_corners")?.bind(gpu, &[view, field, corners]))
-            .transpose()?;
+        let bricks = ("bricks", targets.bricks.raw());
+        let pack = if volume {
+            Some([
+                kernel(gpu, "field.wgsl", "pack_corners")?.bind(gpu, &[view, field, corners])?,
+                kernel(gpu, "field.wgsl", "mark_bricks")?.bind(gpu, &[view, corners, bricks])?,
+            ])
+        } else {
+            None
+        };
         let points = particles.map(|particles| Points::new(gpu, &particles, &targets, pixel_count)).transpose()?;
         let shared = [
             view,
@@ -110,23 +124,13 @@ impl Kernels {
             ("pixels", targets.pixels.raw()),
         ];
         let draw = if volume {
-            let own = [corners, ("edges", targets.edges.raw())];
+            let own = [corners, bricks, ("edges", targets.edges.raw())];
             kernel(gpu, "volume.wgsl", "draw_volume")?.bind(gpu, &[&shared[..], &own].concat())?
         } else {
             kernel(gpu, "slice.wgsl", "draw_slice")?.bind(gpu, &[&shared[..], &[field]].concat())?
         };
         let cell_count = grid.cell_count() as u64;
-        Ok(Self {
-            cell_count,
-            cube_count,
-            pixel_count,
-            targets,
-            evaluate_field,
-            find_range,
-            pack_corners,
-            points,
-            draw,
-        })
+        Ok(Self { cell_count, cube_count, pixel_count, targets, evaluate_field, find_range, pack, points, draw })
     }
 
     /// Computes the view's field and returns its least and largest value; the first is the larger where there is no gas.
@@ -149,8 +153,9 @@ impl Kernels {
         self.targets.view.write(gpu, 0, &[*view]);
         self.targets.colors.write(gpu, 0, &linear);
         let mut pass = Pass::new(gpu, "picture");
-        if let Some(pack) = &self.pack_corners {
-            pass.dispatch(pack, &Extent::Threads(self.cube_count));
+        if let Some([pack_corners, mark_bricks]) = &self.pack {
+            pass.dispatch(pack_corners, &Extent::Threads(self.cube_count));
+            pass.dispatch(mark_bricks, &Extent::Threads(self.targets.bricks.len() as u64));
         }
         if let Some(points) = &self.points {
             let samples = self.pixel_count * u64::from(SAMPLES * SAMPLES);
@@ -166,7 +171,8 @@ impl Kernels {
 }
 
 impl Targets {
-    fn new(gpu: &Gpu, cells: usize, cubes: usize, template: &View) -> Result<Self> {
+    fn new(gpu: &Gpu, template: &View, cells: usize, cubes: usize) -> Result<Self> {
+        let bricks = template.cells.iter().map(|n| (n + 1).div_ceil(BRICK) as usize).product();
         let pixels = template.size[0] as usize * template.size[1] as usize;
         Ok(Self {
             view: Buffer::uniform(gpu, "view", 1)?,
@@ -174,6 +180,7 @@ impl Targets {
             field: Buffer::new(gpu, "field shown", cells)?,
             ranges: Buffer::new(gpu, "ranges", RANGE_GROUPS as usize)?,
             corners: Buffer::new(gpu, "field corners", cubes)?,
+            bricks: Buffer::new(gpu, "bricks", bricks)?,
             edges: Buffer::from_slice(gpu, "edges", &template.edges())?,
             surface: Buffer::new(gpu, "surface", pixels)?,
             pixels: Buffer::new(gpu, "pixels", pixels)?,

@@ -119,7 +119,7 @@ pub(super) fn smooth_minimum(a: f64, b: f64, radius: f64) -> f64 {
     a.min(b) - 0.25 * overlap * overlap * radius
 }
 
-/// Turns a point about an axis by the right-hand rule. [Rodrigues]
+/// Turns a point about an axis by the right-hand rule. (Rodrigues)
 pub(super) fn turn(point: Vector, about: Vector, axis: Vector, degrees: f64) -> Vector {
     let axis = unit(axis);
     let arm = minus(point, about);

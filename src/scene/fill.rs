@@ -8,13 +8,13 @@ const SAMPLES: u32 = 4;
 /// A particle at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seed {
-    /// Position [m].
+    /// Position `[m]`.
     pub position: [f64; 3],
-    /// Velocity [m s^-1].
+    /// Velocity `[m s^-1]`.
     pub velocity: [f64; 3],
-    /// Volume [m^3], with unit thickness along inactive axes.
+    /// Volume `[m^3]`, with unit thickness along inactive axes.
     pub volume: f64,
-    /// Density [kg m^-3].
+    /// Density `[kg m^-3]`.
     pub density: f64,
     /// Index of the body in the scene.
     pub body: u32,

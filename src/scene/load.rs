@@ -81,7 +81,7 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
     let text = source.text().to_owned();
     let (root, errors) = DeTable::parse_recoverable(&text);
     if !errors.is_empty() {
-        return Err(errors.iter().map(|error| syntax(error)).collect());
+        return Err(errors.iter().map(syntax).collect());
     }
     let place = root.span();
     let mut root = root.into_inner();

@@ -58,7 +58,7 @@ pub struct Scene {
     /// Static obstacles: cells whose centre lies inside are walls.
     #[serde(default)]
     pub obstacles: Vec<Obstacle>,
-    /// Acceleration of gravity [m s^-2].
+    /// Acceleration of gravity `[m s^-2]`.
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub gravity: [f64; 3],
@@ -91,11 +91,11 @@ pub struct Domain {
     #[serde(deserialize_with = "vector::counts")]
     #[schemars(with = "Vec<u32>")]
     pub cells: [u32; 3],
-    /// Low corner [m].
+    /// Low corner `[m]`.
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub origin: [f64; 3],
-    /// Edge lengths [m], `dimension` entries.
+    /// Edge lengths `[m]`, `dimension` entries.
     #[serde(deserialize_with = "vector::lengths")]
     #[schemars(with = "Vec<f64>")]
     pub size: [f64; 3],
@@ -123,13 +123,13 @@ fn default_gamma() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GasState {
-    /// Density [kg m^-3], positive.
+    /// Density `[kg m^-3]`, positive.
     pub density: f64,
-    /// Velocity [m s^-1].
+    /// Velocity `[m s^-1]`.
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub velocity: [f64; 3],
-    /// Pressure [Pa], positive.
+    /// Pressure `[Pa]`, positive.
     pub pressure: f64,
 }
 
@@ -150,13 +150,13 @@ pub struct Region {
 struct RegionKeys {
     /// Where.
     shape: Shape,
-    /// Density [kg m^-3], positive.
+    /// Density `[kg m^-3]`, positive.
     density: f64,
-    /// Velocity [m s^-1].
+    /// Velocity `[m s^-1]`.
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     velocity: [f64; 3],
-    /// Pressure [Pa], positive.
+    /// Pressure `[Pa]`, positive.
     pressure: f64,
 }
 
@@ -184,9 +184,9 @@ pub struct Body {
     pub shape: Shape,
     /// Name of an entry of `materials`.
     pub material: String,
-    /// Density [kg m^-3], positive.
+    /// Density `[kg m^-3]`, positive.
     pub density: f64,
-    /// Velocity at the start [m s^-1].
+    /// Velocity at the start `[m s^-1]`.
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub velocity: [f64; 3],
@@ -219,14 +219,14 @@ pub struct Obstacle {
 pub struct Probe {
     /// Name of its column in `probes.csv`, unique.
     pub name: String,
-    /// Where [m].
+    /// Where `[m]`.
     #[serde(deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub position: [f64; 3],
 }
 
 impl Domain {
-    /// Edge of a cell [m].
+    /// Edge of a cell `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.size[0] / f64::from(self.cells[0])
@@ -244,13 +244,13 @@ impl Domain {
         self.cells.iter().map(|&n| n as usize).product()
     }
 
-    /// Volume of a cell [m^3]: spacing^dimension times the unit thickness of the inactive axes.
+    /// Volume of a cell `[m^3]`: spacing^dimension times the unit thickness of the inactive axes.
     #[must_use]
     pub fn cell_volume(&self) -> f64 {
         self.spacing().powi(self.dimension as i32)
     }
 
-    /// Centre of a cell [m]; 0 along inactive axes.
+    /// Centre of a cell `[m]`; 0 along inactive axes.
     #[must_use]
     pub fn cell_center(&self, cell: [u32; 3]) -> [f64; 3] {
         let center = |d: usize| self.origin[d] + (f64::from(cell[d]) + 0.5) * self.spacing();
@@ -268,7 +268,7 @@ impl GasState {
         [self.density, self.density * u, self.density * v, self.density * w, energy]
     }
 
-    /// Speed of sound [m s^-1].
+    /// Speed of sound `[m s^-1]`.
     #[must_use]
     pub fn sound_speed(&self, gamma: f64) -> f64 {
         (gamma * self.pressure / self.density).sqrt()

@@ -9,7 +9,7 @@ use super::vector;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
-    /// End of the run [s].
+    /// End of the run `[s]`.
     pub until: f64,
     /// Fraction of the advective time step, above 0 and at most 1.
     #[serde(default = "Time::default_cfl")]
@@ -23,7 +23,7 @@ pub struct Time {
     /// A step is at most this many times the one before.
     #[serde(default = "Time::default_max_growth")]
     pub max_growth: f64,
-    /// Constant step [s] instead of the rules above; for measurements.
+    /// Constant step `[s]` instead of the rules above; for measurements.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fixed_step: Option<f64>,
 }
@@ -178,19 +178,19 @@ impl Default for Output {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Field {
-    /// Density [kg m^-3].
+    /// Density `[kg m^-3]`.
     Density,
-    /// Pressure [Pa].
+    /// Pressure `[Pa]`.
     Pressure,
-    /// Speed [m s^-1].
+    /// Speed `[m s^-1]`.
     Velocity,
-    /// Pressure over density, the temperature times the gas constant [m^2 s^-2].
+    /// Pressure over density, the temperature times the gas constant `[m^2 s^-2]`.
     Temperature,
     /// Shades of the density gradient, like the optical method.
     Schlieren,
     /// Speed over the speed of sound.
     Mach,
-    /// Magnitude of the curl of the velocity [s^-1].
+    /// Magnitude of the curl of the velocity `[s^-1]`.
     Vorticity,
 }
 
@@ -231,14 +231,14 @@ impl Default for RenderSettings {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
-    /// Position of the eye [m].
+    /// Position of the eye `[m]`.
     pub eye: [f64; 3],
-    /// The point in the middle of the picture [m].
+    /// The point in the middle of the picture `[m]`.
     pub target: [f64; 3],
     /// Direction that is up in the picture.
     #[serde(default = "Camera::default_up")]
     pub up: [f64; 3],
-    /// Vertical opening angle [degrees], 1 to 170.
+    /// Vertical opening angle `[degrees]`, 1 to 170.
     #[serde(default = "Camera::default_fov")]
     pub fov_degrees: f64,
 }
@@ -296,16 +296,16 @@ pub struct Expect {
     /// Largest speed of gas or particles, in units of the ambient speed of sound; for scenes at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_speed: Option<f64>,
-    /// Largest L1 error of the density against the exact Riemann solution along x [kg m^-2], in 1D.
+    /// Largest L1 error of the density against the exact Riemann solution along x `[kg m^-2]`, in 1D.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_l1: Option<f64>,
-    /// Lowest and highest value allowed for the largest density [kg m^-3].
+    /// Lowest and highest value allowed for the largest density `[kg m^-3]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak_density: Option<[f64; 2]>,
-    /// The density stays above this [kg m^-3].
+    /// The density stays above this `[kg m^-3]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min_density: Option<f64>,
-    /// The pressure stays above this [Pa].
+    /// The pressure stays above this `[Pa]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min_pressure: Option<f64>,
     /// Most iterations of any pressure solve.
@@ -328,10 +328,10 @@ pub struct Expect {
 pub struct ExpectedBody {
     /// Name of the body.
     pub body: String,
-    /// Its centre of mass [m].
+    /// Its centre of mass `[m]`.
     #[serde(deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub center: [f64; 3],
-    /// Distance allowed [m].
+    /// Distance allowed `[m]`.
     pub tolerance: f64,
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{distance, vector};
 
-/// A set of points, given by its signed distance [m]: negative inside, and never steeper than 1.
+/// A set of points, given by its signed distance `[m]`: negative inside, and never steeper than 1.
 ///
 /// Vectors may leave out the inactive axes of the scene. What has no extent along an axis goes on forever there: in 2D a box
 /// of size `[w, h]` is a prism, and since the plane of the scene is z = 0, a sphere is a disc.
@@ -14,41 +14,41 @@ use super::{distance, vector};
 pub enum Shape {
     /// A box along the axes.
     Box {
-        /// Middle [m].
+        /// Middle `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         center: [f64; 3],
-        /// Full edge lengths [m]; endless along axes that are left out.
+        /// Full edge lengths `[m]`; endless along axes that are left out.
         #[serde(deserialize_with = "vector::extent", serialize_with = "vector::write_extent")]
         #[schemars(with = "Vec<f64>")]
         size: [f64; 3],
-        /// Radius of rounded edges [m]; the size stays.
+        /// Radius of rounded edges `[m]`; the size stays.
         #[serde(default)]
         round: f64,
     },
     /// A ball; a disc in 2D, an interval in 1D.
     Sphere {
-        /// Middle [m].
+        /// Middle `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         center: [f64; 3],
-        /// Radius [m].
+        /// Radius `[m]`.
         radius: f64,
     },
     /// An ellipsoid along the axes.
     Ellipsoid {
-        /// Middle [m].
+        /// Middle `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         center: [f64; 3],
-        /// Half axes [m]; endless along axes that are left out.
+        /// Half axes `[m]`; endless along axes that are left out.
         #[serde(deserialize_with = "vector::extent", serialize_with = "vector::write_extent")]
         #[schemars(with = "Vec<f64>")]
         radii: [f64; 3],
     },
     /// A circular cylinder with flat ends.
     Cylinder {
-        /// Middle [m].
+        /// Middle `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         center: [f64; 3],
@@ -56,28 +56,28 @@ pub enum Shape {
         #[serde(default = "along_z", deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         axis: [f64; 3],
-        /// Radius [m].
+        /// Radius `[m]`.
         radius: f64,
-        /// Full height along the axis [m]; endless when left out.
+        /// Full height along the axis `[m]`; endless when left out.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         height: Option<f64>,
     },
     /// All points within a radius of a line segment.
     Capsule {
-        /// One end of the segment [m].
+        /// One end of the segment `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         from: [f64; 3],
-        /// The other end [m].
+        /// The other end `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         to: [f64; 3],
-        /// Radius [m].
+        /// Radius `[m]`.
         radius: f64,
     },
     /// A circular cone, or a frustum if `top_radius` is given.
     Cone {
-        /// Middle of the base [m].
+        /// Middle of the base `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         center: [f64; 3],
@@ -85,17 +85,17 @@ pub enum Shape {
         #[serde(default = "along_z", deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         axis: [f64; 3],
-        /// Radius of the base [m].
+        /// Radius of the base `[m]`.
         radius: f64,
-        /// Radius of the top [m]; 0 for a tip.
+        /// Radius of the top `[m]`; 0 for a tip.
         #[serde(default)]
         top_radius: f64,
-        /// Distance from base to top [m].
+        /// Distance from base to top `[m]`.
         height: f64,
     },
     /// A ring with a round cross-section.
     Torus {
-        /// Middle [m].
+        /// Middle `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         center: [f64; 3],
@@ -103,14 +103,14 @@ pub enum Shape {
         #[serde(default = "along_z", deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         axis: [f64; 3],
-        /// Distance from the axis to the middle of the cross-section [m].
+        /// Distance from the axis to the middle of the cross-section `[m]`.
         major: f64,
-        /// Radius of the cross-section [m].
+        /// Radius of the cross-section `[m]`.
         minor: f64,
     },
     /// Everything behind a plane.
     HalfSpace {
-        /// A point of the plane [m].
+        /// A point of the plane `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         point: [f64; 3],
@@ -121,18 +121,18 @@ pub enum Shape {
     },
     /// A polygon in the plane of x and y, extruded along z.
     Polygon {
-        /// Corners [m], in either direction of turning, without self-intersection.
+        /// Corners `[m]`, in either direction of turning, without self-intersection.
         points: Vec<[f64; 2]>,
-        /// z of the lower face [m].
+        /// z of the lower face `[m]`.
         #[serde(default)]
         base: f64,
-        /// Length of the extrusion [m]; endless to both sides when left out.
+        /// Length of the extrusion `[m]`; endless to both sides when left out.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         height: Option<f64>,
     },
     /// A shape, moved.
     Translate {
-        /// By how much [m].
+        /// By how much `[m]`.
         #[serde(deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         offset: [f64; 3],
@@ -145,9 +145,9 @@ pub enum Shape {
         #[serde(default = "along_z", deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         axis: [f64; 3],
-        /// Angle [degrees].
+        /// Angle `[degrees]`.
         degrees: f64,
-        /// A point of the axis [m]; the origin when left out.
+        /// A point of the axis `[m]`; the origin when left out.
         #[serde(default, deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         about: [f64; 3],
@@ -158,7 +158,7 @@ pub enum Shape {
     Scale {
         /// Ratio of lengths, positive.
         factor: f64,
-        /// The point that stays [m]; the origin when left out.
+        /// The point that stays `[m]`; the origin when left out.
         #[serde(default, deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         about: [f64; 3],
@@ -173,14 +173,14 @@ pub enum Shape {
     Difference(Vec<Shape>),
     /// Like a union, with fillets where shapes meet.
     SmoothUnion {
-        /// Distance over which shapes blend [m], positive.
+        /// Distance over which shapes blend `[m]`, positive.
         radius: f64,
         /// Which.
         shapes: Vec<Shape>,
     },
     /// The layer just inside the surface of a shape: distances from -thickness to 0. The rest of the inside is hollow.
     Shell {
-        /// Thickness of the layer [m], positive.
+        /// Thickness of the layer `[m]`, positive.
         thickness: f64,
         /// What.
         shape: Box<Shape>,
@@ -192,7 +192,7 @@ fn along_z() -> [f64; 3] {
 }
 
 impl Shape {
-    /// Signed distance of a point [m]: negative inside. Exact for single shapes; after set operations a bound from below of the
+    /// Signed distance of a point `[m]`: negative inside. Exact for single shapes; after set operations a bound from below of the
     /// true distance's magnitude, never steeper than 1.
     #[must_use]
     pub fn distance(&self, point: [f64; 3]) -> f64 {
@@ -247,7 +247,7 @@ impl Shape {
         }
     }
 
-    /// Corners of a box along the axes that holds the shape [m]; infinite where the shape has no end.
+    /// Corners of a box along the axes that holds the shape `[m]`; infinite where the shape has no end.
     #[must_use]
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         match self {

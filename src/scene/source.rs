@@ -47,7 +47,7 @@ impl Source {
     /// Lays out a scene file and its overrides.
     pub(super) fn new(text: &str, name: &str, overrides: &[String]) -> Self {
         let mut buffer = text.to_owned();
-        let mut parts = vec![0..text.len()];
+        let mut parts = std::iter::once(0..text.len()).collect::<Vec<_>>();
         for line in overrides {
             buffer.push('\n');
             let start = buffer.len();

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 const FLOORS: [&[&str]; 10] = [
     &["math", "error", "riemann"],
     &["material", "gpu"],
-    &["scene"],
-    &["state", "numerics"],
+    &["scene", "numerics"],
+    &["state"],
     &["stage", "snapshot"],
     &["simulation", "diagnostics", "bodies"],
     &["render", "expect"],
@@ -120,15 +120,27 @@ fn the_ground_floors_know_no_physics() {
     report(&failures);
 }
 
+/// Names of shaders that a text quotes.
+fn quoted_shaders(text: &str) -> impl Iterator<Item = &str> {
+    text.split('"').skip(1).step_by(2).filter(|quoted| quoted.ends_with(".wgsl"))
+}
+
 #[test]
-fn every_stage_has_its_shader() {
+fn every_shader_has_its_user() {
+    let is_table = |path: &Path| path.ends_with("sources.rs");
+    let users: Vec<_> = files("src", "rs").into_iter().filter(|(path, _)| !is_table(path)).collect();
+    let shaders = files("shaders", "wgsl");
+    let entry_files: Vec<_> = shaders.iter().filter(|(path, _)| path.components().count() == 2).collect();
     let mut failures = Vec::new();
-    for (path, _) in files("src/stage", "rs") {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let shader = format!("shaders/{name}.wgsl");
-        if !["mod", "traffic"].contains(&name.as_str()) && !Path::new(env!("CARGO_MANIFEST_DIR")).join(&shader).exists()
-        {
-            failures.push(format!("{}: no {shader}", path.display()));
+    for (path, _) in entry_files {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if !users.iter().any(|(_, text)| text.contains(&format!("\"{name}\""))) {
+            failures.push(format!("{}: no kernel is made of it", path.display()));
+        }
+    }
+    for (path, text) in files("src/stage", "rs") {
+        for name in quoted_shaders(&text).filter(|name| !shaders.iter().any(|(path, _)| path.ends_with(name))) {
+            failures.push(format!("{}: there is no shaders/{name}", path.display()));
         }
     }
     report(&failures);

@@ -1,5 +1,6 @@
 //! The test suite: one binary, one module per subject.
 
+mod cli;
 mod common;
 mod export;
 mod gpu;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use brisance::export::{self, Exporter, Moment};
-use brisance::gpu::{Buffer, Gpu, GpuOptions};
+use brisance::gpu::{Buffer, Folder, Gpu, GpuOptions, Shader};
 use brisance::render::{ParticleBuffers, Picture, Renderer, SceneBuffers, View};
 use brisance::scene::Scene;
 use brisance::state::Grid;
@@ -225,9 +225,9 @@ fn pictures_to_look_at() {
 
 #[test]
 fn view_has_the_offsets_of_the_shader() {
-    let shader = gpu().shader("slice.wgsl", &brisance::render::shader_constants()).unwrap();
-    let (module, _) = shader.compile().unwrap();
-    let (_, view) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("View")).unwrap();
+    let shader = Shader::load("slice.wgsl", &brisance::render::shader_constants(), &Folder::Embedded).unwrap();
+    let compiled = shader.compile().unwrap();
+    let (_, view) = compiled.module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("View")).unwrap();
     let wgpu::naga::TypeInner::Struct { members, span } = &view.inner else { panic!("View is a struct") };
     let offset =
         |name: &str| members.iter().find(|member| member.name.as_deref() == Some(name)).unwrap().offset as usize;

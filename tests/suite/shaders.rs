@@ -6,9 +6,15 @@ use std::path::{Path, PathBuf};
 use brisance::gpu::{Compiled, Folder, SOURCES, Shader};
 use wgpu::naga;
 
-/// The text injected before every stage's source.
-fn constants(_dimension: u32) -> String {
-    String::new()
+/// Shaders of the pictures; all others belong to the step.
+const PICTURES: [&str; 4] = ["field.wgsl", "points.wgsl", "slice.wgsl", "volume.wgsl"];
+
+/// The text injected before a shader's source.
+fn constants(shader: &str) -> String {
+    if PICTURES.contains(&shader) {
+        return brisance::render::shader_constants();
+    }
+    brisance::state::constants::source_for(shader)
 }
 
 /// The folder the embedded table must equal.
@@ -79,8 +85,7 @@ fn every_stage_validates_in_every_dimension() {
     let mut failures = Vec::new();
     for name in stages() {
         for dimension in 1..=3 {
-            let compiled =
-                Shader::load(&name, &constants(dimension), &Folder::Disk(folder())).and_then(Shader::compile);
+            let compiled = Shader::load(&name, &constants(&name), &Folder::Disk(folder())).and_then(Shader::compile);
             let compiled = match compiled {
                 Ok(compiled) => compiled,
                 Err(error) => {
@@ -131,34 +136,35 @@ fn declared(text: &str) -> BTreeSet<&str> {
     names
 }
 
-/// Paths a file includes.
-fn includes(text: &str) -> impl Iterator<Item = &str> {
-    text.lines().filter_map(|line| line.strip_prefix("#include \"")?.split('"').next())
+/// Files of a shader that its own text and the injected one never need: neither directly nor through a file they need.
+fn unused(shader: &Shader, files: &BTreeMap<String, String>, injected: &str) -> Vec<String> {
+    let mut needed = words(injected);
+    let mut waiting: Vec<&String> = shader.files().iter().collect();
+    let mut next = waiting.iter().position(|name| **name == shader.name);
+    while let Some(at) = next {
+        needed.extend(words(&files[waiting.swap_remove(at)]));
+        next = waiting.iter().position(|name| !declared(&files[*name]).is_disjoint(&needed));
+    }
+    waiting.into_iter().cloned().collect()
 }
 
 #[test]
-fn every_include_is_used_by_the_file_that_names_it() {
+fn every_included_file_is_used() {
     let files = files();
     let mut failures = Vec::new();
-    for (name, text) in &files {
-        let used = words(text);
-        for path in includes(text) {
-            match files.get(path) {
-                None => failures.push(format!("{name} includes {path}, which does not exist")),
-                Some(included) if declared(included).is_disjoint(&used) => {
-                    failures.push(format!("{name} includes {path} and uses nothing of it"));
-                }
-                Some(_) => {}
+    let mut included = BTreeSet::new();
+    for name in stages() {
+        let injected = constants(&name);
+        match Shader::load(&name, &injected, &Folder::Disk(folder())) {
+            Err(error) => failures.push(error.to_string()),
+            Ok(shader) => {
+                let dead = unused(&shader, &files, &injected);
+                failures.extend(dead.iter().map(|file| format!("{name}: nothing of {file} is used")));
+                included.extend(shader.files().iter().cloned());
             }
         }
     }
+    let orphans = files.keys().filter(|name| !included.contains(*name));
+    failures.extend(orphans.map(|name| format!("nothing includes {name}")));
     report(&failures);
-}
-
-#[test]
-fn every_shared_file_is_included_somewhere() {
-    let files = files();
-    let included: BTreeSet<_> = files.values().flat_map(|text| includes(text)).collect();
-    let orphans = files.keys().filter(|name| name.starts_with("shared/") && !included.contains(name.as_str()));
-    report(&orphans.map(|name| format!("nothing includes {name}")).collect::<Vec<_>>());
 }

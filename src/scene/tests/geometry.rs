@@ -1,108 +1,105 @@
 //! Signed distances, filled cells and seeded particles.
 
+use std::f64::consts::PI;
+
 use super::{BASE, parse};
 use crate::scene::Shape;
 
 /// Shape, a point inside, a point outside, exact volume in the box [-1, 1]^3.
-fn samples() -> Vec<(&'static str, [f64; 3], [f64; 3], f64)> {
-    use std::f64::consts::PI;
-    let ball = |r: f64| 4.0 / 3.0 * PI * r * r * r;
-    vec![
-        ("box = { center = [0.1, 0, 0], size = [1, 0.6, 0.8] }", [0.5, 0.2, 0.3], [0.7, 0.0, 0.0], 0.48),
-        ("box = { center = [0, 0, 0], size = [1, 1, 1], round = 0.5 }", [0.0, 0.0, 0.45], [0.4, 0.4, 0.0], ball(0.5)),
-        ("sphere = { center = [0, 0.1, 0], radius = 0.8 }", [0.0, 0.85, 0.0], [0.0, -0.75, 0.0], ball(0.8)),
-        (
-            "ellipsoid = { center = [0, 0, 0], radii = [0.9, 0.5, 0.2] }",
-            [0.8, 0.0, 0.0],
-            [0.0, 0.0, 0.25],
-            ball(1.0) * 0.09,
-        ),
-        (
-            "cylinder = { center = [0, 0, 0], axis = [0, 2, 0], radius = 0.4, height = 1.2 }",
-            [0.3, 0.5, 0.0],
-            [0.0, 0.7, 0.0],
-            PI * 0.192,
-        ),
-        (
-            "capsule = { from = [-0.5, 0, 0], to = [0.5, 0, 0], radius = 0.3 }",
-            [0.7, 0.0, 0.0],
-            [0.0, 0.4, 0.0],
-            PI * 0.09 + ball(0.3),
-        ),
-        (
-            "cone = { center = [0, 0, -0.5], radius = 0.6, height = 1.2 }",
-            [0.0, 0.0, 0.5],
-            [0.4, 0.0, 0.3],
-            PI * 0.36 * 0.4,
-        ),
-        (
-            "cone = { center = [0, 0, 0], axis = [1, 0, 0], radius = 0.6, top_radius = 0.3, height = 0.9 }",
-            [0.8, 0.2, 0.0],
-            [-0.1, 0.0, 0.0],
-            PI * 0.3 * 0.63,
-        ),
-        (
-            "torus = { center = [0, 0, 0], axis = [0, 0, 1], major = 0.6, minor = 0.2 }",
-            [0.5, 0.0, 0.1],
-            [0.0, 0.0, 0.0],
-            2.0 * PI * PI * 0.024,
-        ),
-        ("half_space = { point = [0, 0, 0.25], normal = [0, 0, 3] }", [0.0, 0.0, 0.2], [0.0, 0.0, 0.3], 5.0),
-        (
-            "polygon = { points = [[-0.8, -0.8], [0.8, -0.8], [0, 0], [0.8, 0.8], [-0.8, 0.8]], base = -0.5, height = 1 }",
-            [-0.5, 0.0, 0.0],
-            [0.5, 0.0, 0.0],
-            1.92,
-        ),
-        (
-            "translate = { offset = [0.3, 0, 0], shape = { sphere = { center = [0, 0, 0], radius = 0.5 } } }",
-            [0.7, 0.0, 0.0],
-            [-0.3, 0.0, 0.0],
-            ball(0.5),
-        ),
-        (
-            "rotate = { degrees = 90, shape = { box = { center = [0.5, 0, 0], size = [0.8, 0.2, 0.2] } } }",
-            [0.0, 0.8, 0.0],
-            [0.5, 0.0, 0.0],
-            0.032,
-        ),
-        (
-            "scale = { factor = 2, shape = { sphere = { center = [0.1, 0, 0], radius = 0.35 } } }",
-            [0.85, 0.0, 0.0],
-            [-0.55, 0.0, 0.0],
-            ball(0.7),
-        ),
-        (
-            "union = [{ box = { center = [0, 0, 0], size = [1, 1, 1] } }, { box = { center = [0.5, 0, 0], size = [0.6, 0.2, 0.2] } }]",
-            [0.7, 0.0, 0.0],
-            [0.7, 0.2, 0.0],
-            1.012,
-        ),
-        (
-            "intersection = [{ sphere = { center = [0, 0, 0], radius = 0.8 } }, { half_space = { point = [0, 0, 0], normal = [1, 0, 0] } }]",
-            [-0.5, 0.0, 0.0],
-            [0.5, 0.0, 0.0],
-            ball(0.8) / 2.0,
-        ),
-        (
-            "difference = [{ sphere = { center = [0, 0, 0], radius = 0.8 } }, { sphere = { center = [0, 0, 0], radius = 0.5 } }]",
-            [0.6, 0.0, 0.0],
-            [0.4, 0.0, 0.0],
-            ball(0.8) - ball(0.5),
-        ),
-        (
-            "shell = { thickness = 0.3, shape = { sphere = { center = [0, 0, 0], radius = 0.8 } } }",
-            [0.6, 0.0, 0.0],
-            [0.4, 0.0, 0.0],
-            ball(0.8) - ball(0.5),
-        ),
-        (
-            "shell = { thickness = 0.2, shape = { box = { center = [0, 0, 0], size = [1, 1, 1] } } }",
-            [0.4, 0.0, 0.0],
-            [0.2, 0.0, 0.0],
-            1.0 - 0.216,
-        ),
-    ]
+const SAMPLES: [(&str, [f64; 3], [f64; 3], f64); 19] = [
+    ("box = { center = [0.1, 0, 0], size = [1, 0.6, 0.8] }", [0.5, 0.2, 0.3], [0.7, 0.0, 0.0], 0.48),
+    ("box = { center = [0, 0, 0], size = [1, 1, 1], round = 0.5 }", [0.0, 0.0, 0.45], [0.4, 0.4, 0.0], ball(0.5)),
+    ("sphere = { center = [0, 0.1, 0], radius = 0.8 }", [0.0, 0.85, 0.0], [0.0, -0.75, 0.0], ball(0.8)),
+    (
+        "ellipsoid = { center = [0, 0, 0], radii = [0.9, 0.5, 0.2] }",
+        [0.8, 0.0, 0.0],
+        [0.0, 0.0, 0.25],
+        ball(1.0) * 0.09,
+    ),
+    (
+        "cylinder = { center = [0, 0, 0], axis = [0, 2, 0], radius = 0.4, height = 1.2 }",
+        [0.3, 0.5, 0.0],
+        [0.0, 0.7, 0.0],
+        PI * 0.192,
+    ),
+    (
+        "capsule = { from = [-0.5, 0, 0], to = [0.5, 0, 0], radius = 0.3 }",
+        [0.7, 0.0, 0.0],
+        [0.0, 0.4, 0.0],
+        PI * 0.09 + ball(0.3),
+    ),
+    ("cone = { center = [0, 0, -0.5], radius = 0.6, height = 1.2 }", [0.0, 0.0, 0.5], [0.4, 0.0, 0.3], PI * 0.36 * 0.4),
+    (
+        "cone = { center = [0, 0, 0], axis = [1, 0, 0], radius = 0.6, top_radius = 0.3, height = 0.9 }",
+        [0.8, 0.2, 0.0],
+        [-0.1, 0.0, 0.0],
+        PI * 0.3 * 0.63,
+    ),
+    (
+        "torus = { center = [0, 0, 0], axis = [0, 0, 1], major = 0.6, minor = 0.2 }",
+        [0.5, 0.0, 0.1],
+        [0.0, 0.0, 0.0],
+        2.0 * PI * PI * 0.024,
+    ),
+    ("half_space = { point = [0, 0, 0.25], normal = [0, 0, 3] }", [0.0, 0.0, 0.2], [0.0, 0.0, 0.3], 5.0),
+    (
+        "polygon = { points = [[-0.8, -0.8], [0.8, -0.8], [0, 0], [0.8, 0.8], [-0.8, 0.8]], base = -0.5, height = 1 }",
+        [-0.5, 0.0, 0.0],
+        [0.5, 0.0, 0.0],
+        1.92,
+    ),
+    (
+        "translate = { offset = [0.3, 0, 0], shape = { sphere = { center = [0, 0, 0], radius = 0.5 } } }",
+        [0.7, 0.0, 0.0],
+        [-0.3, 0.0, 0.0],
+        ball(0.5),
+    ),
+    (
+        "rotate = { degrees = 90, shape = { box = { center = [0.5, 0, 0], size = [0.8, 0.2, 0.2] } } }",
+        [0.0, 0.8, 0.0],
+        [0.5, 0.0, 0.0],
+        0.032,
+    ),
+    (
+        "scale = { factor = 2, shape = { sphere = { center = [0.1, 0, 0], radius = 0.35 } } }",
+        [0.85, 0.0, 0.0],
+        [-0.55, 0.0, 0.0],
+        ball(0.7),
+    ),
+    (
+        "union = [{ box = { center = [0, 0, 0], size = [1, 1, 1] } }, { box = { center = [0.5, 0, 0], size = [0.6, 0.2, 0.2] } }]",
+        [0.7, 0.0, 0.0],
+        [0.7, 0.2, 0.0],
+        1.012,
+    ),
+    (
+        "intersection = [{ sphere = { center = [0, 0, 0], radius = 0.8 } }, { half_space = { point = [0, 0, 0], normal = [1, 0, 0] } }]",
+        [-0.5, 0.0, 0.0],
+        [0.5, 0.0, 0.0],
+        ball(0.8) / 2.0,
+    ),
+    (
+        "difference = [{ sphere = { center = [0, 0, 0], radius = 0.8 } }, { sphere = { center = [0, 0, 0], radius = 0.5 } }]",
+        [0.6, 0.0, 0.0],
+        [0.4, 0.0, 0.0],
+        ball(0.8) - ball(0.5),
+    ),
+    (
+        "shell = { thickness = 0.3, shape = { sphere = { center = [0, 0, 0], radius = 0.8 } } }",
+        [0.6, 0.0, 0.0],
+        [0.4, 0.0, 0.0],
+        ball(0.8) - ball(0.5),
+    ),
+    (
+        "shell = { thickness = 0.2, shape = { box = { center = [0, 0, 0], size = [1, 1, 1] } } }",
+        [0.4, 0.0, 0.0],
+        [0.2, 0.0, 0.0],
+        1.0 - 0.216,
+    ),
+];
+
+const fn ball(radius: f64) -> f64 {
+    4.0 / 3.0 * PI * radius * radius * radius
 }
 
 fn shape(text: &str) -> Shape {
@@ -129,7 +126,7 @@ fn points(count: u32) -> impl Iterator<Item = [f64; 3]> {
 
 #[test]
 fn signs_volumes_and_bounds() {
-    for (text, inside, outside, volume) in samples() {
+    for (text, inside, outside, volume) in SAMPLES {
         let shape = shape(text);
         assert!(shape.distance(inside) < 0.0, "{text}: {inside:?}");
         assert!(shape.distance(outside) > 0.0, "{text}: {outside:?}");
@@ -151,7 +148,7 @@ fn signs_volumes_and_bounds() {
 #[test]
 fn distances_are_never_steeper_than_one() {
     let smooth = "smooth_union = { radius = 0.3, shapes = [{ sphere = { center = [-0.3, 0, 0], radius = 0.4 } }, { box = { center = [0.4, 0, 0], size = [0.4, 0.4, 0.4] } }] }";
-    for text in samples().into_iter().map(|sample| sample.0).chain([smooth]) {
+    for text in SAMPLES.into_iter().map(|sample| sample.0).chain([smooth]) {
         let shape = shape(text);
         for (a, b) in points(2000).zip(points(4000).skip(2000)) {
             let apart = (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>().sqrt();
@@ -198,7 +195,7 @@ fn regions_fill_by_volume_fraction() {
     let gas = scene.initial_gas();
     let area = scene.domain.cell_volume();
     let mass = gas.iter().map(|cell| cell[0] * area).sum::<f64>();
-    let exact = 2.0 + 2.0 * std::f64::consts::PI * 0.16;
+    let exact = 2.0 + 2.0 * PI * 0.16;
     assert!((mass / exact - 1.0).abs() < 1e-3, "{mass} {exact}");
     let (outside, inside) = (scene.gas.ambient.conserved(1.4), scene.gas.regions[0].state.conserved(1.4));
     assert_eq!((gas[0], gas[20 * 80 + 40]), (outside, inside));
@@ -232,7 +229,7 @@ fn particles_have_the_mass_of_their_body() {
     let scene = parse(&format!("{BASE}{body}"), &["domain.cells=[80, 40]"]);
     let seeds = scene.seed_particles();
     let mass = seeds.iter().map(|seed| seed.volume * seed.density).sum::<f64>();
-    let exact = 7.0 * std::f64::consts::PI * (0.16 - 0.09);
+    let exact = 7.0 * PI * (0.16 - 0.09);
     assert!((mass / exact - 1.0).abs() < 0.02, "{mass} {exact}");
     let center = |d: usize| seeds.iter().map(|seed| seed.position[d]).sum::<f64>() / seeds.len() as f64;
     assert!((center(0) - 1.0).abs() < 1e-9 && (center(1) - 0.5).abs() < 1e-9);
