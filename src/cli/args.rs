@@ -67,7 +67,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// End of the run [s], instead of time.until
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true)]
     pub until: Option<f64>,
     /// Pictures besides the first, instead of time.frames
     #[arg(long, value_name = "N")]
