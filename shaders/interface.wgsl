@@ -4,7 +4,6 @@
 // [Cao et al. 2022, section 2.3; a cell is solid when the bodies fill more than `solid_threshold` of it, or when it holds a
 // particle and nothing around it is that full: fragments]
 #include "shared/index.wgsl"
-#include "shared/cell.wgsl"
 #include "shared/material.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;

@@ -14,6 +14,7 @@
 @group(0) @binding(4) var<storage, read> work: array<vec4f>;        // second half: U*
 @group(0) @binding(5) var<storage, read_write> energy: array<f32>;  // thirds: now, pressure of the predictor, U*
 @group(0) @binding(6) var<storage, read_write> fill: array<vec2f>;  // y of gas cells: 1 / (gamma p*)
+@group(0) @binding(7) var<storage, read> node: array<vec4f>;
 
 fn advected(slot: u32) -> Gas { return Gas(work[params.slots + slot], energy[2u * params.slots + slot]); }
 
@@ -28,6 +29,11 @@ fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
         return (here.flow[n + 1u] + other.flow[n + 1u]) / (here.flow.x + other.flow.x);
     }
     if kind == WALL { return 0.0; }
+    if SOLIDS && kind == SOLID {
+        let a = node[slot_of(c)];
+        let b = node[slot];
+        return (a.w * a[n] + b.w * b[n]) / max(a.w + b.w, 1e-30);
+    }
     let side = side_of(far);
     if side < 6u && side_kind(side) == SIDE_INLET {
         let inlet = bc_inlet(side);

@@ -94,6 +94,7 @@ fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
 
 @compute @workgroup_size(WORKGROUP)
 fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
+    if pcg.outcome != PCG_RUNNING { return; } // dispatched always: it writes the table that gates the others
     let sum = total(lane);
     if lane != 0u { return; }
     pcg.beta = select(0.0, sum.x / pcg.rho, pcg.rho > 0.0);

@@ -1,5 +1,6 @@
 // coupled_solve, vector ends: the full right-hand side that the tolerance refers to, and X = X* + D at the end.
-#include "shared/index.wgsl"
+#include "shared/params.wgsl"
+#include "shared/thread.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> pressure: array<f32>;
 @group(0) @binding(2) var<storage, read> stiffness: array<f32>;

@@ -1,6 +1,6 @@
 // The device steers its own step: each entry point looks at what has been decided and opens or closes the dispatches that
 // follow. A step whose solve or sub-steps need more than was recorded simply goes on in the next recording.
-#include "shared/index.wgsl"
+#include "shared/params.wgsl"
 #include "shared/control.wgsl"
 #include "shared/extents.wgsl"
 
@@ -50,6 +50,5 @@ fn control_finish() {
     if !done { return; }
     control.phase = PHASE_IDLE;
     control.step += 1u;
-    control.dt_previous = control.dt;
     control.remaining -= control.dt;
 }

@@ -2,7 +2,7 @@
 
 struct Control {
     dt: f32,                    // [s] current step
-    dt_previous: f32,           // [s]
+    dt_previous: f32,           // [s] what the bounds allowed last, before it was shortened to meet a time
     remaining: f32,             // [s] to the time the host asked for
     phase: u32,                 // PHASE_IDLE, PHASE_SOLVE, PHASE_SUBSTEP
     substeps: u32,              // elastic sub-steps of this step

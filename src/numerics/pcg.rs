@@ -120,6 +120,7 @@ impl Pcg {
             groups_wide: wide,
             groups_high: high,
             groups_partial: groups,
+            outcome: 1,
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
@@ -165,7 +166,7 @@ impl Pcg {
         }
         pass.dispatch(&self.alpha, &extent(2));
         pass.dispatch(&self.update, &extent(1));
-        pass.dispatch(&self.beta, &extent(2));
+        pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
         pass.dispatch(&self.direction, &extent(1));
     }
 }

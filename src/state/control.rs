@@ -8,7 +8,7 @@ use bytemuck::{Pod, Zeroable};
 pub struct Control {
     /// Current step \[s\].
     pub dt: f32,
-    /// Previous step \[s\].
+    /// What the bounds allowed last, before it was shortened to meet a time \[s\].
     pub dt_previous: f32,
     /// Time left to the target \[s\].
     pub remaining: f32,

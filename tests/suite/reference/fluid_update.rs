@@ -1,0 +1,160 @@
+//! Momentum and energy of the gas from the solved pressures; internal-energy floor, kinetic energy first.
+
+use super::coupled_solve::{H, P, Solution};
+use super::element;
+use super::grid::{add, shift};
+use super::interface::{self, Interface};
+use super::intermediate_pressure::face_velocity;
+use super::{GAS, Gas, Pair, Problem, SOLID, internal_energy, kinetic_energy};
+
+/// Pressure of the face above `low`.
+pub(crate) fn face_pressure(
+    problem: &Problem,
+    interface: &Interface,
+    solution: &Solution,
+    axis: usize,
+    low: [i32; 3],
+) -> f64 {
+    let grid = &problem.grid;
+    let high = shift(low, axis, 1);
+    let (a, b) = (interface.cells[grid.slot(low)], interface.cells[grid.slot(high)]);
+    if a == GAS
+        && b == GAS
+        && problem.numerics.pair == Pair::B2b1
+        && let Some(smooth) = smooth_pressure(problem, interface, &solution.pressure[P], axis, high)
+    {
+        return smooth;
+    }
+    let field = if a == SOLID || b == SOLID { H } else { P };
+    let corners: Vec<_> = grid.offsets(0, 1).into_iter().filter(|k| k[axis] == 0).collect();
+    corners.iter().map(|k| solution.pressure[field][grid.slot(add(high, *k))]).sum::<f64>() / corners.len() as f64
+}
+
+/// The face pressure whose difference is the B2B1 force; None where it needs a vertex without gas.
+fn smooth_pressure(
+    problem: &Problem,
+    interface: &Interface,
+    pressure: &[f64],
+    axis: usize,
+    high: [i32; 3],
+) -> Option<f64> {
+    let grid = &problem.grid;
+    let mut sum = 0.0;
+    for off in grid.offsets(-1, 2).into_iter().filter(|o| o[axis] < 2) {
+        let vertex = add(high, off);
+        let stored = (0..grid.dimension).all(|d| vertex[d] >= 0 && vertex[d] <= grid.cells[d]);
+        if !stored || !interface::touches(problem, &interface.cells, vertex, GAS) {
+            return None;
+        }
+        let weight: f64 = (0..grid.dimension)
+            .map(|d| match (d == axis, off[d]) {
+                (true, 0) => 2.0 / 3.0,
+                (true, _) => 1.0 / 6.0,
+                (false, 0 | 1) => 11.0 / 24.0,
+                (false, _) => 1.0 / 24.0,
+            })
+            .product();
+        sum += weight * pressure[grid.slot(vertex)];
+    }
+    Some(sum)
+}
+
+/// Work per time that the gas does through an interface face: sum h_v int N_v V.n, with n out of the gas.
+fn solid_power(problem: &Problem, solution: &Solution, velocity: &[[f64; 3]], axis: usize, low: [i32; 3]) -> f64 {
+    let grid = &problem.grid;
+    let overlap = element::overlap(Pair::B2b1);
+    let high = shift(low, axis, 1);
+    let mut power = 0.0;
+    for corner in grid.offsets(0, 1).into_iter().filter(|k| k[axis] == 0) {
+        let h = solution.pressure[H][grid.slot(add(high, corner))];
+        for off in grid.offsets(-1, 1).into_iter().filter(|o| o[axis] < 1) {
+            let weight = 0.5 * grid.area() * element::tangential(grid, &overlap, axis, off, corner);
+            power += h * weight * velocity[grid.slot(add(high, off))][axis];
+        }
+    }
+    power
+}
+
+/// The stage: gas after the pressure step. `before` is the solid velocity that entered the solve.
+pub(crate) fn fluid_update(
+    problem: &Problem,
+    interface: &Interface,
+    star: &Gas,
+    solution: &Solution,
+    before: &[[f64; 3]],
+    dt: f64,
+) -> Gas {
+    let grid = &problem.grid;
+    let gas_slots: Vec<_> = grid.interior().into_iter().filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
+    let touching = |low: [i32; 3], axis: usize| {
+        interface.cells[grid.slot(low)] == GAS || interface.cells[grid.slot(shift(low, axis, 1))] == GAS
+    };
+    let mut pressure = [vec![0.0; grid.slots()], vec![0.0; grid.slots()], vec![0.0; grid.slots()]];
+    let mut next = star.clone();
+    for (axis, pressure) in pressure.iter_mut().enumerate().take(grid.dimension) {
+        for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
+            pressure[grid.slot(low)] = face_pressure(problem, interface, solution, axis, low);
+        }
+        for c in &gas_slots {
+            let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));
+            let difference = pressure[above] - pressure[below];
+            next.conserved[above][1 + axis] -= dt / grid.spacing * difference;
+        }
+    }
+    let midpoint = |i: usize| [0, 1, 2].map(|d| 0.5 * (before[i][d] + solution.solid_velocity[i][d]));
+    let solid: Vec<[f64; 3]> = if problem.numerics.power_midpoint {
+        (0..grid.slots()).map(midpoint).collect()
+    } else {
+        solution.solid_velocity.clone()
+    };
+    let mut work = pressure.clone();
+    for axis in 0..grid.dimension {
+        for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
+            let slot = grid.slot(low);
+            let closed = interface.cells[slot] == SOLID || interface.cells[grid.slot(shift(low, axis, 1))] == SOLID;
+            work[axis][slot] = if closed {
+                solid_power(problem, solution, &solid, axis, low) / grid.area()
+            } else {
+                pressure[axis][slot] * face_velocity(problem, interface, &next, star, axis, low)
+            };
+        }
+        for c in &gas_slots {
+            let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));
+            next.energy[above] -= dt / grid.spacing * (work[axis][above] - work[axis][below]);
+        }
+    }
+    next
+}
+
+/// Keeps the internal energy above a tenth of its value after advection; returns how many cells it touched.
+pub(crate) fn energy_floor(
+    problem: &Problem,
+    cells: &[u32],
+    star: &Gas,
+    gas: &mut Gas,
+    ledger: &mut [[f64; 5]],
+) -> usize {
+    let volume = problem.grid.volume();
+    let mut touched = 0;
+    for slot in
+        (0..cells.len()).filter(|slot| cells[*slot] == GAS && problem.grid.contains(problem.grid.coordinates(*slot)))
+    {
+        let mut u = gas.get(slot);
+        let floor = 0.1 * internal_energy(star.get(slot));
+        if internal_energy(u) >= floor {
+            continue;
+        }
+        touched += 1;
+        let kept = if u[4] > floor { ((u[4] - floor) / kinetic_energy(u)).sqrt() } else { 0.0 };
+        for k in 1..4 {
+            ledger[slot][k] += (1.0 - kept) * u[k] * volume;
+            u[k] *= kept;
+        }
+        if u[4] < floor {
+            ledger[slot][4] -= (floor - u[4]) * volume;
+            u[4] = floor;
+        }
+        gas.set(slot, u);
+    }
+    touched
+}

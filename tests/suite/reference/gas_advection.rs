@@ -1,0 +1,237 @@
+//! Gas advection: WENO with two-point sub-stencils, local Lax-Friedrichs split by |u|, TVD-RK2, positivity limiter.
+
+use super::grid::shift;
+use super::interface::Interface;
+use super::{GAS, GHOST, Gas, Problem, SOLID, Side};
+
+/// Fluxes of (rho, m, E) through the faces of each axis, stored at the low cell.
+pub(crate) type Fluxes = [Vec<[f64; 5]>; 3];
+
+/// Writes the ring cells outside inlets and outlets.
+pub(crate) fn fill_ghosts(problem: &Problem, cells: &[u32], gas: &mut Gas) {
+    let grid = &problem.grid;
+    for c in grid.all() {
+        let slot = grid.slot(c);
+        if cells[slot] != GHOST {
+            continue;
+        }
+        let outside = |d: usize| c[d] < 0 || c[d] >= grid.cells[d];
+        let inlet = (0..grid.dimension).filter(|d| outside(*d)).find_map(|d| {
+            match problem.sides[2 * d + usize::from(c[d] >= 0)] {
+                Side::Inlet { density, velocity, pressure } => Some((density, velocity, pressure)),
+                _ => None,
+            }
+        });
+        let value = match inlet {
+            Some((density, velocity, pressure)) => {
+                Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma)
+            }
+            None => gas.get(grid.slot([0, 1, 2].map(|d| c[d].clamp(0, grid.cells[d] - 1)))),
+        };
+        gas.set(slot, value);
+    }
+}
+
+/// Value at the face between b and c, from a, b, c upwind of it.
+pub(crate) fn reconstruct(a: f64, b: f64, c: f64) -> f64 {
+    let scale = a.abs().max(b.abs()).max(c.abs());
+    if scale == 0.0 {
+        return 0.0;
+    }
+    let (a, b, c) = (a / scale, b / scale, c / scale);
+    let smooth = |difference: f64| (1e-6 + difference * difference).powi(2);
+    let (w0, w1) = (1.0 / 3.0 / smooth(b - a), 2.0 / 3.0 / smooth(c - b));
+    scale * (w0 * (3.0 * b - a) + w1 * (b + c)) / (2.0 * (w0 + w1))
+}
+
+/// WENO flux and first-order flux between the second and third of four cells.
+pub(crate) fn split_flux(stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f64; 5]) {
+    let speed = stencil.map(|u| u[1 + axis] / u[0]);
+    let alpha = speed.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+    let (mut weno, mut first) = ([0.0; 5], [0.0; 5]);
+    for k in 0..5 {
+        let plus = |i: usize| 0.5 * (speed[i] + alpha) * stencil[i][k];
+        let minus = |i: usize| 0.5 * (speed[i] - alpha) * stencil[i][k];
+        weno[k] = reconstruct(plus(0), plus(1), plus(2)) + reconstruct(minus(3), minus(2), minus(1));
+        first[k] = plus(1) + minus(2);
+    }
+    (weno, first)
+}
+
+/// Both fluxes of one face, None where no gas touches it.
+pub(crate) fn face_flux(
+    problem: &Problem,
+    interface: &Interface,
+    gas: &Gas,
+    axis: usize,
+    low: [i32; 3],
+) -> Option<([f64; 5], [f64; 5])> {
+    let grid = &problem.grid;
+    let at = |by: i32| {
+        let mut c = shift(low, axis, by);
+        c[axis] = c[axis].clamp(-1, grid.cells[axis]);
+        grid.slot(c)
+    };
+    let kind = |by: i32| interface.cells[at(by)];
+    let readable = |by: i32| matches!(kind(by), GAS | GHOST);
+    if kind(0) != GAS && kind(1) != GAS {
+        return None;
+    }
+    let pick = |by: i32, otherwise: i32| gas.get(at(if readable(by) { by } else { otherwise }));
+    if readable(0) && readable(1) {
+        return Some(split_flux(&[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], axis));
+    }
+    let (own, other) = if kind(0) == GAS { (0, 1) } else { (1, 0) };
+    let value = gas.get(at(own));
+    let stencil = if own == 0 { [pick(-1, 0), value, value, value] } else { [value, value, value, pick(2, 1)] };
+    let (weno, first) = split_flux(&stencil, axis);
+    let blocked = if kind(other) == SOLID { interface.blocked[at(other)] } else { 1.0 };
+    let velocity = if kind(other) == SOLID { interface.face_velocity[axis][at(0)] } else { 0.0 };
+    let blend =
+        |passable: [f64; 5]| [0, 1, 2, 3, 4].map(|k| blocked * velocity * value[k] + (1.0 - blocked) * passable[k]);
+    Some((blend(weno), blend(first)))
+}
+
+/// All fluxes: WENO and first order.
+pub(crate) fn fluxes(problem: &Problem, interface: &Interface, gas: &Gas) -> (Fluxes, Fluxes) {
+    let grid = &problem.grid;
+    let empty = || vec![[0.0; 5]; grid.slots()];
+    let mut weno = [empty(), empty(), empty()];
+    let mut first = [empty(), empty(), empty()];
+    for axis in 0..grid.dimension {
+        for low in grid.faces(axis) {
+            if let Some((high_order, low_order)) = face_flux(problem, interface, gas, axis, low) {
+                weno[axis][grid.slot(low)] = high_order;
+                first[axis][grid.slot(low)] = low_order;
+            }
+        }
+    }
+    (weno, first)
+}
+
+fn updated(problem: &Problem, gas: &Gas, fluxes: &Fluxes, c: [i32; 3], dt: f64) -> [f64; 5] {
+    let grid = &problem.grid;
+    let mut value = gas.get(grid.slot(c));
+    for (axis, through) in fluxes.iter().enumerate().take(grid.dimension) {
+        let (low, high) = (through[grid.slot(shift(c, axis, -1))], through[grid.slot(c)]);
+        for k in 0..5 {
+            value[k] -= dt / grid.spacing * (high[k] - low[k]);
+        }
+    }
+    value
+}
+
+/// Largest part of the high-order update that keeps density and internal energy above a tenth of the first-order one.
+pub(crate) fn admissible(first: [f64; 5], weno: [f64; 5]) -> f64 {
+    let internal = |u: [f64; 5]| u[4] - 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
+    let mut theta = if weno[0] < 0.1 * first[0] { 0.9 * first[0] / (first[0] - weno[0]) } else { 1.0 };
+    let floor = 0.1 * internal(first);
+    for _ in 0..12 {
+        let mixed = [0, 1, 2, 3, 4].map(|k| first[k] + theta * (weno[k] - first[k]));
+        if mixed[0] > 0.0 && internal(mixed) >= floor {
+            return theta;
+        }
+        theta *= 0.5;
+    }
+    0.0
+}
+
+/// Fluxes after the limiter, and how many cells it touched.
+pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, dt: f64) -> (Fluxes, usize) {
+    let grid = &problem.grid;
+    let (mut weno, first) = fluxes(problem, interface, gas);
+    if !problem.numerics.limiter {
+        return (weno, 0);
+    }
+    let mut theta = vec![1.0; grid.slots()];
+    let mut touched = 0;
+    for c in grid.interior() {
+        let slot = grid.slot(c);
+        if interface.cells[slot] == GAS {
+            theta[slot] = admissible(updated(problem, gas, &first, c, dt), updated(problem, gas, &weno, c, dt));
+            touched += usize::from(theta[slot] < 1.0);
+        }
+    }
+    for axis in 0..grid.dimension {
+        for low in grid.faces(axis) {
+            let slot = grid.slot(low);
+            let t = f64::min(theta[slot], theta[grid.slot(shift(low, axis, 1))]);
+            if t < 1.0 {
+                let base = first[axis][slot];
+                weno[axis][slot] = [0, 1, 2, 3, 4].map(|k| base[k] + t * (weno[axis][slot][k] - base[k]));
+            }
+        }
+    }
+    (weno, touched)
+}
+
+/// One forward Euler stage; books what enters solid cells on the ledger with `share` of the step.
+fn stage(
+    problem: &Problem,
+    interface: &Interface,
+    gas: &Gas,
+    dt: f64,
+    share: f64,
+    ledger: &mut [[f64; 5]],
+) -> (Gas, usize) {
+    let grid = &problem.grid;
+    let (through, touched) = limited(problem, interface, gas, dt);
+    let mut next = gas.clone();
+    for c in grid.interior() {
+        let slot = grid.slot(c);
+        if interface.cells[slot] == GAS {
+            next.set(slot, updated(problem, gas, &through, c, dt));
+        } else if interface.cells[slot] == SOLID {
+            let scale = share * dt * grid.area();
+            for (axis, through) in through.iter().enumerate().take(grid.dimension) {
+                let below = grid.slot(shift(c, axis, -1));
+                let above = grid.slot(shift(c, axis, 1));
+                for k in 0..5 {
+                    if interface.cells[below] == GAS {
+                        ledger[slot][k] += scale * through[below][k];
+                    }
+                    if interface.cells[above] == GAS {
+                        ledger[slot][k] -= scale * through[slot][k];
+                    }
+                }
+            }
+        }
+    }
+    (next, touched)
+}
+
+/// Advects the gas over one step (TVD-RK2); returns the state after advection and the number of limited cells.
+pub(crate) fn advect(
+    problem: &Problem,
+    interface: &Interface,
+    gas: &Gas,
+    dt: f64,
+    ledger: &mut [[f64; 5]],
+) -> (Gas, usize) {
+    let grid = &problem.grid;
+    let mut before = gas.clone();
+    fill_ghosts(problem, &interface.cells, &mut before);
+    let (mut one, touched_one) = stage(problem, interface, &before, dt, 0.5, ledger);
+    fill_ghosts(problem, &interface.cells, &mut one);
+    let (two, touched_two) = stage(problem, interface, &one, dt, 0.5, ledger);
+    let mut after = two.clone();
+    for slot in (0..grid.slots()).filter(|slot| interface.cells[*slot] == GAS) {
+        let (a, b) = (before.get(slot), two.get(slot));
+        after.set(slot, [0, 1, 2, 3, 4].map(|k| 0.5 * (a[k] + b[k])));
+    }
+    add_gravity(problem, &interface.cells, &mut after, dt);
+    fill_ghosts(problem, &interface.cells, &mut after);
+    (after, touched_one + touched_two)
+}
+
+fn add_gravity(problem: &Problem, cells: &[u32], gas: &mut Gas, dt: f64) {
+    for slot in (0..cells.len()).filter(|slot| cells[*slot] == GAS) {
+        let mut u = gas.get(slot);
+        for axis in 0..problem.grid.dimension {
+            let kick = dt * u[0] * problem.gravity[axis];
+            u[4] += dt * problem.gravity[axis] * (u[1 + axis] + 0.5 * kick);
+            u[1 + axis] += kick;
+        }
+        gas.set(slot, u);
+    }
+}

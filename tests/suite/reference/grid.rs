@@ -1,0 +1,138 @@
+//! Index space: padded slots, one ring on active axes. Cells, nodes and vertices share it; vertex v is the low corner
+//! of cell v.
+
+/// A uniform grid of cubes in one, two or three active axes.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    /// Active axes: x, then y, then z.
+    pub(crate) dimension: usize,
+    /// Cells per axis, 1 on inactive axes.
+    pub(crate) cells: [i32; 3],
+    /// Low corner of the domain.
+    pub(crate) origin: [f64; 3],
+    /// Cell edge.
+    pub(crate) spacing: f64,
+}
+
+impl Grid {
+    /// A grid with one active axis per entry of `cells`.
+    pub(crate) fn new(cells: &[i32], origin: [f64; 3], spacing: f64) -> Self {
+        let mut all = [1; 3];
+        all[..cells.len()].copy_from_slice(cells);
+        Self { dimension: cells.len(), cells: all, origin, spacing }
+    }
+
+    fn pad(&self, axis: usize) -> i32 {
+        i32::from(axis < self.dimension)
+    }
+
+    fn extent(&self, axis: usize) -> usize {
+        (self.cells[axis] + 2 * self.pad(axis)) as usize
+    }
+
+    /// Length of every cell, node and vertex array.
+    pub(crate) fn slots(&self) -> usize {
+        self.extent(0) * self.extent(1) * self.extent(2)
+    }
+
+    /// Slot of a cell or vertex; the ring is allowed.
+    pub(crate) fn slot(&self, c: [i32; 3]) -> usize {
+        let at = |axis: usize| (c[axis] + self.pad(axis)) as usize;
+        at(0) + self.extent(0) * (at(1) + self.extent(1) * at(2))
+    }
+
+    /// Inverse of `slot`.
+    pub(crate) fn coordinates(&self, slot: usize) -> [i32; 3] {
+        let (x, y) = (self.extent(0), self.extent(1));
+        let raw = [slot % x, slot / x % y, slot / (x * y)];
+        [0, 1, 2].map(|axis| raw[axis] as i32 - self.pad(axis))
+    }
+
+    /// Is this one of the domain's own cells?
+    pub(crate) fn contains(&self, c: [i32; 3]) -> bool {
+        (0..3).all(|axis| c[axis] >= 0 && c[axis] < self.cells[axis])
+    }
+
+    /// Is this a cell of the domain or of its ring?
+    pub(crate) fn stored(&self, c: [i32; 3]) -> bool {
+        (0..3).all(|axis| c[axis] >= -self.pad(axis) && c[axis] < self.cells[axis] + self.pad(axis))
+    }
+
+    fn range(low: [i32; 3], high: [i32; 3]) -> Vec<[i32; 3]> {
+        let mut all = Vec::new();
+        for z in low[2]..high[2] {
+            for y in low[1]..high[1] {
+                for x in low[0]..high[0] {
+                    all.push([x, y, z]);
+                }
+            }
+        }
+        all
+    }
+
+    /// All cells of the domain, x fastest.
+    pub(crate) fn interior(&self) -> Vec<[i32; 3]> {
+        Self::range([0; 3], self.cells)
+    }
+
+    /// All cells of the domain and its ring.
+    pub(crate) fn all(&self) -> Vec<[i32; 3]> {
+        Self::range([0, 1, 2].map(|d| -self.pad(d)), [0, 1, 2].map(|d| self.cells[d] + self.pad(d)))
+    }
+
+    /// All vertices.
+    pub(crate) fn vertices(&self) -> Vec<[i32; 3]> {
+        Self::range([0; 3], [0, 1, 2].map(|d| self.cells[d] + self.pad(d)))
+    }
+
+    /// Low cells of all faces normal to an axis.
+    pub(crate) fn faces(&self, axis: usize) -> Vec<[i32; 3]> {
+        let mut low = [0; 3];
+        low[axis] = -1;
+        Self::range(low, self.cells)
+    }
+
+    /// Offsets from `low` to `high` inclusive on active axes, 0 on the others.
+    pub(crate) fn offsets(&self, low: i32, high: i32) -> Vec<[i32; 3]> {
+        let active = |value: i32| [0, 1, 2].map(|d| if d < self.dimension { value } else { 0 });
+        Self::range(active(low), active(high).map(|v| v + 1))
+    }
+
+    /// Cell that holds a position.
+    pub(crate) fn cell_of(&self, position: [f64; 3]) -> [i32; 3] {
+        [0, 1, 2].map(|d| {
+            if d < self.dimension { ((position[d] - self.origin[d]) / self.spacing).floor() as i32 } else { 0 }
+        })
+    }
+
+    /// Centre of a cell.
+    pub(crate) fn centre(&self, c: [i32; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|d| self.origin[d] + (f64::from(c[d]) + 0.5) * self.spacing)
+    }
+
+    /// Measure of a cell, dx^d.
+    pub(crate) fn volume(&self) -> f64 {
+        self.spacing.powi(self.dimension as i32)
+    }
+
+    /// Measure of a face, dx^(d-1).
+    pub(crate) fn area(&self) -> f64 {
+        self.spacing.powi(self.dimension as i32 - 1)
+    }
+}
+
+/// Component-wise sum.
+pub(crate) fn add(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// Component-wise difference.
+pub(crate) fn subtract(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// A cell moved by `by` along one axis.
+pub(crate) fn shift(mut c: [i32; 3], axis: usize, by: i32) -> [i32; 3] {
+    c[axis] += by;
+    c
+}

@@ -1,0 +1,167 @@
+//! Where gas and solid meet: cell kinds, interface faces, shared vertices, film traction at walls.
+
+use super::element;
+use super::grid::{add, shift, subtract};
+use super::p2g::Nodes;
+use super::particle_sort::Bins;
+use super::{GAS, GHOST, Pair, Problem, SOLID, Shared, Side, WALL};
+
+/// Result of the interface stage.
+pub(crate) struct Interface {
+    /// Kind per slot.
+    pub(crate) cells: Vec<u32>,
+    /// Normal solid velocity of gas/solid faces, by axis, at the low cell.
+    pub(crate) face_velocity: [Vec<f64>; 3],
+    /// Blocked fraction of solid cells.
+    pub(crate) blocked: Vec<f64>,
+    /// Vertices with one pressure for P, h and Q.
+    pub(crate) shared: Vec<bool>,
+}
+
+/// Kind of every cell and ring cell.
+pub(crate) fn kinds(problem: &Problem, bins: &Bins) -> Vec<u32> {
+    let grid = &problem.grid;
+    let full = |slot: usize| bins.volume[slot] > problem.numerics.solid_threshold * grid.volume();
+    let mut cells = vec![GAS; grid.slots()];
+    for c in grid.all() {
+        let slot = grid.slot(c);
+        cells[slot] = if !grid.contains(c) {
+            let outside = (0..grid.dimension).filter(|d| c[*d] < 0 || c[*d] >= grid.cells[*d]);
+            let mut sides = outside.map(|d| problem.sides[2 * d + usize::from(c[d] >= 0)]);
+            if sides.any(|side| matches!(side, Side::Wall)) { WALL } else { GHOST }
+        } else if problem.obstacles[slot] {
+            WALL
+        } else if bins.count[slot] == 0 {
+            GAS
+        } else if full(slot) || !grid.offsets(-1, 1).into_iter().any(|o| full(grid.slot(add(c, o)))) {
+            SOLID
+        } else {
+            GAS
+        };
+    }
+    cells
+}
+
+/// Cells around a vertex.
+pub(crate) fn around(problem: &Problem, vertex: [i32; 3]) -> impl Iterator<Item = [i32; 3]> {
+    problem.grid.offsets(-1, 0).into_iter().map(move |o| add(vertex, o))
+}
+
+/// Does a vertex touch a cell of this kind inside the domain?
+pub(crate) fn touches(problem: &Problem, cells: &[u32], vertex: [i32; 3], kind: u32) -> bool {
+    around(problem, vertex).any(|c| problem.grid.contains(c) && cells[problem.grid.slot(c)] == kind)
+}
+
+/// Interface faces and vertices for given kinds.
+pub(crate) fn interface(problem: &Problem, cells: Vec<u32>, bins: &Bins, nodes: &Nodes) -> Interface {
+    let grid = &problem.grid;
+    let mut face_velocity = [vec![0.0; grid.slots()], vec![0.0; grid.slots()], vec![0.0; grid.slots()]];
+    for (axis, velocities) in face_velocity.iter_mut().enumerate().take(grid.dimension) {
+        for low in grid.faces(axis) {
+            let (a, b) = (grid.slot(low), grid.slot(shift(low, axis, 1)));
+            if (cells[a] == GAS && cells[b] == SOLID) || (cells[a] == SOLID && cells[b] == GAS) {
+                let weight = |slot: usize| f64::from(u8::from(nodes.mass[slot] > 0.0));
+                let sum = weight(a) * nodes.velocity[a][axis] + weight(b) * nodes.velocity[b][axis];
+                velocities[a] = sum / (weight(a) + weight(b)).max(1.0);
+            }
+        }
+    }
+    let blocked = (0..grid.slots()).map(|slot| blocked_fraction(problem, bins.volume[slot])).collect();
+    let mut shared = vec![false; grid.slots()];
+    for vertex in grid.vertices() {
+        let both = touches(problem, &cells, vertex, GAS) && touches(problem, &cells, vertex, SOLID);
+        shared[grid.slot(vertex)] = both
+            && match problem.numerics.shared {
+                Shared::H => false,
+                Shared::Single => true,
+                Shared::Resolved => resolved(problem, bins, vertex),
+            };
+    }
+    Interface { cells, face_velocity, blocked, shared }
+}
+
+/// Does the 4^d block of cells around a vertex hold enough solid?
+pub(crate) fn resolved(problem: &Problem, bins: &Bins, vertex: [i32; 3]) -> bool {
+    let grid = &problem.grid;
+    let block = grid.offsets(-2, 1).into_iter().map(|o| add(vertex, o));
+    let held: f64 = block.filter(|c| grid.contains(*c)).map(|c| bins.volume[grid.slot(c)]).sum();
+    held >= 2.0 * 4.0_f64.powi(grid.dimension as i32 - 2) * grid.volume()
+}
+
+fn blocked_fraction(problem: &Problem, volume: f64) -> f64 {
+    use std::f64::consts::PI;
+    let dx = problem.grid.spacing;
+    if !problem.numerics.blending {
+        return 1.0;
+    }
+    match problem.grid.dimension {
+        1 => 1.0,
+        2 => (2.0 * (volume / PI).sqrt() / dx).min(1.0),
+        _ => (PI * (3.0 * volume / (4.0 * PI)).powf(2.0 / 3.0) / (dx * dx)).min(1.0),
+    }
+}
+
+/// Pressure of the gas film at a vertex of a wall face normal to `axis`.
+fn film_pressure(
+    problem: &Problem,
+    cells: &[u32],
+    bins: &Bins,
+    gas_pressure: &[f64],
+    axis: usize,
+    vertex: [i32; 3],
+) -> f64 {
+    let grid = &problem.grid;
+    let own = bins.ghost_pressure[grid.slot(vertex)];
+    if !problem.numerics.film_nearest {
+        return own;
+    }
+    for distance in 0..=16 {
+        let mut found = (0.0, 0.0);
+        for tangent in (0..grid.dimension).filter(|d| *d != axis) {
+            for sign in [-1, 1] {
+                let other = shift(vertex, tangent, sign * distance);
+                let stored = other[tangent] >= 0 && other[tangent] <= grid.cells[tangent];
+                if stored && touches(problem, cells, other, GAS) {
+                    found = (found.0 + gas_pressure[grid.slot(other)], found.1 + 1.0);
+                }
+            }
+        }
+        if found.1 > 0.0 {
+            return found.0 / found.1;
+        }
+    }
+    own
+}
+
+/// Force of the film on the solid nodes: solid cells against walls, inlets and outlets.
+pub(crate) fn film_force(problem: &Problem, cells: &[u32], bins: &Bins, gas_pressure: &[f64]) -> Vec<[f64; 3]> {
+    let grid = &problem.grid;
+    let overlap = element::overlap(Pair::B2b1);
+    let mut force = vec![[0.0; 3]; grid.slots()];
+    for c in grid.interior().into_iter().filter(|c| cells[grid.slot(*c)] == SOLID) {
+        for axis in 0..grid.dimension {
+            for normal in [-1, 1] {
+                if !matches!(cells[grid.slot(shift(c, axis, normal))], WALL | GHOST) {
+                    continue;
+                }
+                let on_face = |corner: &[i32; 3]| corner[axis] == (normal + 1) / 2;
+                for corner in grid.offsets(0, 1).into_iter().filter(on_face) {
+                    let pressure = film_pressure(problem, cells, bins, gas_pressure, axis, add(c, corner));
+                    for off in grid.offsets(-1, 1) {
+                        if off[axis] == 0 || off[axis] == normal {
+                            let weight = 0.5 * grid.area() * element::tangential(grid, &overlap, axis, off, corner);
+                            force[grid.slot(add(c, off))][axis] -= f64::from(normal) * weight * pressure;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    force
+}
+
+/// Cells that have a node in their element: the 3^d block of the node.
+pub(crate) fn elements_of(problem: &Problem, node: [i32; 3]) -> impl Iterator<Item = ([i32; 3], [i32; 3])> {
+    let grid = problem.grid.clone();
+    problem.grid.offsets(-1, 1).into_iter().map(move |o| (subtract(node, o), o)).filter(move |(c, _)| grid.contains(*c))
+}

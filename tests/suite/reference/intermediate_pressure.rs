@@ -1,0 +1,119 @@
+//! Pressure, node masses and node velocities of the gas after advection.
+
+use super::element;
+use super::grid::{add, shift};
+use super::interface::{self, Interface};
+use super::{GAS, GHOST, Gas, Problem, SOLID, Side};
+
+/// What the solve needs from the advected gas.
+pub(crate) struct Intermediate {
+    /// EOS pressure of gas cells.
+    pub(crate) pressure: Vec<f64>,
+    /// P* at vertices.
+    pub(crate) vertex_pressure: Vec<f64>,
+    /// Lumped mass of gas nodes.
+    pub(crate) node_mass: Vec<f64>,
+    /// Velocity of gas nodes.
+    pub(crate) node_velocity: Vec<[f64; 3]>,
+}
+
+/// Prescribed normal velocity of an inlet or outlet face of a gas cell.
+pub(crate) fn open_velocity(problem: &Problem, star: &Gas, axis: usize, upper: bool, cell: [i32; 3]) -> f64 {
+    match problem.sides[2 * axis + usize::from(upper)] {
+        Side::Inlet { velocity, .. } => velocity[axis],
+        Side::Wall | Side::Outlet => star.velocity(problem.grid.slot(cell))[axis],
+    }
+}
+
+/// Velocity of the face above `low`, which touches at least one gas cell. `star` is the state after advection.
+pub(crate) fn face_velocity(
+    problem: &Problem,
+    interface: &Interface,
+    gas: &Gas,
+    star: &Gas,
+    axis: usize,
+    low: [i32; 3],
+) -> f64 {
+    let grid = &problem.grid;
+    let high = shift(low, axis, 1);
+    let (a, b) = (grid.slot(low), grid.slot(high));
+    match (interface.cells[a], interface.cells[b]) {
+        (GAS, GAS) => {
+            let (ra, rb) = (gas.conserved[a], gas.conserved[b]);
+            (ra[1 + axis] + rb[1 + axis]) / (ra[0] + rb[0])
+        }
+        (GAS, GHOST) => open_velocity(problem, star, axis, true, low),
+        (GHOST, GAS) => open_velocity(problem, star, axis, false, high),
+        (GAS, SOLID) | (SOLID, GAS) => interface.face_velocity[axis][a],
+        _ => 0.0,
+    }
+}
+
+/// Factor on the cell pressure by the consistent predictor.
+pub(crate) fn predicted(problem: &Problem, interface: &Interface, star: &Gas, cell: [i32; 3], dt: f64) -> f64 {
+    let mut divergence = 0.0;
+    for axis in 0..problem.grid.dimension {
+        let below = face_velocity(problem, interface, star, star, axis, shift(cell, axis, -1));
+        divergence += face_velocity(problem, interface, star, star, axis, cell) - below;
+    }
+    let d = dt * divergence / problem.grid.spacing;
+    let switch = if d >= 0.0 { 1.0 } else { (1.0 + 30.0 * d).max(0.0) };
+    (1.0 + switch * d).max(0.1)
+}
+
+/// Node velocity: gas cell, ghost, or the nearest gas cells by class (faces, edges, corners).
+fn node_velocity(problem: &Problem, cells: &[u32], star: &Gas, node: [i32; 3]) -> [f64; 3] {
+    let grid = &problem.grid;
+    if matches!(cells[grid.slot(node)], GAS | GHOST) {
+        return star.velocity(grid.slot(node));
+    }
+    for class in 1..=grid.dimension as i32 {
+        let (mut sum, mut count) = ([0.0; 3], 0.0);
+        for off in grid.offsets(-1, 1).into_iter().filter(|o| o.iter().map(|x| x.abs()).sum::<i32>() == class) {
+            let c = add(node, off);
+            if grid.contains(c) && cells[grid.slot(c)] == GAS {
+                let v = star.velocity(grid.slot(c));
+                sum = [0, 1, 2].map(|d| sum[d] + v[d]);
+                count += 1.0;
+            }
+        }
+        if count > 0.0 {
+            return sum.map(|s| s / count);
+        }
+    }
+    [0.0; 3]
+}
+
+/// The stage.
+pub(crate) fn intermediate(problem: &Problem, interface: &Interface, star: &Gas, dt: f64) -> Intermediate {
+    let grid = &problem.grid;
+    let mut pressure = vec![0.0; grid.slots()];
+    let mut predicted_pressure = vec![0.0; grid.slots()];
+    let mut node_mass = vec![0.0; grid.slots()];
+    for c in grid.interior() {
+        let slot = grid.slot(c);
+        if interface.cells[slot] != GAS {
+            continue;
+        }
+        pressure[slot] = star.pressure(slot, problem.gamma);
+        let factor = if problem.numerics.predictor { predicted(problem, interface, star, c, dt) } else { 1.0 };
+        predicted_pressure[slot] = factor * pressure[slot];
+        for off in grid.offsets(-1, 1) {
+            let share = element::node_weight(grid, problem.numerics.pair, off) * grid.volume();
+            node_mass[grid.slot(add(c, off))] += share * star.conserved[slot][0];
+        }
+    }
+    let mut vertex_pressure = vec![0.0; grid.slots()];
+    for vertex in grid.vertices() {
+        let gas = interface::around(problem, vertex).filter(|c| grid.contains(*c)).map(|c| grid.slot(c));
+        let values: Vec<f64> = gas.filter(|s| interface.cells[*s] == GAS).map(|s| predicted_pressure[s]).collect();
+        if !values.is_empty() {
+            vertex_pressure[grid.slot(vertex)] = values.iter().sum::<f64>() / values.len() as f64;
+        }
+    }
+    let mut velocities = vec![[0.0; 3]; grid.slots()];
+    for node in grid.all().into_iter().filter(|node| node_mass[grid.slot(*node)] > 0.0) {
+        velocities[grid.slot(node)] = node_velocity(problem, &interface.cells, star, node);
+    }
+    Intermediate { pressure, vertex_pressure, node_mass, node_velocity: velocities }
+}

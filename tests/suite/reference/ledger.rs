@@ -1,0 +1,113 @@
+//! Gas owed to or held by cells: covering, uncovering, settling.
+
+use super::grid::{Grid, add, shift};
+use super::particle_sort::Bins;
+use super::{GAS, Problem, SOLID, State, internal_energy};
+
+/// Replaces the cell kinds: covered cells put their gas on the ledger, uncovered ones are filled from it.
+pub(crate) fn change_kinds(problem: &Problem, state: &mut State, kinds: &[u32], bins: &Bins) {
+    let grid = &problem.grid;
+    let (before, volume) = (state.cells.clone(), grid.volume());
+    let old = state.gas.clone();
+    for c in grid.interior() {
+        let slot = grid.slot(c);
+        if before[slot] == GAS && kinds[slot] == SOLID && problem.numerics.ledger {
+            let held = old.get(slot);
+            (0..5).for_each(|k| state.ledger[slot][k] += held[k] * volume);
+        } else if before[slot] == SOLID && kinds[slot] == GAS {
+            let mean = |offsets: Vec<[i32; 3]>| {
+                let near = offsets.into_iter().map(|o| add(c, o)).filter(|n| grid.contains(*n));
+                let near: Vec<usize> = near.map(|n| grid.slot(n)).filter(|n| before[*n] == GAS).collect();
+                let total = |k: usize| near.iter().map(|n| old.get(*n)[k]).sum::<f64>() / near.len() as f64;
+                (!near.is_empty()).then(|| [0, 1, 2, 3, 4].map(total))
+            };
+            let fill = mean(faces(grid)).or_else(|| mean(grid.offsets(-1, 1))).or_else(|| mean(grid.offsets(-2, 2)));
+            let fill = fill.unwrap_or_else(|| pocket(problem, state, bins, c));
+            state.gas.set(slot, fill);
+            if problem.numerics.ledger {
+                (0..5).for_each(|k| state.ledger[slot][k] -= fill[k] * volume);
+            }
+        }
+    }
+    state.cells = kinds.to_vec();
+    if problem.numerics.ledger {
+        settle(problem, state);
+    } else {
+        state.ledger.fill([0.0; 5]);
+    }
+}
+
+fn faces(grid: &Grid) -> Vec<[i32; 3]> {
+    (0..grid.dimension).flat_map(|axis| [shift([0; 3], axis, -1), shift([0; 3], axis, 1)]).collect()
+}
+
+/// Gas of an uncovered cell without gas around it: at the ghost pressure, isentropic from ambient, with the solid.
+fn pocket(problem: &Problem, state: &State, bins: &Bins, c: [i32; 3]) -> [f64; 5] {
+    let grid = &problem.grid;
+    let corners: Vec<usize> = grid.offsets(0, 1).into_iter().map(|o| grid.slot(add(c, o))).collect();
+    let weight: f64 = corners.iter().map(|v| bins.ghost_weight[*v]).sum();
+    let sum: f64 = corners.iter().map(|v| bins.ghost_weight[*v] * bins.ghost_pressure[*v]).sum();
+    let (density, ambient) = problem.ambient;
+    let pressure = if weight > 0.0 { (sum / weight).max(0.01 * ambient) } else { ambient };
+    let close = |p: &&super::Particle| {
+        let cell = grid.cell_of(p.position.to_array());
+        p.active && (0..3).all(|d| (cell[d] - c[d]).abs() <= 1)
+    };
+    let (mut velocity, mut mass) = (glam::DVec3::ZERO, 0.0);
+    for particle in state.particles.iter().filter(close) {
+        velocity += particle.velocity * particle.mass;
+        mass += particle.mass;
+    }
+    let velocity = if mass > 0.0 { velocity / mass } else { velocity };
+    let density = density * (pressure / ambient).powf(1.0 / problem.gamma);
+    super::Gas::conserved_from_primitive(density, velocity.to_array(), pressure, problem.gamma)
+}
+
+/// Part of its ledger that a gas cell may apply at once; none where even a small part would empty its internal energy.
+pub(crate) fn settled_part(u: [f64; 5], owed: [f64; 5], volume: f64) -> f64 {
+    let mut part = f64::min(1.0, 0.1 * u[0] * volume / owed[0].abs());
+    let internal = internal_energy(u);
+    for _ in 0..=12 {
+        let applied = [0, 1, 2, 3, 4].map(|k| u[k] + part * owed[k] / volume);
+        if (internal_energy(applied) - internal).abs() <= 0.1 * internal {
+            return part;
+        }
+        part *= 0.5;
+    }
+    0.0
+}
+
+/// Gas cells apply a part of their ledger and hand the rest to gas neighbours; buried solid cells hand theirs on.
+pub(crate) fn settle(problem: &Problem, state: &mut State) {
+    let grid = &problem.grid;
+    let mut next = vec![[0.0; 5]; grid.slots()];
+    for c in grid.interior() {
+        let slot = grid.slot(c);
+        let mut rest = state.ledger[slot];
+        if rest == [0.0; 5] {
+            continue;
+        }
+        let near: Vec<usize> =
+            faces(grid).into_iter().map(|o| add(c, o)).filter(|n| grid.contains(*n)).map(|n| grid.slot(n)).collect();
+        let of_kind = |kind: u32| near.iter().copied().filter(|n| state.cells[*n] == kind).collect::<Vec<usize>>();
+        let mut targets = of_kind(GAS);
+        if state.cells[slot] == GAS {
+            let u = state.gas.get(slot);
+            let part = settled_part(u, rest, grid.volume());
+            state.gas.set(slot, [0, 1, 2, 3, 4].map(|k| u[k] + part * rest[k] / grid.volume()));
+            rest = rest.map(|owed| (1.0 - part) * owed);
+        } else if targets.is_empty() {
+            targets = of_kind(SOLID);
+        } else {
+            targets.clear();
+        }
+        if targets.is_empty() {
+            targets.push(slot);
+        }
+        let share = 1.0 / targets.len() as f64;
+        for target in targets {
+            (0..5).for_each(|k| next[target][k] += share * rest[k]);
+        }
+    }
+    state.ledger = next;
+}

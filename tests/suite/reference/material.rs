@@ -1,0 +1,78 @@
+//! Neo-Hookean elasticity with a ghost pressure, von Mises return in log strain.
+
+use glam::{DMat3, DVec3};
+
+/// A solid material.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Material {
+    /// Shear modulus.
+    pub(crate) mu: f64,
+    /// First Lame parameter, of the solid and of the ghost volume alike.
+    pub(crate) lambda: f64,
+    /// Infinite for a purely elastic one.
+    pub(crate) yield_stress: f64,
+}
+
+impl Material {
+    /// From Young's modulus and Poisson's ratio.
+    pub(crate) fn new(young: f64, poisson: f64, yield_stress: f64) -> Self {
+        let mu = young / (2.0 * (1.0 + poisson));
+        Self { mu, lambda: young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), yield_stress }
+    }
+
+    /// Compliance of the ghost volume at ghost pressure q: 1/(lambda J^g).
+    pub(crate) fn compliance(&self, ghost_pressure: f64) -> f64 {
+        1.0 / (self.lambda * (1.0 - ghost_pressure / self.lambda).max(0.05))
+    }
+
+    /// Kirchhoff stress.
+    pub(crate) fn stress(&self, f: DMat3) -> DMat3 {
+        (f * f.transpose() - DMat3::IDENTITY) * self.mu + DMat3::IDENTITY * (self.lambda * f.determinant().ln())
+    }
+
+    /// Longitudinal wave speed.
+    pub(crate) fn wave_speed(&self, density: f64) -> f64 {
+        ((self.lambda + 2.0 * self.mu) / density).sqrt()
+    }
+
+    /// Deformation after the plastic return, and the plastic strain of it.
+    pub(crate) fn plastic_return(&self, f: DMat3) -> (DMat3, f64) {
+        if self.yield_stress.is_infinite() {
+            return (f, 0.0);
+        }
+        let (squared, v) = eigen(f.transpose() * f);
+        let strain = DVec3::new(squared.x.ln(), squared.y.ln(), squared.z.ln()) * 0.5;
+        let mean = DVec3::splat(strain.element_sum() / 3.0);
+        let deviator = strain - mean;
+        let (norm, limit) = (deviator.length(), self.yield_stress / (2.0 * self.mu));
+        if norm <= limit {
+            return (f, 0.0);
+        }
+        let ratio = mean + deviator * (limit / norm) - strain;
+        let stretch = DMat3::from_diagonal(DVec3::new(ratio.x.exp(), ratio.y.exp(), ratio.z.exp()));
+        (f * v * stretch * v.transpose(), norm - limit)
+    }
+}
+
+/// Eigenvalues and eigenvectors (columns) of a symmetric matrix, by Jacobi rotations.
+pub(crate) fn eigen(mut a: DMat3) -> (DVec3, DMat3) {
+    let mut v = DMat3::IDENTITY;
+    for _ in 0..24 {
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            let off = a.col(q)[p];
+            if off.abs() < 1e-300 {
+                continue;
+            }
+            let theta = 0.5 * (2.0 * off).atan2(a.col(q)[q] - a.col(p)[p]);
+            let (sine, cosine) = theta.sin_cos();
+            let mut rotation = DMat3::IDENTITY;
+            rotation.col_mut(p)[p] = cosine;
+            rotation.col_mut(q)[q] = cosine;
+            rotation.col_mut(q)[p] = sine;
+            rotation.col_mut(p)[q] = -sine;
+            a = rotation.transpose() * a * rotation;
+            v *= rotation;
+        }
+    }
+    (DVec3::new(a.x_axis.x, a.y_axis.y, a.z_axis.z), v)
+}

@@ -1,0 +1,251 @@
+//! CPU twins: one step as plain loops over slices in f64. Same stages, same index space as the GPU code.
+
+pub(crate) mod coupled_solve;
+pub(crate) mod element;
+pub(crate) mod fluid_update;
+pub(crate) mod g2p;
+pub(crate) mod gas_advection;
+pub(crate) mod grid;
+pub(crate) mod interface;
+pub(crate) mod intermediate_pressure;
+pub(crate) mod ledger;
+pub(crate) mod material;
+pub(crate) mod mpm_grid_update;
+pub(crate) mod p2g;
+pub(crate) mod particle_sort;
+pub(crate) mod step;
+pub(crate) mod time_step;
+
+use glam::{DMat3, DVec3};
+use grid::Grid;
+
+/// Cell holds gas.
+pub(crate) const GAS: u32 = 0;
+/// Cell belongs to a moving solid.
+pub(crate) const SOLID: u32 = 1;
+/// Static obstacle, or outside of a wall side.
+pub(crate) const WALL: u32 = 2;
+/// Outside of an inlet or outlet.
+pub(crate) const GHOST: u32 = 3;
+
+/// One side of the domain.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Side {
+    /// Slip wall.
+    Wall,
+    /// Prescribed state.
+    Inlet { density: f64, velocity: [f64; 3], pressure: f64 },
+    /// Copies the last cell.
+    Outlet,
+}
+
+/// Velocity/pressure pair of the gas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Pair {
+    /// Quadratic / linear.
+    B2b1,
+    /// Linear / constant on the dual cell.
+    B1b0,
+}
+
+/// Which interface vertices share one pressure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shared {
+    /// Those of resolved bodies.
+    Resolved,
+    /// None.
+    H,
+    /// All.
+    Single,
+}
+
+/// Choices of the method.
+#[derive(Clone, Debug)]
+pub(crate) struct Numerics {
+    pub(crate) pair: Pair,
+    pub(crate) tolerance: f64,
+    pub(crate) max_iterations: usize,
+    pub(crate) predictor: bool,
+    pub(crate) shared: Shared,
+    pub(crate) solid_threshold: f64,
+    /// Film traction from the nearest gas vertex; otherwise from the solid's own ghost pressure.
+    pub(crate) film_nearest: bool,
+    /// Power at the interface with the mean of the old and new solid velocity; otherwise the new one.
+    pub(crate) power_midpoint: bool,
+    pub(crate) ledger: bool,
+    pub(crate) limiter: bool,
+    pub(crate) blending: bool,
+    pub(crate) elastic_cfl: f64,
+    pub(crate) max_substeps: usize,
+    pub(crate) cfl: f64,
+    pub(crate) max_courant: f64,
+    pub(crate) max_growth: f64,
+    /// Solid node masses are floored in the solve at this part of a full node.
+    pub(crate) mass_floor: f64,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Self {
+            pair: Pair::B1b0,
+            tolerance: 1e-5,
+            max_iterations: 500,
+            predictor: true,
+            shared: Shared::Resolved,
+            solid_threshold: 0.5,
+            film_nearest: true,
+            power_midpoint: true,
+            ledger: true,
+            limiter: true,
+            blending: true,
+            elastic_cfl: 0.4,
+            max_substeps: 64,
+            cfl: 0.5,
+            max_courant: 2.0,
+            max_growth: 2.0,
+            mass_floor: 0.01,
+        }
+    }
+}
+
+/// Everything that stays fixed during a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem {
+    pub(crate) grid: Grid,
+    pub(crate) gamma: f64,
+    /// x_min, x_max, y_min, ...
+    pub(crate) sides: [Side; 6],
+    /// Static obstacles, by slot.
+    pub(crate) obstacles: Vec<bool>,
+    pub(crate) gravity: [f64; 3],
+    /// Density and pressure of the undisturbed gas.
+    pub(crate) ambient: (f64, f64),
+    pub(crate) materials: Vec<material::Material>,
+    pub(crate) numerics: Numerics,
+}
+
+impl Problem {
+    /// A problem with the default method, no obstacles and no gravity.
+    pub(crate) fn new(grid: Grid, sides: [Side; 6]) -> Self {
+        let obstacles = vec![false; grid.slots()];
+        Self {
+            grid,
+            gamma: 1.4,
+            sides,
+            obstacles,
+            gravity: [0.0; 3],
+            ambient: (1.0, 1.0),
+            materials: Vec::new(),
+            numerics: Numerics::default(),
+        }
+    }
+}
+
+/// Gas per cell: (rho, m) and total energy per volume.
+#[derive(Clone, Debug)]
+pub(crate) struct Gas {
+    pub(crate) conserved: Vec<[f64; 4]>,
+    pub(crate) energy: Vec<f64>,
+}
+
+impl Gas {
+    /// (rho, m, E) of a slot.
+    pub(crate) fn get(&self, slot: usize) -> [f64; 5] {
+        let u = self.conserved[slot];
+        [u[0], u[1], u[2], u[3], self.energy[slot]]
+    }
+
+    /// Stores (rho, m, E).
+    pub(crate) fn set(&mut self, slot: usize, u: [f64; 5]) {
+        self.conserved[slot] = [u[0], u[1], u[2], u[3]];
+        self.energy[slot] = u[4];
+    }
+
+    /// Velocity of a slot.
+    pub(crate) fn velocity(&self, slot: usize) -> [f64; 3] {
+        let u = self.conserved[slot];
+        [u[1] / u[0], u[2] / u[0], u[3] / u[0]]
+    }
+
+    /// Pressure of a slot.
+    pub(crate) fn pressure(&self, slot: usize, gamma: f64) -> f64 {
+        (gamma - 1.0) * internal_energy(self.get(slot))
+    }
+
+    /// (rho, m, E) from density, velocity, pressure.
+    pub(crate) fn conserved_from_primitive(density: f64, v: [f64; 3], pressure: f64, gamma: f64) -> [f64; 5] {
+        let kinetic = 0.5 * density * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        [density, density * v[0], density * v[1], density * v[2], pressure / (gamma - 1.0) + kinetic]
+    }
+}
+
+/// Kinetic energy per volume.
+pub(crate) fn kinetic_energy(u: [f64; 5]) -> f64 {
+    0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0]
+}
+
+/// Internal energy per volume.
+pub(crate) fn internal_energy(u: [f64; 5]) -> f64 {
+    u[4] - kinetic_energy(u)
+}
+
+/// One material point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Particle {
+    pub(crate) position: DVec3,
+    pub(crate) velocity: DVec3,
+    pub(crate) affine: DMat3,
+    pub(crate) deformation: DMat3,
+    pub(crate) mass: f64,
+    pub(crate) volume0: f64,
+    pub(crate) ghost_pressure: f64,
+    pub(crate) plastic_strain: f64,
+    pub(crate) material: usize,
+    pub(crate) active: bool,
+}
+
+/// Everything that a step changes.
+#[derive(Clone, Debug)]
+pub(crate) struct State {
+    pub(crate) gas: Gas,
+    pub(crate) cells: Vec<u32>,
+    /// Amounts of (mass, momentum, energy) of gas owed to or held by a cell.
+    pub(crate) ledger: Vec<[f64; 5]>,
+    pub(crate) particles: Vec<Particle>,
+    pub(crate) time: f64,
+    /// Last step by rule, 0 before the first.
+    pub(crate) previous_dt: f64,
+}
+
+impl State {
+    /// Gas from (density, velocity, pressure) per cell centre, and the cell kinds that the particles give.
+    pub(crate) fn new(
+        problem: &Problem,
+        gas: impl Fn([f64; 3]) -> (f64, [f64; 3], f64),
+        particles: Vec<Particle>,
+    ) -> Self {
+        let grid = &problem.grid;
+        let mut cells_gas =
+            Gas { conserved: vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()], energy: vec![1.0; grid.slots()] };
+        for c in grid.interior() {
+            let (density, velocity, pressure) = gas(grid.centre(c));
+            cells_gas.set(grid.slot(c), Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma));
+        }
+        let bins = particle_sort::bin(problem, &particles);
+        let cells = interface::kinds(problem, &bins);
+        gas_advection::fill_ghosts(problem, &cells, &mut cells_gas);
+        Self { gas: cells_gas, cells, ledger: vec![[0.0; 5]; grid.slots()], particles, time: 0.0, previous_dt: 0.0 }
+    }
+
+    /// (mass, momentum, energy) of gas and ledger.
+    pub(crate) fn gas_totals(&self, problem: &Problem) -> [f64; 5] {
+        let mut total = [0.0; 5];
+        for slot in problem.grid.interior().into_iter().map(|c| problem.grid.slot(c)) {
+            let held = if self.cells[slot] == GAS { self.gas.get(slot) } else { [0.0; 5] };
+            for k in 0..5 {
+                total[k] += held[k] * problem.grid.volume() + self.ledger[slot][k];
+            }
+        }
+        total
+    }
+}

@@ -1,0 +1,76 @@
+//! One step in the order of the method.
+
+use super::coupled_solve::{Inputs, coupled_solve};
+use super::{Problem, State};
+use super::{
+    fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g, particle_sort,
+    time_step,
+};
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Report {
+    pub(crate) dt: f64,
+    pub(crate) iterations: usize,
+    pub(crate) converged: bool,
+    pub(crate) limited: usize,
+    pub(crate) floored: usize,
+    pub(crate) substeps: usize,
+}
+
+/// Advances the state by dt.
+pub(crate) fn step(problem: &Problem, state: &mut State, dt: f64) -> Report {
+    let bins = particle_sort::bin(problem, &state.particles);
+    let mut nodes = p2g::p2g(problem, &state.particles);
+    let kinds = interface::kinds(problem, &bins);
+    ledger::change_kinds(problem, state, &kinds, &bins);
+    let faces = interface::interface(problem, kinds, &bins, &nodes);
+
+    let (star, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
+    let intermediate = intermediate_pressure::intermediate(problem, &faces, &star, dt);
+
+    let film = interface::film_force(problem, &faces.cells, &bins, &intermediate.vertex_pressure);
+    let floor = problem.numerics.mass_floor * bins.density * problem.grid.volume();
+    let floored: Vec<f64> = nodes.mass.iter().map(|mass| if *mass > 0.0 { mass.max(floor) } else { 0.0 }).collect();
+    mpm_grid_update::add_gravity(problem, &mut nodes, dt);
+    mpm_grid_update::add_forces(&mut nodes.velocity, &floored, &film, dt);
+
+    let solution = coupled_solve(&Inputs {
+        problem,
+        interface: &faces,
+        bins: &bins,
+        star: &star,
+        intermediate: &intermediate,
+        nodes: &nodes,
+        dt,
+    });
+    state.gas = fluid_update::fluid_update(problem, &faces, &star, &solution, &nodes.velocity, dt);
+    let touched = fluid_update::energy_floor(problem, &faces.cells, &star, &mut state.gas, &mut state.ledger);
+
+    let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);
+    let change = g2p::ghost_change(problem, &faces, &bins, &solution.pressure[2]);
+    let (share, sub_dt) = (1.0 / substeps as f64, dt / substeps as f64);
+    nodes.velocity = solution.solid_velocity;
+    for index in 0..if state.particles.is_empty() { 0 } else { substeps } {
+        if index > 0 {
+            nodes = p2g::p2g(problem, &state.particles);
+        }
+        mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, sub_dt);
+        mpm_grid_update::walls(problem, &faces.cells, &mut nodes.velocity);
+        g2p::g2p(problem, &nodes.velocity, &change, share, sub_dt, &mut state.particles);
+    }
+    gas_advection::fill_ghosts(problem, &faces.cells, &mut state.gas);
+    state.time += dt;
+    Report { dt, iterations: solution.iterations, converged: solution.converged, limited, floored: touched, substeps }
+}
+
+/// Runs to a time with steps by rule; the last one is shortened.
+pub(crate) fn advance_to(problem: &Problem, state: &mut State, time: f64) -> Vec<Report> {
+    let mut reports = Vec::new();
+    while state.time < time * (1.0 - 1e-12) {
+        let rule = time_step::time_step(problem, state);
+        state.previous_dt = rule;
+        reports.push(step(problem, state, rule.min(time - state.time)));
+    }
+    reports
+}
