@@ -127,6 +127,9 @@ fn load(options: &BenchOptions) -> Result<Scene> {
     scene.with_resolution(cells)
 }
 
+/// Stages with their milliseconds.
+type StageTimes = Vec<(String, f64)>;
+
 fn summary(records: &[StepRecord]) -> Summary {
     let mut summary = Summary::default();
     summary.add(records);
@@ -144,9 +147,9 @@ fn run_steps(simulation: &mut Simulation, steps: u32) -> Result<Vec<StepRecord>>
 }
 
 /// Runs at least `steps` steps one by one and adds up the milliseconds of each stage.
-fn timed_steps(simulation: &mut Simulation, steps: u32) -> Result<(Vec<StepRecord>, Vec<(String, f64)>)> {
+fn timed_steps(simulation: &mut Simulation, steps: u32) -> Result<(Vec<StepRecord>, StageTimes)> {
     let mut records = Vec::new();
-    let mut sums: Vec<(String, f64)> = Vec::new();
+    let mut sums = StageTimes::new();
     while records.len() < steps as usize {
         stop_if_asked()?;
         let (_, times) = simulation.advance_timed(&mut records)?;

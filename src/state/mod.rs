@@ -179,8 +179,7 @@ impl State {
         renamed: &[(&str, &wgpu::Buffer)],
         switches: &[(&str, f64)],
     ) -> Result<Bound> {
-        let mut overrides = self.overrides.clone();
-        let mut all: Vec<(&str, f64)> = overrides.drain(..).collect();
+        let mut all: Vec<(&str, f64)> = self.overrides.clone();
         all.extend_from_slice(switches);
         let source = constants::source_for(shader);
         let kernel = Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })?;

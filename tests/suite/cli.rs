@@ -4,6 +4,10 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use brisance::scene::Scene;
+use brisance::simulation::Simulation;
+use brisance::state::MemoryPlan;
+
 use crate::common::gpu_or_skip;
 
 fn brisance(arguments: &[&str]) -> Command {
@@ -160,6 +164,26 @@ fn too_large_scenes_are_refused_before_allocation() {
     assert!(fitting.parse::<u32>().unwrap() < 1200, "{text}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written");
     fails(2, &["run", "sod", "--export", "gif", "--out", out]);
+}
+
+#[test]
+fn the_memory_plan_is_what_is_allocated() {
+    for (name, cells, per_cell) in
+        [("sod", 400, 130.0), ("circular_shock", 96, 130.0), ("bursting_shell_3d", 36, 190.0)]
+    {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let shipped = succeeds(&["list", "--json"]);
+        let shipped: serde_json::Value = serde_json::from_str(&shipped).unwrap();
+        let entry = shipped["scenes"].as_array().unwrap().iter().find(|scene| scene["name"] == name).unwrap();
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(entry["path"].as_str().unwrap());
+        let scene = Scene::load(path, &[]).unwrap().with_resolution(cells).unwrap();
+        let plan = MemoryPlan::new(&scene, scene.seed_particles().len());
+        let simulation = Simulation::new(&gpu, &scene).unwrap();
+        assert_eq!(plan.bytes(None), gpu.allocated_bytes(), "{name}");
+        assert!(plan.per_cell() < per_cell, "{name}: {}", plan.per_cell());
+        assert!(plan.per_particle() <= 200.0, "{name}: {}", plan.per_particle());
+        drop(simulation);
+    }
 }
 
 /// A small scene with a body and a probe.
