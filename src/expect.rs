@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::Result;
 use crate::diagnostics::StepRecord;
-use crate::gpu::readback;
+use crate::gpu::{Gpu, readback};
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::snapshot::{Snapshot, kind};
@@ -206,6 +206,20 @@ pub fn evaluate(scene: &Scene, ending: &Ending<'_>) -> Vec<Check> {
     checks.at_most("max_steps", summary.steps as f64, expect.max_steps.map(f64::from));
     checks.bodies(scene, ending.snapshot);
     checks.0
+}
+
+/// Runs a scene to its end and judges it.
+///
+/// # Errors
+/// Those of [`Simulation::new`] and [`Simulation::advance_to`].
+pub fn run(gpu: &Gpu, scene: &Scene) -> Result<Vec<Check>> {
+    let mut simulation = Simulation::new(gpu, scene)?;
+    let start = Budget::read(&simulation, scene, 0.0)?;
+    let mut summary = Summary::default();
+    summary.add(&simulation.advance_to(scene.time.until)?);
+    let end = Budget::read(&simulation, scene, summary.elastic_energy())?;
+    let snapshot = simulation.snapshot()?;
+    Ok(evaluate(scene, &Ending { start: &start, end: &end, summary: &summary, snapshot: &snapshot }))
 }
 
 /// The lines so far. A value that is no number passes nothing.

@@ -100,7 +100,7 @@ pub(super) fn bench(options: &BenchOptions, cli: &Cli) -> Result<()> {
         stages: rows(&times, &load),
     };
     if cli.json {
-        println!("{}", serde_json::to_string(&measurement).unwrap_or_default());
+        say!("{}", serde_json::to_string(&measurement).unwrap_or_default());
     } else {
         print(&measurement);
     }
@@ -185,24 +185,24 @@ fn rows(times: &[(String, f64)], load: &Load) -> Vec<StageRow> {
 }
 
 fn print(m: &Measurement) {
-    println!("{} on {}: {} cells, {} particles", m.scene, m.device, m.cells, m.particles);
+    say!("{} on {}: {} cells, {} particles", m.scene, m.device, m.cells, m.particles);
     if m.stages.is_empty() {
-        println!("(this device has no timestamps: no table of stages)");
+        say!("(this device has no timestamps: no table of stages)");
     } else {
-        println!("\n{:24} {:>10} {:>8} {:>12} {:>8}", "stage", "ms/step", "share", "MB/step", "GB/s");
+        say!("\n{:24} {:>10} {:>8} {:>12} {:>8}", "stage", "ms/step", "share", "MB/step", "GB/s");
     }
     for row in &m.stages {
         let (share, megabytes) = (100.0 * row.share, row.bytes / 1e6);
         let speed = row.gigabytes_per_second;
-        println!("{:24} {:10.4} {share:6.1} % {megabytes:12.3} {speed:8.2}", row.stage, row.milliseconds);
+        say!("{:24} {:10.4} {share:6.1} % {megabytes:12.3} {speed:8.2}", row.stage, row.milliseconds);
     }
-    println!("\n{:24} {:>14}", "steps", m.steps);
-    println!("{:24} {:>14.4}", "milliseconds per step", m.milliseconds_per_step);
-    println!("{:24} {:>14.4e}", "cells/s", m.cells_per_second);
-    println!("{:24} {:>14.4e}", "particles/s", m.particles_per_second);
-    println!("{:24} {:>14.2}", "PCG iterations per step", m.pcg_iterations_per_step);
-    println!("{:24} {:>14.2}", "sub-steps per step", m.substeps_per_step);
-    println!("{:24} {:>14}", "bytes allocated", size(m.bytes_allocated));
-    println!("{:24} {:>14.1}", "planned bytes per cell", m.bytes_per_cell_planned);
-    println!("{:24} {:>14.1}", "... per particle", m.bytes_per_particle_planned);
+    say!("\n{:24} {:>14}", "steps", m.steps);
+    say!("{:24} {:>14.4}", "milliseconds per step", m.milliseconds_per_step);
+    say!("{:24} {:>14.4e}", "cells/s", m.cells_per_second);
+    say!("{:24} {:>14.4e}", "particles/s", m.particles_per_second);
+    say!("{:24} {:>14.2}", "PCG iterations per step", m.pcg_iterations_per_step);
+    say!("{:24} {:>14.2}", "sub-steps per step", m.substeps_per_step);
+    say!("{:24} {:>14}", "bytes allocated", size(m.bytes_allocated));
+    say!("{:24} {:>14.1}", "planned bytes per cell", m.bytes_per_cell_planned);
+    say!("{:24} {:>14.1}", "... per particle", m.bytes_per_particle_planned);
 }

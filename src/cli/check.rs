@@ -25,24 +25,24 @@ pub(super) fn check(options: &SceneOptions, cli: &Cli) -> Result<()> {
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
             "memory": memory, "scene": scene });
-        println!("{object}");
+        say!("{object}");
         return Ok(());
     }
     let resolved = toml::to_string(&scene).map_err(|error| Error::Scene(format!("{}: {error}", options.scene)))?;
     let domain = &scene.domain;
     let cells = domain.cells.map(|n| n.to_string())[..domain.axes()].join(" x ");
-    println!("# {}\n#", scene.title);
-    println!("# cells      {cells} = {} of edge {} m", plan.cells, domain.spacing());
-    println!("# particles  {}", plan.particles);
-    println!("# memory     {}", size(plan.bytes(None)));
+    say!("# {}\n#", scene.title);
+    say!("# cells      {cells} = {} of edge {} m", plan.cells, domain.spacing());
+    say!("# particles  {}", plan.particles);
+    say!("# memory     {}", size(plan.bytes(None)));
     for (group, bytes) in plan.groups() {
-        println!("#   {group:10} {}", size(bytes));
+        say!("#   {group:10} {}", size(bytes));
     }
-    println!("#   {:.1} bytes per cell, {:.1} bytes per particle", plan.per_cell(), plan.per_particle());
+    say!("#   {:.1} bytes per cell, {:.1} bytes per particle", plan.per_cell(), plan.per_particle());
     if let Some(largest) = plan.largest() {
-        println!("#   largest buffer: {}, {}", largest.name, size(largest.bytes));
+        say!("#   largest buffer: {}, {}", largest.name, size(largest.bytes));
     }
-    println!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
+    say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
     Ok(())
 }
 

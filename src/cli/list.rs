@@ -22,11 +22,11 @@ pub(super) fn devices(as_json: bool) -> Result<()> {
             .iter()
             .map(|a| json!({ "index": a.index, "name": a.name, "kind": a.kind, "driver": a.driver, "max_binding": a.max_binding }))
             .collect();
-        println!("{}", json!({ "devices": list }));
+        say!("{}", json!({ "devices": list }));
         return Ok(());
     }
     for adapter in &adapters {
-        println!("{adapter}");
+        say!("{adapter}");
     }
     Ok(())
 }
@@ -50,13 +50,13 @@ pub(super) fn scenes(as_json: bool) -> Result<()> {
                         "dimension": scene.domain.dimension, "cells": scene.domain.cells })
             })
             .collect();
-        println!("{}", json!({ "scenes": list }));
+        say!("{}", json!({ "scenes": list }));
         return Ok(());
     }
     let width = shipped.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
     for (shipped, scene) in &list {
-        println!("{:width$}  {}D  {}", shipped.name, scene.domain.dimension, scene.title);
+        say!("{:width$}  {}D  {}", shipped.name, scene.domain.dimension, scene.title);
     }
-    println!("\nbrisance run NAME runs one of them.");
+    say!("\nbrisance run NAME runs one of them.");
     Ok(())
 }

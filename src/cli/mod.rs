@@ -1,6 +1,14 @@
 //! The command line: verbs, their output, exit codes. People read standard output and standard error; `--json` prints one
 //! object on standard output for programs.
 
+/// Prints a line on standard output. A reader that has gone away, as in `brisance list | head -1`, is no error of ours.
+macro_rules! say {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stdout(), $($text)*);
+    }};
+}
+
 mod args;
 mod bench;
 mod check;
@@ -67,7 +75,7 @@ fn report(error: &Error, json: bool) {
     let head = if text.starts_with("error") { "" } else { "error: " };
     eprintln!("{head}{}", text.trim_end());
     if json {
-        println!("{}", json!({ "error": { "code": error.exit_code(), "kind": kind(error), "message": text } }));
+        say!("{}", json!({ "error": { "code": error.exit_code(), "kind": kind(error), "message": text } }));
     }
 }
 
@@ -95,11 +103,13 @@ fn execute(cli: &Cli) -> Result<()> {
         Command::Devices => list::devices(cli.json),
         Command::List => list::scenes(cli.json),
         Command::Schema => {
-            println!("{}", crate::scene::schema());
+            say!("{}", crate::scene::schema());
             Ok(())
         }
         Command::Completions { shell } => {
-            clap_complete::generate(*shell, &mut Cli::command(), "brisance", &mut std::io::stdout());
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Cli::command(), "brisance", &mut script);
+            say!("{}", String::from_utf8_lossy(&script));
             Ok(())
         }
     }

@@ -191,7 +191,7 @@ impl<'a> Run<'a> {
         let text = outcome.as_ref().map_or_else(ToString::to_string, |()| "finished".to_owned());
         let report = self.write_report(&text, written, &checks)?;
         if json && outcome.is_ok() {
-            println!("{}", serde_json::to_string(&report).unwrap_or_default());
+            say!("{}", serde_json::to_string(&report).unwrap_or_default());
         } else if !json && !self.options.quiet {
             self.print(&report);
         }
@@ -243,13 +243,9 @@ impl<'a> Run<'a> {
     fn print(&self, report: &Report<&Scene>) {
         let wall = clock(self.start.elapsed());
         let (time, steps) = (report.time, report.steps);
-        println!(
-            "t = {time:.6} s after {steps} steps in {wall}; {} frames in {}",
-            report.frames,
-            self.folder.display()
-        );
+        say!("t = {time:.6} s after {steps} steps in {wall}; {} frames in {}", report.frames, self.folder.display());
         for check in &report.expect {
-            println!("  {check}");
+            say!("  {check}");
         }
     }
 }

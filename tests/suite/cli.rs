@@ -186,6 +186,27 @@ fn the_memory_plan_is_what_is_allocated() {
     }
 }
 
+#[test]
+#[cfg(unix)]
+fn a_closed_pipe_is_no_bug() {
+    let mut child = brisance(&["schema"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(err(&output), "");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_a_disk_error() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "not a folder").unwrap();
+    let text = fails(9, &["run", "sod", "--out", file.join("out").to_str().unwrap()]);
+    assert!(text.contains("file/out"), "{text}");
+}
+
 /// A small scene with a body and a probe.
 fn write_small_scene(path: &Path) {
     let text = r#"

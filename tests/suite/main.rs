@@ -7,4 +7,5 @@ mod gpu;
 mod layering;
 mod numerics;
 mod render;
+mod scenes;
 mod shaders;
