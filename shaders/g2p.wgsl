@@ -68,7 +68,7 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
         let offset = block_offset(k);
         let weight = spline_node(s, offset);
         let v_node = node[slot_of(s.base + offset)].xyz;
-        let away = world_from_cell(s.base + offset) - x;
+        let away = node_distance(s, offset, x);
         v += weight.w * v_node;
         c += outer_product(weight.w * v_node, away);
         gradient += outer_product(v_node, weight.xyz);

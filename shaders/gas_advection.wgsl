@@ -19,7 +19,7 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // first half: U1, second half: U*
 @group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // thirds: now, U1, U*
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
-@group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows
+@group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 
 // A cell must keep this share of what the first-order update leaves of density and internal energy.
 const KEPT = 0.1;
@@ -86,8 +86,10 @@ struct Change { high: Gas, low: Gas }
 
 fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
     let scale = sign * control.dt / params.spacing;
-    let flow = select(f.low.flow + part * (f.high.flow - f.low.flow), f.high.flow, part == 1.0);
-    let heat = select(f.low.energy + part * (f.high.energy - f.low.energy), f.high.energy, part == 1.0);
+    let blend = max(part, 0.0);
+    let drain = 1.0 + min(part, 0.0);
+    let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, part == 1.0);
+    let heat = select(drain * (f.low.energy + blend * (f.high.energy - f.low.energy)), f.high.energy, part == 1.0);
     (*change).high.flow += scale * flow;
     (*change).high.energy += scale * heat;
     if LIMITER {
@@ -138,9 +140,24 @@ fn change_of_interior(slot: u32, here: Gas) -> Change {
     return change;
 }
 
+fn drained_share(before: Gas, change: Change) -> f32 {
+    let least = KEPT * internal_energy(before);
+    var share = 0.5;
+    for (var k = 0; k < 12; k++) {
+        let flow = before.flow + share * change.low.flow;
+        let total = before.energy + share * change.low.energy;
+        if flow.x > KEPT * before.flow.x && internal_energy(Gas(flow, total)) > least { return share - 1.0; }
+        share *= 0.5;
+    }
+    return -1.0;
+}
+
 // Largest share of the high-order change that keeps density and internal energy above KEPT of the first-order update.
+// Where bodies recede on several sides even that would drain the cell: then -1 + the share of the first-order change that
+// leaves KEPT of what is there.
 fn allowed_share(before: Gas, change: Change) -> f32 {
     let low = Gas(before.flow + change.low.flow, before.energy + change.low.energy);
+    if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) { return drained_share(before, change); }
     let density = before.flow.x + change.high.flow.x;
     var share = 1.0;
     if density < KEPT * low.flow.x { share = (1.0 - KEPT) * low.flow.x / max(low.flow.x - density, 1e-30); }

@@ -59,6 +59,16 @@ fn trapped_gas(c: vec3i, slot: u32) -> Gas {
     return gas_from_primitive(density, node[slot].xyz, pressure);
 }
 
+// At the start bodies cover no gas.
+@compute @workgroup_size(WORKGROUP)
+fn ledger_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots || kind_of(cells[slot]) != SOLID { return; }
+    conserved[slot] = vec4f(0.0);
+    energy[slot] = 0.0;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {

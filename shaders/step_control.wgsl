@@ -9,6 +9,10 @@ struct PcgResult { rho: f32, alpha: f32, beta: f32, reference: f32, tolerance: f
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> pcg: PcgResult;
 
+// Before the first step: lets the marks of the start run.
+@compute @workgroup_size(1)
+fn control_start() { open_phase(PHASE_BEGIN_EXTENTS, true); }
+
 // After an advection stage: did the limiter act?
 @compute @workgroup_size(1)
 fn control_limiter() {

@@ -11,6 +11,21 @@
 @group(0) @binding(6) var<storage, read_write> pressure: array<f32>;
 @group(0) @binding(7) var<storage, read_write> stiffness: array<f32>;
 
+@group(0) @binding(8) var<storage, read_write> residual: array<f32>;
+@group(0) @binding(9) var<storage, read_write> inverse_diagonal: array<f32>;
+
+// Unknowns behind the grid that no vertex uses in this step must be zero everywhere.
+@compute @workgroup_size(WORKGROUP)
+fn vertex_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) lane: u32) {
+    for (var i = thread_index(group, groups, lane); i < 2u * params.extra_capacity; i += groups.x * groups.y * WORKGROUP) {
+        pressure[params.slots + i] = 0.0;
+        stiffness[params.slots + i] = 0.0;
+        residual[params.slots + i] = 0.0;
+        inverse_diagonal[params.slots + i] = 0.0;
+    }
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {

@@ -76,11 +76,13 @@ impl Simulation {
             gpu: gpu.clone(),
             state,
         };
-        if !solids {
-            let mut pass = Pass::new(gpu, "marks");
-            simulation.interface.record_static(&mut pass, &simulation.state);
-            pass.submit()?;
+        let mut pass = Pass::new(gpu, "start");
+        simulation.time_step.record_start(&mut pass);
+        if let Some(particle_sort) = &simulation.particle_sort {
+            particle_sort.record(&mut pass, &simulation.state, "BEGIN");
         }
+        simulation.interface.record_start(&mut pass, &simulation.state);
+        pass.submit()?;
         Ok(simulation)
     }
 

@@ -31,3 +31,8 @@ fn spline_node(s: Spline, offset: vec3i) -> vec4f {
     let g = vec3f(s.slope[0][k.x], s.slope[1][k.y], s.slope[2][k.z]);
     return vec4f(g.x * w.y * w.z, w.x * g.y * w.z, w.x * w.y * g.z, w.x * w.y * w.z);
 }
+
+// From a particle to the node at `base + offset` [m]; zero on inactive axes, wherever the particle lies there.
+fn node_distance(s: Spline, offset: vec3i, position: vec3f) -> vec3f {
+    return (world_from_cell(s.base + offset) - position) * vec3f(reach());
+}

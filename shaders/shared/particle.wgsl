@@ -17,7 +17,7 @@ fn share_of(p: u32, s: Spline, offset: vec3i) -> Share {
     let node = spline_node(s, offset);
     if WITH_MASS {
         let x = position[p];
-        let reach_to_node = world_from_cell(s.base + offset) - x.xyz;
+        let reach_to_node = node_distance(s, offset, x.xyz);
         let c = mat3x3f(affine[3u * p].xyz, affine[3u * p + 1u].xyz, affine[3u * p + 2u].xyz);
         let mass = node.w * x.w;
         share.momentum = vec4f(mass * (velocity[p].xyz + c * reach_to_node), mass);

@@ -22,6 +22,7 @@ struct Solids {
     kind: Bound,
     scan: Scan,
     extra: Bound,
+    start: Bound,
     ledger: [Bound; 3],
 }
 
@@ -44,6 +45,7 @@ impl InterfaceStage {
                 kind: mark("interface_kind")?,
                 scan: Scan::over(gpu, wanted, place, state.params.slots, state.params.slots + 1)?,
                 extra: mark("interface_extra")?,
+                start: ledger("ledger_start")?,
                 ledger: [ledger("ledger_uncover")?, ledger("ledger_share")?, ledger("ledger_settle")?],
             })
         } else {
@@ -52,9 +54,15 @@ impl InterfaceStage {
         Ok(Self { flags: mark("interface_flags")?, solids })
     }
 
-    /// Marks a scene without bodies, once.
-    pub fn record_static(&self, pass: &mut Pass, state: &State) {
-        pass.dispatch(&self.flags, &Extent::Threads(u64::from(state.params.slots)));
+    /// Marks the start: without bodies these marks stay; with bodies the cells they cover lose their gas.
+    pub fn record_start(&self, pass: &mut Pass, state: &State) {
+        let Some(solids) = &self.solids else {
+            pass.dispatch(&self.flags, &Extent::Threads(u64::from(state.params.slots)));
+            return;
+        };
+        for kernel in [&solids.fill, &solids.kind, &self.flags, &solids.start] {
+            pass.dispatch(kernel, &slots(state, "BEGIN"));
+        }
     }
 
     /// Marks all slots and settles the gas books. Without bodies nothing changes.

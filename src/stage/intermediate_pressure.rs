@@ -1,16 +1,18 @@
 //! `intermediate_pressure`: which pressure does the advected gas have, and how stiff is what it meets?
 //! [Cao et al. 2022, eqs. 9, 17, 22, 24]
 
-use super::Parts;
+use super::{Parts, extent};
 use super::time_step::slots;
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
+use crate::state::constants::Entry;
 
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct IntermediatePressure {
     cells: Bound,
+    clear: Bound,
     vertices: Bound,
 }
 
@@ -23,6 +25,7 @@ impl IntermediatePressure {
         let Parts { gpu, state } = parts;
         Ok(Self {
             cells: state.bind(gpu, "intermediate_pressure.wgsl", "pressure_star", &[], &[])?,
+            clear: state.bind(gpu, "vertex_pressure.wgsl", "vertex_clear", &[], &[])?,
             vertices: state.bind(gpu, "vertex_pressure.wgsl", "vertex_pressure", &[], &[])?,
         })
     }
@@ -31,6 +34,7 @@ impl IntermediatePressure {
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("intermediate_pressure");
         pass.dispatch(&self.cells, &slots(state, "BEGIN"));
+        pass.dispatch(&self.clear, &extent(state, "BEGIN", Entry::Reduce));
         pass.dispatch(&self.vertices, &slots(state, "BEGIN"));
     }
 }

@@ -12,6 +12,7 @@ pub struct TimeStep {
     gas: Bound,
     particles: Bound,
     choose: Bound,
+    start: Bound,
     limiter: Bound,
     solved: Bound,
     substep: Bound,
@@ -32,6 +33,7 @@ impl TimeStep {
             gas: time("time_step_gas")?,
             particles: time("time_step_particles")?,
             choose: time("time_step_choose")?,
+            start: control("control_start")?,
             limiter: control("control_limiter")?,
             solved: control("control_solved")?,
             substep: control("control_substep")?,
@@ -47,6 +49,11 @@ impl TimeStep {
             pass.dispatch(&self.particles, &Extent::Groups([state.params.groups, 1, 1]));
         }
         pass.dispatch(&self.choose, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Opens the marks of the start.
+    pub fn record_start(&self, pass: &mut Pass) {
+        pass.dispatch(&self.start, &Extent::Groups([1, 1, 1]));
     }
 
     /// Opens the correction of the advection where the limiter acted.
