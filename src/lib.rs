@@ -1,7 +1,28 @@
 //! Brisance: compressible gas, shock waves and the solids they bend, tear and shatter, in one coupled pressure solve.
+//!
+//! A [`scene::Scene`] is what the user asks for; [`simulation::Simulation`] turns it into buffers and kernels and steps it on a
+//! [`gpu::Gpu`]; [`simulation::Simulation::snapshot`] brings the state back; [`render::Renderer`] draws it; [`export`] writes it.
+//!
+//! ```no_run
+//! use brisance::{gpu::{Gpu, GpuOptions}, scene::Scene, simulation::Simulation};
+//!
+//! let scene = Scene::load("scenes/gas/sod.toml", &["time.until=0.1".to_owned()])?;
+//! let gpu = Gpu::new(&GpuOptions::default())?;
+//! let mut simulation = Simulation::new(&gpu, &scene)?;
+//! let steps = simulation.advance_to(scene.time.until)?;
+//! println!("{} steps, density of the first cell {}", steps.len(), simulation.snapshot()?.density[0]);
+//! # Ok::<(), brisance::Error>(())
+//! ```
+//!
+//! Modules stand on floors and use lower floors only: `math`, `error`, `riemann`; `material`, `gpu`; `scene`, `numerics`;
+//! `state`; `stage`, `snapshot`; `simulation`, `diagnostics`, `bodies`; `render`, `expect`; `export`; `cli`, `viewer`. The rules of the
+//! house are in `docs/architecture.md`, the method in `docs/method.md`. Start reading at [`simulation::Simulation::record_step`].
 
+pub mod bodies;
+pub mod cli;
 pub mod diagnostics;
 pub mod error;
+pub mod expect;
 pub mod export;
 pub mod gpu;
 pub mod material;

@@ -1,2 +1,7 @@
-//! Command line only.
-fn main() {}
+//! Command line only: see [`brisance::cli`].
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    brisance::cli::main()
+}

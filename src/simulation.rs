@@ -163,6 +163,19 @@ impl Simulation {
         self.after_batch(records)
     }
 
+    /// Runs one recording with a stopwatch: as [`Simulation::advance_batch`] with the milliseconds of each stage, none if the
+    /// device has no timestamps.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    pub fn advance_timed(&mut self, records: &mut Vec<StepRecord>) -> Result<(bool, Vec<(String, f64)>)> {
+        let mut pass = Pass::timed(&self.gpu, "steps");
+        self.record_step(&mut pass);
+        self.totals.record(&mut pass, &self.state);
+        let times = pass.submit_timed()?;
+        Ok((self.after_batch(records)?, times))
+    }
+
     /// Reads clock, records and faults after a submission.
     fn after_batch(&mut self, records: &mut Vec<StepRecord>) -> Result<bool> {
         let control = self.control()?;

@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::Result;
+use crate::expect::Check;
 use crate::export::atomic;
 
 /// The device a run used.
@@ -26,7 +27,7 @@ pub struct DeviceReport {
 pub struct Report<S> {
     /// Version of Brisance.
     pub version: &'static str,
-    /// `finished`, `interrupted`, or the error message.
+    /// `running`, `finished`, or the error message.
     pub outcome: String,
     /// Simulated time reached \[s\].
     pub time: f64,
@@ -46,6 +47,8 @@ pub struct Report<S> {
     pub totals: BTreeMap<String, f64>,
     /// Relative change of each conserved total since the start, after what crossed the boundaries.
     pub drift: BTreeMap<String, f64>,
+    /// The scene's expectations against what was measured; empty if they were not asked for.
+    pub expect: Vec<Check>,
     /// The scene as it was run.
     pub scene: S,
 }

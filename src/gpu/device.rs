@@ -30,7 +30,7 @@ pub struct AdapterSummary {
     pub kind: &'static str,
     /// Programming interface and driver, for example `vulkan, llvmpipe, Mesa 22.3.6`.
     pub driver: String,
-    /// Largest storage buffer a kernel may bind [bytes].
+    /// Largest storage buffer a kernel may bind \[bytes\].
     pub max_binding: u64,
 }
 

@@ -82,6 +82,13 @@ impl Scan {
         up.iter().copied().chain(down.collect::<Vec<_>>()).collect()
     }
 
+    /// Bytes that a scan with this many outputs allocates, known before it is built.
+    #[must_use]
+    pub fn planned_bytes(outputs: u32) -> u64 {
+        let blocks = level_lengths(outputs).into_iter().map(|length| u64::from(length.div_ceil(BLOCK).max(1)));
+        blocks.map(|blocks| 2 * blocks * size_of::<u32>() as u64).sum()
+    }
+
     /// Workgroups of each dispatch: what [`Scan::record_with`] runs when nothing is to be skipped.
     #[must_use]
     pub fn group_counts(&self) -> Vec<[u32; 3]> {

@@ -27,6 +27,7 @@ mod p2g;
 mod particle_sort;
 mod time_step;
 mod totals;
+pub mod traffic;
 
 pub use coupled_solve::CoupledSolve;
 pub use fluid_update::FluidUpdate;

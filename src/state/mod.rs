@@ -5,6 +5,7 @@ pub mod control;
 pub mod gas;
 pub mod grid;
 pub mod interface;
+pub mod memory;
 pub mod params;
 pub mod particles;
 
@@ -12,6 +13,7 @@ pub use control::Control;
 pub use gas::GasState;
 pub use grid::Grid;
 pub use interface::Interface;
+pub use memory::MemoryPlan;
 pub use params::{HISTORY, Params};
 pub use particles::{ParticleStart, Particles};
 
@@ -177,8 +179,7 @@ impl State {
         renamed: &[(&str, &wgpu::Buffer)],
         switches: &[(&str, f64)],
     ) -> Result<Bound> {
-        let mut overrides = self.overrides.clone();
-        let mut all: Vec<(&str, f64)> = overrides.drain(..).collect();
+        let mut all: Vec<(&str, f64)> = self.overrides.clone();
         all.extend_from_slice(switches);
         let source = constants::source_for(shader);
         let kernel = Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })?;

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 /// Modules from the ground floor to the roof. A module may use lower floors only.
 const FLOORS: [&[&str]; 10] = [
-    &["math", "error"],
+    &["math", "error", "riemann"],
     &["material", "gpu"],
     &["scene", "numerics"],
     &["state"],
     &["stage", "snapshot"],
-    &["simulation", "diagnostics"],
-    &["render"],
+    &["simulation", "diagnostics", "bodies"],
+    &["render", "expect"],
     &["export"],
     &["viewer", "cli"],
     &["main"],

@@ -1,0 +1,162 @@
+//! The bodies of a scene as wholes: where they are, how they move, how many pieces they have broken into.
+
+use serde::Serialize;
+
+use crate::snapshot::{ParticleSample, Snapshot};
+
+/// One body at one time. Values are those of the particles that are still inside the domain.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct BodyState {
+    /// Particles.
+    pub particles: u64,
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Centre of mass \[m\].
+    pub centroid: [f64; 3],
+    /// Mean velocity, weighted by mass \[m s^-1\].
+    pub velocity: [f64; 3],
+    /// Low and high corner of the box around the particles \[m\].
+    pub extent: [[f64; 3]; 2],
+    /// Pieces: groups of particles in cells that touch, corners included.
+    pub pieces: u32,
+}
+
+impl Snapshot {
+    /// The first `count` bodies of the scene.
+    #[must_use]
+    pub fn bodies(&self, count: usize) -> Vec<BodyState> {
+        let empty = BodyState { extent: [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], ..BodyState::default() };
+        let mut bodies = vec![empty; count];
+        for particle in &self.particles {
+            if let Some(body) = bodies.get_mut(particle.body as usize) {
+                body.add(particle);
+            }
+        }
+        for (body, pieces) in bodies.iter_mut().zip(self.pieces(count)) {
+            body.pieces = pieces;
+            body.finish();
+        }
+        bodies
+    }
+
+    /// Pieces of each body: connected groups of cells that hold its particles.
+    fn pieces(&self, count: usize) -> Vec<u32> {
+        let grid = &self.grid;
+        let cell = |particle: &ParticleSample| {
+            let at = |axis: usize| ((particle.position[axis] - grid.origin[axis]) / grid.spacing).floor() as i32;
+            let axis = |axis: usize| at(axis).clamp(0, grid.cells[axis] as i32 - 1);
+            (particle.body, [axis(2), axis(1), axis(0)])
+        };
+        let mut places: Vec<_> = self.particles.iter().map(cell).collect();
+        places.sort_unstable();
+        places.dedup();
+        let mut groups = Groups((0..places.len()).collect());
+        for (index, &(body, [z, y, x])) in places.iter().enumerate() {
+            for offset in 0..13 {
+                // The 13 neighbours that come before a cell in the order of `places`.
+                let near = [z + offset / 9 - 1, y + offset / 3 % 3 - 1, x + offset % 3 - 1];
+                if let Ok(other) = places.binary_search(&(body, near)) {
+                    groups.join(index, other);
+                }
+            }
+        }
+        let mut pieces = vec![0; count];
+        for (index, (body, _)) in places.iter().enumerate() {
+            if let Some(pieces) = pieces.get_mut(*body as usize).filter(|_| groups.root(index) == index) {
+                *pieces += 1;
+            }
+        }
+        pieces
+    }
+}
+
+impl BodyState {
+    fn add(&mut self, particle: &ParticleSample) {
+        let mass = f64::from(particle.mass);
+        self.particles += 1;
+        self.mass += mass;
+        for axis in 0..3 {
+            let position = f64::from(particle.position[axis]);
+            self.centroid[axis] += mass * position;
+            self.velocity[axis] += mass * f64::from(particle.velocity[axis]);
+            self.extent[0][axis] = self.extent[0][axis].min(position);
+            self.extent[1][axis] = self.extent[1][axis].max(position);
+        }
+    }
+
+    /// Sums to means; a body that has left the domain is nowhere.
+    fn finish(&mut self) {
+        self.centroid = self.centroid.map(|sum| sum / self.mass);
+        self.velocity = self.velocity.map(|sum| sum / self.mass);
+        if self.particles == 0 {
+            self.extent = [[f64::NAN; 3]; 2];
+        }
+    }
+}
+
+/// Disjoint groups of indices: each entry names another member of its group, the root itself. [Tarjan 1975]
+struct Groups(Vec<usize>);
+
+impl Groups {
+    fn root(&mut self, mut index: usize) -> usize {
+        while self.0[index] != index {
+            self.0[index] = self.0[self.0[index]];
+            index = self.0[index];
+        }
+        index
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::Grid;
+
+    fn snapshot(particles: &[(u32, [f32; 3])]) -> Snapshot {
+        let sample = |&(body, position): &(u32, [f32; 3])| ParticleSample {
+            position,
+            velocity: [1.0, 0.0, 0.0],
+            mass: 2.0,
+            volume0: 1.0,
+            ghost_pressure: 0.0,
+            plastic_strain: 0.0,
+            deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            body,
+            material: 0,
+        };
+        Snapshot {
+            time: 0.0,
+            step: 0,
+            grid: Grid { dimension: 3, cells: [8; 3], origin: [0.0; 3], spacing: 1.0 },
+            gamma: 1.4,
+            kind: Vec::new(),
+            density: Vec::new(),
+            velocity: Vec::new(),
+            pressure: Vec::new(),
+            energy: Vec::new(),
+            particles: particles.iter().map(sample).collect(),
+        }
+    }
+
+    #[test]
+    fn pieces_touch_at_corners_and_bodies_stay_apart() {
+        let state = snapshot(&[
+            (0, [0.5, 0.5, 0.5]),
+            (0, [1.5, 1.5, 1.5]),
+            (0, [2.5, 0.5, 2.5]),
+            (0, [5.5, 5.5, 5.5]),
+            (1, [0.5, 0.5, 1.5]),
+        ]);
+        let bodies = state.bodies(3);
+        assert_eq!(bodies.iter().map(|body| body.pieces).collect::<Vec<_>>(), [2, 1, 0]);
+        assert_eq!(bodies[0].centroid, [2.5, 2.0, 2.5]);
+        assert_eq!(bodies[0].extent, [[0.5; 3], [5.5; 3]]);
+        assert_eq!((bodies[0].mass, bodies[0].velocity), (8.0, [1.0, 0.0, 0.0]));
+        assert!(bodies[2].particles == 0 && bodies[2].centroid[0].is_nan());
+    }
+}

@@ -1,0 +1,104 @@
+//! Arguments of all verbs.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Compressible gas, shock waves and the solids they bend, tear and shatter.
+#[derive(Debug, Parser)]
+#[command(name = "brisance", version, arg_required_else_help = true, subcommand_required = true)]
+#[command(after_help = "Exit codes: 0 done, 1 internal, 2 usage, 3 scene, 4 no device, 5 does not fit, 7 diverged, \
+                        8 expectation failed, 9 disk, 75 device lost, 130 interrupted")]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// Print one JSON object on standard output
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Index or part of the name of the device, see `brisance devices`; BRISANCE_DEVICE does the same
+    #[arg(long, global = true, value_name = "DEVICE")]
+    pub device: Option<String>,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene: pictures, tables and a report
+    Run(RunOptions),
+    /// Check a scene and print cells, particles, memory and every default
+    Check(SceneOptions),
+    /// Measure a scene: a table of stages, then totals per second
+    Bench(BenchOptions),
+    /// List the devices, best first
+    Devices,
+    /// List the shipped scenes
+    List,
+    /// Print the JSON schema of scene files
+    Schema,
+    /// Print a completion script
+    #[command(hide = true)]
+    Completions {
+        /// For which shell.
+        shell: clap_complete::Shell,
+    },
+}
+
+/// A scene and what to change about it.
+#[derive(Debug, Args)]
+pub struct SceneOptions {
+    /// Scene file, or name of a shipped scene (see `brisance list`)
+    pub scene: String,
+    /// Change a key of the scene, for example gas.ambient.density=2; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Cells along the longest axis
+    #[arg(long, value_name = "CELLS")]
+    pub resolution: Option<u32>,
+}
+
+/// Options of `run`.
+#[derive(Debug, Args)]
+pub struct RunOptions {
+    /// What to run.
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// Folder for the results [default: out/<scene>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// End of the run [s], instead of time.until
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true)]
+    pub until: Option<f64>,
+    /// Pictures besides the first, instead of time.frames
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u32>,
+    /// Further formats, such as vtk; may be repeated
+    #[arg(long, value_name = "FORMAT")]
+    pub export: Vec<String>,
+    /// Write tables and report, but no pictures
+    #[arg(long)]
+    pub no_frames: bool,
+    /// Do not compare the result with the scene's [expect]
+    #[arg(long)]
+    pub no_expect: bool,
+    /// Print nothing but warnings and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Options of `bench`.
+#[derive(Debug, Args)]
+pub struct BenchOptions {
+    /// What to measure.
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// Cells of the whole domain at most; chooses the resolution
+    #[arg(long, value_name = "N", conflicts_with = "resolution")]
+    pub cells: Option<u64>,
+    /// Steps to measure
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..))]
+    pub steps: u32,
+    /// Steps before the measurement
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    pub warmup: u32,
+}

@@ -1,0 +1,57 @@
+//! `check`: what a scene is and needs, without running it.
+
+use serde_json::json;
+
+use super::args::{Cli, SceneOptions};
+use super::{check_fit, open_device, scenes};
+use crate::state::MemoryPlan;
+use crate::{Error, Result};
+
+/// Checks a scene and prints it with every default. Needs no device; one that is named with `--device` is asked whether the
+/// scene fits.
+///
+/// # Errors
+/// [`Error::Scene`] with every mistake, [`Error::DoesNotFit`].
+pub(super) fn check(options: &SceneOptions, cli: &Cli) -> Result<()> {
+    let scene = scenes::load(options, &[])?;
+    let plan = MemoryPlan::new(&scene, scene.seed_particles().len());
+    if cli.device.is_some() {
+        check_fit(&plan, &scene, &open_device(cli)?)?;
+    }
+    if cli.json {
+        let groups: serde_json::Map<_, _> =
+            plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes.into())).collect();
+        let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
+            "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
+        let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
+            "memory": memory, "scene": scene });
+        say!("{object}");
+        return Ok(());
+    }
+    let resolved = toml::to_string(&scene).map_err(|error| Error::Scene(format!("{}: {error}", options.scene)))?;
+    let domain = &scene.domain;
+    let cells = domain.cells.map(|n| n.to_string())[..domain.axes()].join(" x ");
+    say!("# {}\n#", scene.title);
+    say!("# cells      {cells} = {} of edge {} m", plan.cells, domain.spacing());
+    say!("# particles  {}", plan.particles);
+    say!("# memory     {}", size(plan.bytes(None)));
+    for (group, bytes) in plan.groups() {
+        say!("#   {group:10} {}", size(bytes));
+    }
+    say!("#   {:.1} bytes per cell, {:.1} bytes per particle", plan.per_cell(), plan.per_particle());
+    if let Some(largest) = plan.largest() {
+        say!("#   largest buffer: {}, {}", largest.name, size(largest.bytes));
+    }
+    say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
+    Ok(())
+}
+
+/// Bytes for people.
+pub(super) fn size(bytes: u64) -> String {
+    let bytes = bytes as f64;
+    match bytes {
+        b if b >= 1024.0 * 1024.0 * 1024.0 => format!("{:.2} GiB", b / (1024.0 * 1024.0 * 1024.0)),
+        b if b >= 1024.0 * 1024.0 => format!("{:.1} MiB", b / (1024.0 * 1024.0)),
+        b => format!("{:.1} KiB", b / 1024.0),
+    }
+}

@@ -1,0 +1,151 @@
+//! The command line: verbs, their output, exit codes. People read standard output and standard error; `--json` prints one
+//! object on standard output for programs.
+
+/// Prints a line on standard output. A reader that has gone away, as in `brisance list | head -1`, is no error of ours.
+macro_rules! say {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stdout(), $($text)*);
+    }};
+}
+
+mod args;
+mod bench;
+mod check;
+mod folder;
+mod interrupt;
+mod list;
+mod progress;
+mod run;
+mod scenes;
+mod tables;
+mod writer;
+
+pub use args::{Cli, Command};
+
+use std::panic::{self, AssertUnwindSafe};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+use serde_json::json;
+
+use crate::gpu::{Gpu, GpuOptions};
+use crate::{Error, Result};
+
+/// Exit code of a bug of ours.
+const INTERNAL: u8 = 1;
+
+/// Runs the program: reads the arguments, does what they say, reports errors once, and returns the exit code.
+#[must_use]
+pub fn main() -> ExitCode {
+    panic::set_hook(Box::new(|info| eprintln!("{}", bug_report(info))));
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(message) => {
+            // Help and version come this way too, with code 0; a closed pipe is no error of ours.
+            let _ = message.print();
+            return ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(INTERNAL));
+        }
+    };
+    let json = cli.json;
+    match panic::catch_unwind(AssertUnwindSafe(|| execute(&cli))) {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(error)) => {
+            report(&error, json);
+            ExitCode::from(error.exit_code())
+        }
+        Err(_) => ExitCode::from(INTERNAL),
+    }
+}
+
+/// One line for a panic, which is always a bug.
+fn bug_report(info: &panic::PanicHookInfo<'_>) -> String {
+    let payload = info.payload();
+    let text = payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+    let place = info.location().map_or_else(String::new, |place| format!(" at {}:{}", place.file(), place.line()));
+    let text = text.unwrap_or("no message").replace('\n', " ");
+    let version = env!("CARGO_PKG_VERSION");
+    format!("error: a bug in brisance {version}{place}: {text}; please report it with the scene and `brisance devices`")
+}
+
+/// Prints an error: one sentence or the scene's findings on standard error, and an object on standard output if asked.
+fn report(error: &Error, json: bool) {
+    let text = error.to_string();
+    // The findings of a scene bring their own heads.
+    let head = if text.starts_with("error") { "" } else { "error: " };
+    eprintln!("{head}{}", text.trim_end());
+    if json {
+        say!("{}", json!({ "error": { "code": error.exit_code(), "kind": kind(error), "message": text } }));
+    }
+}
+
+/// Name of an error's family in JSON.
+fn kind(error: &Error) -> &'static str {
+    match error {
+        Error::Usage(_) => "usage",
+        Error::Scene(_) => "scene",
+        Error::NoAdapter(_) => "no_adapter",
+        Error::DoesNotFit(_) => "does_not_fit",
+        Error::Diverged { .. } => "diverged",
+        Error::Expectation(_) => "expectation",
+        Error::Io { .. } => "io",
+        Error::Gpu(_) => "gpu",
+        Error::Interrupted => "interrupted",
+        Error::Shader(_) => "shader",
+    }
+}
+
+fn execute(cli: &Cli) -> Result<()> {
+    match &cli.command {
+        Command::Run(options) => run::run(options, cli),
+        Command::Check(options) => check::check(options, cli),
+        Command::Bench(options) => bench::bench(options, cli),
+        Command::Devices => list::devices(cli.json),
+        Command::List => list::scenes(cli.json),
+        Command::Schema => {
+            say!("{}", crate::scene::schema());
+            Ok(())
+        }
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Cli::command(), "brisance", &mut script);
+            say!("{}", String::from_utf8_lossy(&script));
+            Ok(())
+        }
+    }
+}
+
+/// Opens the device that the command line names; a processor in the role of a GPU is announced.
+fn open_device(cli: &Cli) -> Result<Gpu> {
+    let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })?;
+    if gpu.is_software() {
+        let name = &gpu.info.name;
+        eprintln!(
+            "warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU"
+        );
+    }
+    Ok(gpu)
+}
+
+/// Bytes of main memory that are free, where the system says so; a software device takes its memory there.
+fn free_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: u64 = line.trim().trim_end_matches("kB").trim().parse().ok()?;
+    Some(1024 * kibibytes)
+}
+
+/// Compares a plan with the device, before anything is allocated.
+fn check_fit(plan: &crate::state::MemoryPlan, scene: &crate::scene::Scene, gpu: &Gpu) -> Result<()> {
+    let per_buffer = gpu.limits.max_storage_buffer_binding_size.min(gpu.limits.max_buffer_size);
+    let together = if gpu.is_software() { free_memory() } else { None };
+    plan.check(scene, &gpu.info.name, per_buffer, together)
+}
+
+/// Counts particles and plans memory; the gas alone is checked first, because seeding a hopeless scene takes memory too.
+fn plan_for(scene: &crate::scene::Scene, gpu: &Gpu) -> Result<crate::state::MemoryPlan> {
+    check_fit(&crate::state::MemoryPlan::new(scene, 0), scene, gpu)?;
+    let plan = crate::state::MemoryPlan::new(scene, scene.seed_particles().len());
+    check_fit(&plan, scene, gpu)?;
+    Ok(plan)
+}

@@ -1,0 +1,323 @@
+//! `run`: a scene to pictures, tables and a report.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use super::args::{Cli, RunOptions};
+use super::interrupt::{self, Wish};
+use super::progress::{Progress, clock};
+use super::writer::{FrameToWrite, Message, Writer, Written};
+use super::{folder, open_device, plan_for, scenes};
+use crate::diagnostics::StepRecord;
+use crate::expect::{self, Budget, Check, Ending, Summary};
+use crate::export::report::{self, DeviceReport, Report};
+use crate::gpu::Gpu;
+use crate::render::{ParticleBuffers, Renderer, SceneBuffers};
+use crate::scene::Scene;
+use crate::simulation::Simulation;
+use crate::snapshot::Snapshot;
+use crate::state::{MemoryPlan, State};
+use crate::{Error, Result};
+
+/// Runs a scene.
+///
+/// # Errors
+/// Everything that can go wrong; what was computed before is on the disk, and the report says what happened.
+pub(super) fn run(options: &RunOptions, cli: &Cli) -> Result<()> {
+    interrupt::listen();
+    let start = Instant::now();
+    let scene = scenes::load(&options.scene, &overrides(options))?;
+    let gpu = open_device(cli)?;
+    let plan = plan_for(&scene, &gpu)?;
+    let folder = options.out.clone().unwrap_or_else(|| Path::new("out").join(scenes::stem(&options.scene.scene)));
+    let mut run = Run::prepare(options, scene, &gpu, &plan, folder, start)?;
+    let outcome = run.frames();
+    run.finish(outcome, cli.json)
+}
+
+/// Options that are keys of the scene.
+fn overrides(options: &RunOptions) -> Vec<String> {
+    let until = options.until.map(|until| format!("time.until={until:?}"));
+    until.into_iter().chain(options.frames.map(|frames| format!("time.frames={frames}"))).collect()
+}
+
+/// Time spent on the main thread, by activity.
+#[derive(Clone, Copy, Debug, Default)]
+struct Clocks {
+    setup: Duration,
+    steps: Duration,
+    pictures: Duration,
+    waiting: Duration,
+}
+
+/// A run at work.
+struct Run<'a> {
+    options: &'a RunOptions,
+    scene: Scene,
+    folder: PathBuf,
+    gpu: Gpu,
+    plan: &'a MemoryPlan,
+    simulation: Simulation,
+    renderer: Option<Renderer>,
+    writer: Option<Writer>,
+    needs_snapshot: bool,
+    progress: Progress,
+    pending: Vec<StepRecord>,
+    summary: Summary,
+    start_budget: Budget,
+    clocks: Clocks,
+    start: Instant,
+}
+
+impl<'a> Run<'a> {
+    fn prepare(
+        options: &'a RunOptions,
+        scene: Scene,
+        gpu: &Gpu,
+        plan: &'a MemoryPlan,
+        folder: PathBuf,
+        start: Instant,
+    ) -> Result<Self> {
+        let formats = formats(options, &scene);
+        let needs_snapshot = !scene.bodies.is_empty() || formats.iter().any(|name| name != "png");
+        folder::prepare(&folder)?;
+        let writer = Writer::start(&folder, &scene, formats)?;
+        if !options.quiet {
+            let cells = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join(" x ");
+            eprintln!("{}: {cells} cells, {} particles, on {}", scene.title, plan.particles, gpu.info.name);
+        }
+        let simulation = Simulation::new(gpu, &scene)?;
+        let start_budget = Budget::read(&simulation, &scene, 0.0)?;
+        let buffers = buffers(&simulation.state);
+        let renderer = (!options.no_frames).then(|| Renderer::new(gpu, &scene, &buffers)).transpose()?;
+        let progress = Progress::new(scene.time.until, options.quiet);
+        let clocks = Clocks { setup: start.elapsed(), ..Clocks::default() };
+        let run = Self {
+            options,
+            scene,
+            folder,
+            gpu: gpu.clone(),
+            plan,
+            simulation,
+            renderer,
+            writer: Some(writer),
+            needs_snapshot,
+            progress,
+            pending: Vec::new(),
+            summary: Summary::default(),
+            start_budget,
+            clocks,
+            start,
+        };
+        run.write_report("running", Written::default(), &[])?;
+        Ok(run)
+    }
+
+    /// Frame 0 is the start; frame k follows at k / frames of the time.
+    fn frames(&mut self) -> Result<()> {
+        let frames = self.scene.time.frames.max(1);
+        self.frame(0, 0.0)?;
+        for index in 1..=frames {
+            if interrupt::wish() >= Wish::AfterFrame {
+                return Err(Error::Interrupted);
+            }
+            let time = self.scene.time.until * f64::from(index) / f64::from(frames);
+            self.advance(time)?;
+            self.frame(index, time)?;
+        }
+        Ok(())
+    }
+
+    fn advance(&mut self, time: f64) -> Result<()> {
+        let start = Instant::now();
+        let outcome = self.advance_steps(time);
+        self.clocks.steps += start.elapsed();
+        outcome
+    }
+
+    fn advance_steps(&mut self, time: f64) -> Result<()> {
+        self.simulation.set_target(time)?;
+        loop {
+            let first = self.pending.len();
+            let outcome = self.simulation.advance_batch(&mut self.pending);
+            self.summary.add(&self.pending[first..]);
+            self.progress.show(self.simulation.time(), self.summary.last.as_ref());
+            if outcome? {
+                return Ok(());
+            }
+            if interrupt::wish() == Wish::Now {
+                return Err(Error::Interrupted);
+            }
+        }
+    }
+
+    /// Draws a frame and hands it to the writer with the steps that led to it.
+    fn frame(&mut self, index: u32, time: f64) -> Result<()> {
+        let start = Instant::now();
+        let pictures = self.renderer.as_mut().map(|renderer| renderer.render(time)).transpose()?.unwrap_or_default();
+        let snapshot = self.needs_snapshot.then(|| self.simulation.snapshot()).transpose()?;
+        self.clocks.pictures += start.elapsed();
+        let start = Instant::now();
+        let step = self.simulation.step_count();
+        let frame = Some(FrameToWrite { index, time, step, pictures, snapshot });
+        let message = Message { records: std::mem::take(&mut self.pending), frame };
+        let accepted = self.writer.as_ref().is_some_and(|writer| writer.send(message));
+        self.clocks.waiting += start.elapsed();
+        if accepted { Ok(()) } else { self.close_writer().map(|_| ()) }
+    }
+
+    /// Waits for the writer and returns what it wrote.
+    fn close_writer(&mut self) -> Result<Written> {
+        self.writer.take().map_or_else(|| Ok(Written::default()), Writer::finish)
+    }
+
+    /// Writes the rest, judges, reports.
+    fn finish(mut self, outcome: Result<()>, json: bool) -> Result<()> {
+        self.progress.finish();
+        if let Some(writer) = &self.writer {
+            writer.send(Message { records: std::mem::take(&mut self.pending), frame: None });
+        }
+        // The first error is the one to tell about.
+        let (mut outcome, written) = match (outcome, self.close_writer()) {
+            (Ok(()), Err(error)) => (Err(error), Written::default()),
+            (outcome, written) => (outcome, written.unwrap_or_default()),
+        };
+        let mut checks = Vec::new();
+        if outcome.is_ok() && !self.options.no_expect {
+            checks = self.judge()?;
+            outcome = verdict(&checks);
+        }
+        let text = outcome.as_ref().map_or_else(ToString::to_string, |()| "finished".to_owned());
+        let report = self.write_report(&text, written, &checks)?;
+        if json && outcome.is_ok() {
+            say!("{}", serde_json::to_string(&report).unwrap_or_default());
+        } else if !json && !self.options.quiet {
+            self.print(&report);
+        }
+        outcome
+    }
+
+    fn judge(&self) -> Result<Vec<Check>> {
+        let snapshot: Snapshot = self.simulation.snapshot()?;
+        let end = self.end_budget()?;
+        let ending = Ending { start: &self.start_budget, end: &end, summary: &self.summary, snapshot: &snapshot };
+        Ok(expect::evaluate(&self.scene, &ending))
+    }
+
+    fn end_budget(&self) -> Result<Budget> {
+        Budget::read(&self.simulation, &self.scene, self.summary.elastic_energy())
+    }
+
+    fn write_report(&self, outcome: &str, written: Written, expect: &[Check]) -> Result<Report<&Scene>> {
+        // A device that is lost cannot be asked any more; the report must come all the same.
+        let end = self.end_budget().unwrap_or_default();
+        let seconds = |(name, time): (&str, Duration)| (name.to_owned(), time.as_secs_f64());
+        let clocks = &self.clocks;
+        let timings = [
+            ("setup", clocks.setup),
+            ("steps", clocks.steps),
+            ("pictures", clocks.pictures),
+            ("waiting_for_writer", clocks.waiting),
+            ("writer", written.busy),
+        ];
+        let report = Report {
+            version: env!("CARGO_PKG_VERSION"),
+            outcome: outcome.to_owned(),
+            time: self.simulation.time(),
+            steps: self.simulation.step_count(),
+            frames: written.frames,
+            wall_seconds: self.start.elapsed().as_secs_f64(),
+            device: device(&self.gpu),
+            memory: self.plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
+            timings: timings.map(seconds).into(),
+            totals: totals(&self.summary, &end),
+            drift: end.drift_since(&self.start_budget),
+            expect: expect.to_vec(),
+            scene: &self.scene,
+        };
+        report::write(&self.folder.join("report.json"), &report)?;
+        Ok(report)
+    }
+
+    fn print(&self, report: &Report<&Scene>) {
+        let wall = clock(self.start.elapsed());
+        let (time, steps) = (report.time, report.steps);
+        say!("t = {time:.6} s after {steps} steps in {wall}; {} frames in {}", report.frames, self.folder.display());
+        for check in &report.expect {
+            say!("  {check}");
+        }
+    }
+}
+
+/// Formats of a run: pictures unless unwanted, VTK if the scene or the command line asks.
+fn formats(options: &RunOptions, scene: &Scene) -> Vec<String> {
+    let mut formats: Vec<String> = if options.no_frames { Vec::new() } else { vec!["png".to_owned()] };
+    let asked = options.export.iter().cloned().chain(scene.output.vtk.then(|| "vtk".to_owned()));
+    for name in asked {
+        if !formats.contains(&name) {
+            formats.push(name);
+        }
+    }
+    formats
+}
+
+/// The simulation's buffers, as the renderer sees them.
+fn buffers(state: &State) -> SceneBuffers<'_> {
+    let particles = &state.particles;
+    SceneBuffers {
+        grid: state.grid,
+        conserved: state.gas.conserved.raw(),
+        energy: state.gas.energy.raw(),
+        cells: state.interface.cells.raw(),
+        particles: state.has_solids().then(|| ParticleBuffers {
+            count: particles.count,
+            position: particles.position.raw(),
+            velocity: particles.velocity.raw(),
+            affine: particles.affine.raw(),
+            deformation: particles.deformation.raw(),
+        }),
+    }
+}
+
+fn device(gpu: &Gpu) -> DeviceReport {
+    let info = &gpu.info;
+    DeviceReport {
+        name: info.name.clone(),
+        backend: info.backend.to_string(),
+        driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+        software: gpu.is_software(),
+    }
+}
+
+fn totals(summary: &Summary, end: &Budget) -> BTreeMap<String, f64> {
+    let values = [
+        ("gas_mass", end.gas_mass),
+        ("solid_mass", end.solid_mass),
+        ("energy_with_crossed", end.energy),
+        ("momentum_x_with_crossed", end.momentum[0]),
+        ("momentum_y_with_crossed", end.momentum[1]),
+        ("momentum_z_with_crossed", end.momentum[2]),
+        ("pcg_iterations", summary.iterations as f64),
+        ("pcg_iterations_max", summary.max_iterations.into()),
+        ("pcg_residual_max", summary.max_residual),
+        ("substeps", summary.substeps as f64),
+        ("min_density", summary.min_density),
+        ("min_pressure", summary.min_pressure),
+        ("max_speed", summary.max_speed),
+        ("floored_cells", summary.floored as f64),
+    ];
+    values.map(|(name, value)| (name.to_owned(), value)).into()
+}
+
+/// The error of a run whose checks failed.
+fn verdict(checks: &[Check]) -> Result<()> {
+    let failed: Vec<String> = checks.iter().filter(|check| !check.passed).map(|check| check.name.clone()).collect();
+    if failed.is_empty() {
+        return Ok(());
+    }
+    Err(Error::Expectation(format!(
+        "the run does not meet the scene's [expect]: {}; report.json has the values, --no-expect skips the check",
+        failed.join(", ")
+    )))
+}

@@ -1,0 +1,110 @@
+//! The tables of a run: one row per step in `diagnostics.csv` and `probes.csv`, one per frame and body in `bodies.csv`.
+
+use std::path::Path;
+
+use crate::Result;
+use crate::diagnostics::{StepRecord, Total};
+use crate::export::csv::{Table, Value};
+use crate::scene::Scene;
+use crate::snapshot::Snapshot;
+
+/// Columns of `diagnostics.csv`.
+#[rustfmt::skip]
+const STEP_COLUMNS: [&str; 38] = [
+    "step", "time", "dt",
+    "gas_mass", "gas_momentum_x", "gas_momentum_y", "gas_momentum_z", "gas_energy",
+    "owed_mass", "owed_momentum_x", "owed_momentum_y", "owed_momentum_z", "owed_energy",
+    "crossed_mass", "crossed_momentum_x", "crossed_momentum_y", "crossed_momentum_z", "crossed_energy",
+    "solid_mass", "solid_momentum_x", "solid_momentum_y", "solid_momentum_z", "solid_kinetic_energy",
+    "solid_elastic_energy", "solid_ghost_energy",
+    "pcg_iterations", "pcg_residual", "substeps", "extra_vertices",
+    "min_density", "max_density", "min_pressure", "max_pressure", "max_gas_speed", "max_solid_speed",
+    "limited_cells", "floored_cells", "clamped_particles",
+];
+
+/// Columns of `bodies.csv`.
+#[rustfmt::skip]
+const BODY_COLUMNS: [&str; 18] = [
+    "frame", "time", "body", "particles", "mass", "x", "y", "z", "velocity_x", "velocity_y", "velocity_z",
+    "min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "pieces",
+];
+
+/// Columns of `probes.csv` for each probe, after `step` and `time`.
+const PROBE_COLUMNS: [&str; 6] = ["density", "velocity_x", "velocity_y", "velocity_z", "pressure", "kind"];
+
+/// The tables of one run.
+#[derive(Debug)]
+pub(super) struct Tables {
+    steps: Table,
+    bodies: Option<Table>,
+    probes: Option<Table>,
+    names: Vec<String>,
+}
+
+impl Tables {
+    /// Tables of a scene in a folder; those without rows to come are left out.
+    pub(super) fn new(folder: &Path, scene: &Scene) -> Self {
+        let mut columns = vec!["step".to_owned(), "time".to_owned()];
+        for probe in &scene.probes {
+            columns.extend(PROBE_COLUMNS.iter().map(|column| format!("{}_{column}", probe.name)));
+        }
+        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+        let bodies = !scene.bodies.is_empty();
+        Self {
+            steps: Table::new(&folder.join("diagnostics.csv"), &STEP_COLUMNS),
+            bodies: bodies.then(|| Table::new(&folder.join("bodies.csv"), &BODY_COLUMNS)),
+            probes: (!scene.probes.is_empty()).then(|| Table::new(&folder.join("probes.csv"), &columns)),
+            names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
+        }
+    }
+
+    /// Adds steps.
+    pub(super) fn add_steps(&mut self, records: &[StepRecord]) {
+        for record in records {
+            self.steps.push(step_row(record));
+            if let Some(probes) = &mut self.probes {
+                let head: [Value; 2] = [record.step.into(), record.time.into()];
+                let values = record.probes.iter().flat_map(|probe| {
+                    let [u, v, w] = probe.velocity;
+                    let real = [probe.density, u, v, w, probe.pressure].map(Value::from);
+                    real.into_iter().chain([u32::from(probe.kind).into()])
+                });
+                probes.push(head.into_iter().chain(values));
+            }
+        }
+    }
+
+    /// Adds the bodies of a frame.
+    pub(super) fn add_bodies(&mut self, frame: u32, time: f64, snapshot: &Snapshot) {
+        let Some(table) = &mut self.bodies else { return };
+        for (name, body) in self.names.iter().zip(snapshot.bodies(self.names.len())) {
+            let head: [Value; 5] =
+                [frame.into(), time.into(), name.as_str().into(), body.particles.into(), body.mass.into()];
+            let vectors = [body.centroid, body.velocity, body.extent[0], body.extent[1]];
+            let values = vectors.into_iter().flatten().map(Value::from);
+            table.push(head.into_iter().chain(values).chain([body.pieces.into()]));
+        }
+    }
+
+    /// Brings the files up to date.
+    pub(super) fn save(&mut self) -> Result<()> {
+        self.steps.save()?;
+        for table in self.bodies.iter_mut().chain(&mut self.probes) {
+            table.save()?;
+        }
+        Ok(())
+    }
+}
+
+fn step_row(record: &StepRecord) -> Vec<Value> {
+    let mut row: Vec<Value> = vec![record.step.into(), record.time.into(), record.dt.into()];
+    for Total { mass, momentum: [x, y, z], energy } in [record.gas, record.owed, record.crossed, record.solid] {
+        row.extend([mass, x, y, z, energy].map(Value::from));
+    }
+    row.extend([record.elastic_energy, record.ghost_energy].map(Value::from));
+    row.extend([record.iterations.into(), record.residual.into(), record.substeps.into(), record.extra.into()]);
+    row.extend([record.density, record.pressure].into_iter().flatten().map(Value::from));
+    row.extend([record.gas_speed, record.solid_speed].map(Value::from));
+    row.extend([record.limited, record.floored, record.clamped].map(Value::from));
+    row
+}

@@ -1,0 +1,278 @@
+//! What a run conserved, and whether it did what its scene expects: the `[expect]` table against measured values.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::Result;
+use crate::diagnostics::StepRecord;
+use crate::gpu::{Gpu, readback};
+use crate::scene::Scene;
+use crate::simulation::Simulation;
+use crate::snapshot::{Snapshot, kind};
+
+/// What must stay constant in a closed domain without gravity: everything inside plus what has crossed the boundary.
+/// Summed on the CPU in double precision, so that the sum itself loses nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Budget {
+    /// Gas in gas cells and owed gas \[kg\].
+    pub gas_mass: f64,
+    /// The same with what has crossed the boundary \[kg\].
+    pub gas_mass_with_crossed: f64,
+    /// Solids \[kg\].
+    pub solid_mass: f64,
+    /// Energy of gas and solids, and what has crossed the boundary \[J\].
+    pub energy: f64,
+    /// Momentum of gas and solids, and what has crossed the boundary \[kg m s^-1\].
+    pub momentum: [f64; 3],
+}
+
+impl Budget {
+    /// Reads the state. `elastic` is the elastic energy of the solids, 0 at the start \[J\].
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn read(simulation: &Simulation, scene: &Scene, elastic: f64) -> Result<Self> {
+        let (gpu, state) = (simulation.gpu(), &simulation.state);
+        let volume = scene.domain.cell_volume();
+        let flow = readback::read(gpu, &state.gas.conserved)?;
+        let energy = readback::read_range(gpu, &state.gas.energy, 0, state.grid.slots())?;
+        let cells = readback::read(gpu, &state.interface.cells)?;
+        let owed = readback::read(gpu, &state.gas.owed_flow)?;
+        let owed_energy = readback::read(gpu, &state.gas.owed_energy)?;
+        let mut budget = Self { energy: elastic, ..Self::default() };
+        for (slot, &word) in cells.iter().enumerate() {
+            let inside = matches!((word & u32::from(kind::MASK)) as u8, kind::GAS | kind::SOLID);
+            let mass = volume * f64::from(flow[slot][0]);
+            budget.gas_mass += f64::from(owed[slot][0]) + if inside { mass } else { 0.0 };
+            budget.gas_mass_with_crossed += f64::from(owed[slot][0]) + mass;
+            budget.energy += f64::from(owed_energy[slot]) + volume * f64::from(energy[slot]);
+            for (axis, sum) in budget.momentum.iter_mut().enumerate() {
+                *sum += f64::from(owed[slot][axis + 1]) + volume * f64::from(flow[slot][axis + 1]);
+            }
+        }
+        budget.add_solids(&simulation.snapshot()?, scene);
+        Ok(budget)
+    }
+
+    fn add_solids(&mut self, snapshot: &Snapshot, scene: &Scene) {
+        let materials = scene.material_parameters();
+        for particle in &snapshot.particles {
+            let mass = f64::from(particle.mass);
+            let square: f64 = particle.velocity.iter().map(|&v| f64::from(v) * f64::from(v)).sum();
+            let ghost = f64::from(particle.ghost_pressure);
+            let modulus = materials.get(particle.material as usize).map_or(f64::INFINITY, |m| m.ghost_modulus.into());
+            self.solid_mass += mass;
+            self.energy += 0.5 * mass * square + f64::from(particle.volume0) * 0.5 * ghost * ghost / modulus;
+            for (sum, v) in self.momentum.iter_mut().zip(particle.velocity) {
+                *sum += mass * f64::from(v);
+            }
+        }
+    }
+
+    /// Relative change since `start`.
+    #[must_use]
+    pub fn drift_since(&self, start: &Self) -> BTreeMap<String, f64> {
+        let relative = |now: f64, then: f64| if then == 0.0 { 0.0 } else { (now - then) / then };
+        BTreeMap::from([
+            ("gas_mass".to_owned(), relative(self.gas_mass_with_crossed, start.gas_mass_with_crossed)),
+            ("solid_mass".to_owned(), relative(self.solid_mass, start.solid_mass)),
+            ("energy".to_owned(), relative(self.energy, start.energy)),
+        ])
+    }
+}
+
+/// What the steps of a run amount to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Steps.
+    pub steps: u64,
+    /// Conjugate gradient iterations of all steps.
+    pub iterations: u64,
+    /// Most iterations of one step.
+    pub max_iterations: u32,
+    /// Elastic sub-steps of all steps.
+    pub substeps: u64,
+    /// Largest residual that a solve ended with.
+    pub max_residual: f64,
+    /// Smallest gas density \[kg m^-3\].
+    pub min_density: f64,
+    /// Smallest gas pressure \[Pa\].
+    pub min_pressure: f64,
+    /// Largest speed of gas or particles \[m s^-1\].
+    pub max_speed: f64,
+    /// Cells where the energy floor acted, summed over steps.
+    pub floored: u64,
+    /// The last step.
+    pub last: Option<StepRecord>,
+}
+
+impl Default for Summary {
+    fn default() -> Self {
+        Self {
+            steps: 0,
+            iterations: 0,
+            max_iterations: 0,
+            substeps: 0,
+            max_residual: 0.0,
+            min_density: f64::INFINITY,
+            min_pressure: f64::INFINITY,
+            max_speed: 0.0,
+            floored: 0,
+            last: None,
+        }
+    }
+}
+
+impl Summary {
+    /// Adds steps.
+    pub fn add(&mut self, records: &[StepRecord]) {
+        for record in records {
+            self.steps += 1;
+            self.iterations += u64::from(record.iterations);
+            self.max_iterations = self.max_iterations.max(record.iterations);
+            self.substeps += u64::from(record.substeps);
+            self.max_residual = self.max_residual.max(record.residual.into());
+            self.min_density = self.min_density.min(record.density[0].into());
+            self.min_pressure = self.min_pressure.min(record.pressure[0].into());
+            self.max_speed = self.max_speed.max(record.gas_speed.max(record.solid_speed).into());
+            self.floored += u64::from(record.floored);
+        }
+        if let Some(last) = records.last() {
+            self.last = Some(last.clone());
+        }
+    }
+
+    /// Elastic energy after the last step, without that of the ghost pressure \[J\].
+    #[must_use]
+    pub fn elastic_energy(&self) -> f64 {
+        self.last.as_ref().map_or(0.0, |last| last.elastic_energy.into())
+    }
+}
+
+/// One line of the verdict.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Check {
+    /// Key in `[expect]`.
+    pub name: String,
+    /// What was measured.
+    pub measured: f64,
+    /// What is allowed, for people.
+    pub allowed: String,
+    /// Whether it holds.
+    pub passed: bool,
+}
+
+impl std::fmt::Display for Check {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let verdict = if self.passed { "ok  " } else { "FAIL" };
+        write!(f, "{verdict} {} = {:.4e}, expected {}", self.name, self.measured, self.allowed)
+    }
+}
+
+/// The end of a run, as expectations see it.
+#[derive(Clone, Copy, Debug)]
+pub struct Ending<'a> {
+    /// Before the first step.
+    pub start: &'a Budget,
+    /// After the last step.
+    pub end: &'a Budget,
+    /// The steps.
+    pub summary: &'a Summary,
+    /// The state.
+    pub snapshot: &'a Snapshot,
+}
+
+/// Compares a run with the `[expect]` table of its scene; one line per key that is given.
+#[must_use]
+pub fn evaluate(scene: &Scene, ending: &Ending<'_>) -> Vec<Check> {
+    let (expect, summary) = (&scene.expect, ending.summary);
+    let drift = ending.end.drift_since(ending.start);
+    let sound = scene.gas.ambient.sound_speed(scene.gas.gamma);
+    let mut checks = Checks(Vec::new());
+    checks.at_most("gas_mass_drift", drift["gas_mass"].abs(), expect.gas_mass_drift);
+    checks.at_most("energy_drift", drift["energy"].abs(), expect.energy_drift);
+    checks.at_most("max_speed", summary.max_speed / sound, expect.max_speed);
+    if let Some(limit) = expect.density_l1 {
+        checks.at_most("density_l1", density_error(scene, ending.snapshot).unwrap_or(f64::NAN), Some(limit));
+    }
+    if let Some([low, high]) = expect.peak_density {
+        let peak = summary.last.as_ref().map_or(f64::NAN, |last| last.density[1].into());
+        checks.add("peak_density", peak, format!("{low} to {high}"), (low..=high).contains(&peak));
+    }
+    checks.above("min_density", summary.min_density, expect.min_density);
+    checks.above("min_pressure", summary.min_pressure, expect.min_pressure);
+    checks.at_most("max_iterations", summary.max_iterations.into(), expect.max_iterations.map(f64::from));
+    checks.at_most("max_steps", summary.steps as f64, expect.max_steps.map(f64::from));
+    checks.bodies(scene, ending.snapshot);
+    checks.0
+}
+
+/// Runs a scene to its end and judges it.
+///
+/// # Errors
+/// Those of [`Simulation::new`] and [`Simulation::advance_to`].
+pub fn run(gpu: &Gpu, scene: &Scene) -> Result<Vec<Check>> {
+    let mut simulation = Simulation::new(gpu, scene)?;
+    let start = Budget::read(&simulation, scene, 0.0)?;
+    let mut summary = Summary::default();
+    summary.add(&simulation.advance_to(scene.time.until)?);
+    let end = Budget::read(&simulation, scene, summary.elastic_energy())?;
+    let snapshot = simulation.snapshot()?;
+    Ok(evaluate(scene, &Ending { start: &start, end: &end, summary: &summary, snapshot: &snapshot }))
+}
+
+/// The lines so far. A value that is no number passes nothing.
+struct Checks(Vec<Check>);
+
+impl Checks {
+    fn add(&mut self, name: &str, measured: f64, allowed: String, passed: bool) {
+        self.0.push(Check { name: name.to_owned(), measured, allowed, passed });
+    }
+
+    fn at_most(&mut self, name: &str, measured: f64, limit: Option<f64>) {
+        if let Some(limit) = limit {
+            self.add(name, measured, format!("at most {limit}"), measured <= limit);
+        }
+    }
+
+    fn above(&mut self, name: &str, measured: f64, limit: Option<f64>) {
+        if let Some(limit) = limit {
+            self.add(name, measured, format!("above {limit}"), measured > limit);
+        }
+    }
+
+    fn bodies(&mut self, scene: &Scene, snapshot: &Snapshot) {
+        let expect = &scene.expect;
+        if expect.pieces.is_none() && expect.bodies.is_empty() {
+            return;
+        }
+        let bodies = snapshot.bodies(scene.bodies.len());
+        if let Some(fewest) = expect.pieces {
+            let pieces: u32 = bodies.iter().map(|body| body.pieces).sum();
+            self.add("pieces", pieces.into(), format!("at least {fewest}"), pieces >= fewest);
+        }
+        for expected in &expect.bodies {
+            let found = scene.bodies.iter().position(|body| body.name == expected.body);
+            let distance = found.map_or(f64::NAN, |index| {
+                let parts = bodies[index].centroid.iter().zip(&expected.center).map(|(at, goal)| (at - goal).powi(2));
+                parts.sum::<f64>().sqrt()
+            });
+            let name = format!("bodies.{}.center", expected.body);
+            self.at_most(&name, distance, Some(expected.tolerance));
+        }
+    }
+}
+
+/// L1 error of the density against the exact solution \[kg m^-2\], if the scene is a shock tube.
+#[must_use]
+pub fn density_error(scene: &Scene, snapshot: &Snapshot) -> Option<f64> {
+    let (exact, jump) = scene.riemann()?;
+    let spacing = scene.domain.spacing();
+    let error = |(cell, &density): (usize, &f32)| {
+        let low = scene.domain.origin[0] + cell as f64 * spacing;
+        let (expected, _, _) = exact.cell_average(low, low + spacing, jump, snapshot.time);
+        (f64::from(density) - expected).abs() * spacing
+    };
+    Some(snapshot.density.iter().enumerate().map(error).sum())
+}

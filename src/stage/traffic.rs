@@ -1,0 +1,85 @@
+//! How many bytes a step moves, by count: the yardstick for the times that `brisance bench` measures.
+//!
+//! Every array that a kernel names counts once per dispatch and direction, with the bytes of the entries it needs; what
+//! neighbouring threads share is taken to come from caches. A stage that reaches the device's bandwidth with these bytes
+//! cannot be made faster without moving less.
+
+/// Bytes that one stage moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traffic {
+    /// Name of the stage.
+    pub stage: &'static str,
+    /// How often it moves them.
+    pub per: Per,
+    /// Bytes per slot in scenes without bodies.
+    pub slot: u32,
+    /// Bytes per slot that bodies add.
+    pub slot_with_solids: u32,
+    /// Bytes per particle.
+    pub particle: u32,
+}
+
+/// How often a stage moves its bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Per {
+    /// Once per step.
+    Step,
+    /// Once per iteration of the solve.
+    Iteration,
+    /// Once per elastic sub-step.
+    Substep,
+}
+
+const fn row(stage: &'static str, per: Per, slot: u32, slot_with_solids: u32, particle: u32) -> Traffic {
+    Traffic { stage, per, slot, slot_with_solids, particle }
+}
+
+/// The bytes of all stages; stages with several parts have several lines. Particle transfers are those of the gather form.
+pub const TRAFFIC: [Traffic; 15] = [
+    row("time_step", Per::Step, 24, 0, 16),
+    row("particle_sort", Per::Step, 0, 16, 88),
+    row("particle_sort", Per::Substep, 0, 16, 88),
+    row("p2g", Per::Step, 0, 40, 136),
+    row("p2g", Per::Substep, 0, 36, 116),
+    row("interface", Per::Step, 0, 332, 264),
+    row("gas_advection", Per::Step, 116, 32, 0),
+    row("intermediate_pressure", Per::Step, 84, 8, 0),
+    row("coupled_solve", Per::Step, 300, 200, 0),
+    row("coupled_solve", Per::Iteration, 120, 52, 0),
+    row("fluid_update", Per::Step, 176, 32, 0),
+    row("mpm_grid_update", Per::Substep, 0, 52, 0),
+    row("g2p", Per::Substep, 0, 20, 288),
+    row("totals", Per::Step, 44, 0, 0),
+    row("totals", Per::Step, 0, 0, 128),
+];
+
+/// What the bytes of a run depend on: sizes, and sums over its steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Load {
+    /// Slots of the grid.
+    pub slots: u64,
+    /// Particles.
+    pub particles: u64,
+    /// Steps.
+    pub steps: u64,
+    /// Iterations of all steps.
+    pub iterations: u64,
+    /// Elastic sub-steps of all steps.
+    pub substeps: u64,
+}
+
+/// Bytes that a stage has moved in a run.
+#[must_use]
+pub fn bytes(stage: &str, load: &Load) -> u64 {
+    let solids = u64::from(load.particles > 0);
+    let of_row = |row: &Traffic| {
+        let times = match row.per {
+            Per::Step => load.steps,
+            Per::Iteration => load.iterations,
+            Per::Substep => load.substeps * solids,
+        };
+        let slot = u64::from(row.slot) + solids * u64::from(row.slot_with_solids);
+        times * (slot * load.slots + u64::from(row.particle) * load.particles)
+    };
+    TRAFFIC.iter().filter(|row| row.stage == stage).map(of_row).sum()
+}

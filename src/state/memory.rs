@@ -1,0 +1,177 @@
+//! What a scene needs on the device, before anything is allocated.
+
+use serde::Serialize;
+
+use super::{HISTORY, MAX_MATERIALS, Params, constants, control::Control, extra_capacity};
+use crate::error::{Error, Result};
+use crate::numerics::{PcgControl, Scan};
+use crate::scene::Scene;
+
+/// Bytes in a gibibyte.
+const GIB: f64 = (1u64 << 30) as f64;
+
+/// One buffer to come.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Planned {
+    /// `gas`, `interface`, `pressure`, `nodes`, `particles`, or `fixed` for what does not grow with the scene.
+    pub group: &'static str,
+    /// Label of the buffer.
+    pub name: &'static str,
+    /// Size \[bytes\].
+    pub bytes: u64,
+}
+
+/// All buffers of a simulation.
+#[derive(Clone, Debug, Serialize)]
+pub struct MemoryPlan {
+    /// Cells of the domain, without the ring.
+    pub cells: u64,
+    /// Particles.
+    pub particles: u64,
+    /// The buffers.
+    pub buffers: Vec<Planned>,
+}
+
+impl MemoryPlan {
+    /// The plan for a scene with so many particles ([`Scene::seed_particles`] says how many).
+    #[must_use]
+    pub fn new(scene: &Scene, particles: usize) -> Self {
+        let dimension = scene.domain.dimension;
+        let padded = |axis: usize| u64::from(scene.domain.cells[axis]) + 2 * u64::from((axis as u32) < dimension);
+        let slots = padded(0) * padded(1) * padded(2);
+        let count = particles as u64;
+        let solid = if particles == 0 { 1 } else { slots };
+        let capacity = extra_capacity(slots as usize, particles, dimension) as u64;
+        let unknowns = slots + 2 * capacity;
+        let mut plan = Self {
+            cells: scene.domain.cells.iter().map(|&n| u64::from(n)).product(),
+            particles: count,
+            buffers: Vec::new(),
+        };
+        plan.add("gas", &[("conserved", slots, 16), ("energy", 3 * slots, 4), ("work", 2 * slots, 16)]);
+        plan.add("gas", &[("owed_flow", slots, 16), ("owed_energy", slots, 4)]);
+        plan.add("interface", &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", solid, 4)]);
+        plan.add("pressure", &[("pressure", unknowns, 4), ("stiffness", unknowns, 4), ("solution", unknowns, 4)]);
+        plan.add("pressure", &[("residual", unknowns, 4), ("direction", unknowns, 4), ("product", unknowns, 4)]);
+        plan.add("pressure", &[("inverse_diagonal", unknowns, 4)]);
+        plan.add("particles", &[("position", count, 16), ("velocity", count, 16), ("affine", 3 * count, 16)]);
+        plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);
+        plan.add("nodes", &[("node", solid, 16), ("cell_start", solid + 1, 4)]);
+        if particles > 0 {
+            plan.add("nodes", &[("scans", 2 * Scan::planned_bytes(slots as u32 + 1), 1)]);
+        }
+        plan.add_fixed(scene.probes.len() as u64);
+        plan
+    }
+
+    /// Buffers whose size does not depend on cells and particles.
+    fn add_fixed(&mut self, probes: u64) {
+        let extents = 4 * (constants::PHASE_WIDTH * constants::PHASES.len()) as u64;
+        let history = u64::from(HISTORY);
+        self.add("fixed", &[("params", 1, size_of::<Params>() as u64), ("control", 1, size_of::<Control>() as u64)]);
+        self.add("fixed", &[("extents", extents, 4), ("materials", MAX_MATERIALS as u64 * 8, 4)]);
+        self.add("fixed", &[("partials", 9 * u64::from(constants::PARTIALS) + 1, 16)]);
+        self.add("fixed", &[("history", history * u64::from(constants::HISTORY_WIDTH), 16)]);
+        self.add("fixed", &[("probe_cells", probes, 4), ("probe_history", 2 * history * probes, 16)]);
+        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 12, 4)]);
+    }
+
+    /// Adds buffers: label, elements, bytes of an element. An empty buffer takes the room of one element.
+    fn add(&mut self, group: &'static str, buffers: &[(&'static str, u64, u64)]) {
+        let planned = |&(name, elements, size): &(_, u64, u64)| Planned { group, name, bytes: elements.max(1) * size };
+        self.buffers.extend(buffers.iter().map(planned));
+    }
+
+    /// Bytes of a group, or of all.
+    #[must_use]
+    pub fn bytes(&self, group: Option<&str>) -> u64 {
+        let chosen = self.buffers.iter().filter(|buffer| group.is_none_or(|group| group == buffer.group));
+        chosen.map(|buffer| buffer.bytes).sum()
+    }
+
+    /// Groups in order, with their bytes.
+    #[must_use]
+    pub fn groups(&self) -> Vec<(&'static str, u64)> {
+        let mut groups: Vec<(&'static str, u64)> = Vec::new();
+        for buffer in &self.buffers {
+            match groups.iter_mut().find(|(name, _)| *name == buffer.group) {
+                Some((_, sum)) => *sum += buffer.bytes,
+                None => groups.push((buffer.group, buffer.bytes)),
+            }
+        }
+        groups
+    }
+
+    /// Bytes per cell of everything that grows with the number of cells.
+    #[must_use]
+    pub fn per_cell(&self) -> f64 {
+        (self.bytes(None) - self.bytes(Some("particles")) - self.bytes(Some("fixed"))) as f64 / self.cells as f64
+    }
+
+    /// Bytes per particle of everything that grows with the number of particles.
+    #[must_use]
+    pub fn per_particle(&self) -> f64 {
+        if self.particles == 0 { 0.0 } else { self.bytes(Some("particles")) as f64 / self.particles as f64 }
+    }
+
+    /// The largest buffer.
+    #[must_use]
+    pub fn largest(&self) -> Option<&Planned> {
+        self.buffers.iter().max_by_key(|buffer| buffer.bytes)
+    }
+
+    /// Compares the plan with what one buffer and all buffers together may take \[bytes\].
+    ///
+    /// # Errors
+    /// [`Error::DoesNotFit`] that names what is too large, the limit, and the resolution that fits.
+    pub fn check(&self, scene: &Scene, device: &str, per_buffer: u64, together: Option<u64>) -> Result<()> {
+        let fits = |plan: &Self| {
+            plan.largest().is_none_or(|buffer| buffer.bytes <= per_buffer)
+                && together.is_none_or(|limit| plan.bytes(None) <= limit)
+        };
+        if fits(self) {
+            return Ok(());
+        }
+        let gib = |bytes: u64| bytes as f64 / GIB;
+        let problem = match self.largest() {
+            Some(buffer) if buffer.bytes > per_buffer => {
+                let need = gib(buffer.bytes);
+                format!("`{}` needs {need:.2} GiB, {device} allows {:.2} GiB per buffer", buffer.name, gib(per_buffer))
+            }
+            _ => {
+                let limit = gib(together.unwrap_or(u64::MAX));
+                format!("the scene needs {:.2} GiB, {device} has {limit:.2} GiB free", gib(self.bytes(None)))
+            }
+        };
+        let advice = resolutions(scene)
+            .find(|&cells| fits(&self.at(scene, cells)))
+            .map_or_else(|| "use another --device".to_owned(), |cells| format!("--resolution {cells} fits"));
+        Err(Error::DoesNotFit(format!("{problem}; {advice}")))
+    }
+
+    /// The plan at another number of cells along the longest axis, with particles in proportion.
+    fn at(&self, scene: &Scene, cells: u32) -> Self {
+        let longest = scene.domain.cells.iter().copied().max().unwrap_or(1);
+        let mut scaled = scene.clone();
+        for axis in 0..scene.domain.axes() {
+            let along = u64::from(scene.domain.cells[axis]) * u64::from(cells) / u64::from(longest);
+            scaled.domain.cells[axis] = along as u32;
+        }
+        let ratio = f64::from(cells) / f64::from(longest);
+        let particles = self.particles as f64 * ratio.powi(scene.domain.dimension as i32);
+        Self::new(&scaled, particles.ceil() as usize)
+    }
+}
+
+/// Numbers of cells along the longest axis that give whole cubes on all axes, below the scene's own, largest first.
+pub fn resolutions(scene: &Scene) -> impl Iterator<Item = u32> {
+    let cells = &scene.domain.cells[..scene.domain.axes()];
+    let divisor = cells.iter().copied().reduce(greatest_divisor).unwrap_or(1).max(1);
+    let longest = cells.iter().copied().max().unwrap_or(1);
+    let step = longest / divisor;
+    (1..divisor).rev().map(move |multiple| multiple * step)
+}
+
+fn greatest_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { greatest_divisor(b, a % b) }
+}
