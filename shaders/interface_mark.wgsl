@@ -55,17 +55,19 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     var flags = 0u;
+    var around = 0u;
     var gas = 0u;
     var solid = 0u;
     for (var k = 0u; k < block_size(); k++) {
         let near = c + block_offset(k);
         if !inside(near) { continue; }
         let kind = kind_near(near);
+        around += 1u;
         gas += u32(kind == GAS);
         solid += u32(kind == SOLID);
     }
     if gas > 0u { flags |= NODE_GAS; }
-    if gas == block_size() { flags |= NODE_REGULAR; }
+    if gas > 0u && gas == around { flags |= NODE_REGULAR; }
     if solid > 0u { flags |= NODE_SOLID; }
     if is_vertex(c) { flags |= vertex_flags(c, slot); }
     if inside(c) {
@@ -82,18 +84,20 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
 }
 
 fn vertex_flags(v: vec3i, slot: u32) -> u32 {
+    var around = 0u;
     var gas = 0u;
     var solid = 0u;
     for (var k = 0u; k < corner_count(); k++) {
         let c = v - corner_offset(k);
         if !inside(c) { continue; }
         let kind = kind_near(c);
+        around += 1u;
         gas += u32(kind == GAS);
         solid += u32(kind == SOLID);
     }
     var flags = 0u;
     if gas > 0u { flags |= VERTEX_GAS; }
-    if gas == corner_count() { flags |= VERTEX_REGULAR; }
+    if gas > 0u && gas == around { flags |= VERTEX_REGULAR; }
     if solid > 0u { flags |= VERTEX_SOLID; }
     if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }
     return flags;

@@ -67,11 +67,14 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         for (var y = -2 * reach().y; y <= reach().y; y++) {
             for (var x = -2; x <= 1; x++) {
                 let j = v + vec3i(x, y, z);
+                if regular && !QUADRATIC && any(abs(2 * (j - v) + reach()) > vec3i(1)) { continue; }
                 if !in_ring(j) { continue; }
                 let gas = work[slot_of(j)].w;
                 if regular {
-                    if !QUADRATIC && any(abs(2 * (j - v) + reach()) > vec3i(1)) { continue; }
-                    let entry = regular_entry(v - j);
+                    let ex = axis_entry(0u, j.x, v.x);
+                    let ey = axis_entry(1u, j.y, v.y);
+                    let ez = axis_entry(2u, j.z, v.z);
+                    let entry = vec3f(ex.x * ey.y * ez.y, ex.y * ey.x * ez.y, ex.y * ey.y * ez.x);
                     own += gas * dot(entry, entry);
                     continue;
                 }

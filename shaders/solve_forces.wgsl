@@ -11,17 +11,24 @@
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(5) var<storage, read> node: array<vec4f>;
 
-// Difference along the axis, mean across it: the assembled stencil where all 3^DIM cells around the node are gas.
-fn regular_force(slot: u32) -> vec3f {
+// Only gas and the sides of the domain around the node: a product of one-dimensional stencils.
+fn regular_force(slot: u32, c: vec3i) -> vec3f {
+    let ex = axis_entries(0u, c.x, true);
+    let ey = axis_entries(1u, c.y, true);
+    let ez = axis_entries(2u, c.z, true);
     var force = vec3f(0.0);
-    let wide = select(0u, 1u, QUADRATIC);
-    let first = -vec3i(i32(wide)) * reach();
-    let last = (vec3i(1) + vec3i(i32(wide))) * reach();
+    let wide = select(0, 1, QUADRATIC);
+    let first = -wide * reach();
+    let last = (1 + wide) * reach();
     for (var k = first.z; k <= last.z; k++) {
+        if ez.mean[k + 1] == 0.0 { continue; }
         for (var j = first.y; j <= last.y; j++) {
+            if ey.mean[j + 1] == 0.0 { continue; }
             for (var i = first.x; i <= last.x; i++) {
-                let at = u32(i32(slot) + i + i32(params.stride.x) * (j + i32(params.stride.y) * k));
-                force += x[at] * regular_entry(vec3i(i, j, k));
+                if ex.mean[i + 1] == 0.0 { continue; }
+                let value = x[u32(i32(slot) + i + i32(params.stride.x) * (j + i32(params.stride.y) * k))];
+                force += value * vec3f(ex.slope[i + 1] * ey.mean[j + 1] * ez.mean[k + 1],
+                    ex.mean[i + 1] * ey.slope[j + 1] * ez.mean[k + 1], ex.mean[i + 1] * ey.mean[j + 1] * ez.slope[k + 1]);
             }
         }
     }
@@ -32,6 +39,7 @@ fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid:
     let quadratic = solid || QUADRATIC;
     for (var k = 0u; k < corner_count(); k++) {
         let corner = corner_offset(k);
+        if !coupled(quadratic, node_offset, corner) { continue; }
         let v = slot_of(e + corner);
         var at = v;
         if solid { at = ghost_index(v); }
@@ -65,7 +73,7 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let word = cells[slot];
     let inverse_mass = work[slot].w;
     if has(word, NODE_REGULAR) {
-        work[slot] = vec4f(regular_force(slot) * face_area() * inverse_mass, inverse_mass);
+        work[slot] = vec4f(regular_force(slot, cell_of(slot)) * face_area() * inverse_mass, inverse_mass);
         return;
     }
     var gas = vec3f(0.0);

@@ -115,7 +115,9 @@ fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let rows = gather_rows(slot, word);
     let scale = control.dt * face_area();
     var own = rows.own;
-    if has(word, VERTEX_GAS) && !has(word, VERTEX_REGULAR) { own -= open_flow(cell_of(slot)); }
+    let v = cell_of(slot);
+    let at_side = any(((v == vec3i(0)) | (v == vec3i(params.cells))) & (reach() == vec3i(1)));
+    if at_side && has(word, VERTEX_GAS) { own -= open_flow(v); }
     residual[slot] = scale * own;
     if SOLIDS && extra[slot] != NO_EXTRA {
         residual[params.slots + extra[slot]] = scale * rows.h;

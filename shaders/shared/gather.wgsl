@@ -13,17 +13,25 @@ fn add_rows(rows: ptr<function, Rows>, slot: u32, r: Rows) {
     }
 }
 
-fn regular_rows(slot: u32) -> f32 {
+fn regular_rows(slot: u32, v: vec3i) -> f32 {
+    let ex = axis_entries(0u, v.x, false);
+    let ey = axis_entries(1u, v.y, false);
+    let ez = axis_entries(2u, v.z, false);
     var sum = 0.0;
     let wide = select(0, 1, QUADRATIC);
-    let first = -vec3i(wide) * reach();
-    let last = (vec3i(1) + vec3i(wide)) * reach();
+    let first = -wide * reach();
+    let last = (1 + wide) * reach();
     for (var k = first.z; k <= last.z; k++) {
+        if ez.mean[k + 1] == 0.0 { continue; }
         for (var j = first.y; j <= last.y; j++) {
+            if ey.mean[j + 1] == 0.0 { continue; }
             for (var i = first.x; i <= last.x; i++) {
+                if ex.mean[i + 1] == 0.0 { continue; }
                 // The node (i, j, k) below the vertex sees it at the offset (i, j, k).
-                let at = u32(i32(slot) - i - i32(params.stride.x) * (j + i32(params.stride.y) * k));
-                sum += dot(work[at].xyz, regular_entry(vec3i(i, j, k)));
+                let w = work[u32(i32(slot) - i - i32(params.stride.x) * (j + i32(params.stride.y) * k))].xyz;
+                sum += w.x * ex.slope[i + 1] * ey.mean[j + 1] * ez.mean[k + 1]
+                    + w.y * ex.mean[i + 1] * ey.slope[j + 1] * ez.mean[k + 1]
+                    + w.z * ex.mean[i + 1] * ey.mean[j + 1] * ez.slope[k + 1];
             }
         }
     }
@@ -35,8 +43,9 @@ fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3
     let base = select(0u, params.slots, solid);
     var r: Rows;
     var body = 0.0;
-    for (var k = 0u; k < block_size(); k++) {
-        let node_offset = block_offset(k);
+    let count = select(corner_count(), block_size(), quadratic);
+    for (var k = 0u; k < count; k++) {
+        let node_offset = select(corner + corner_offset(k) - reach(), block_offset(k), quadratic);
         let velocity = work[base + slot_of(e + node_offset)].xyz;
         body += dot(velocity, element_entry(quadratic, node_offset, corner));
         for (var n = 0u; n < DIM; n++) {
@@ -56,7 +65,7 @@ fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3
 fn gather_rows(slot: u32, word: u32) -> Rows {
     var rows: Rows;
     if has(word, VERTEX_REGULAR) {
-        rows.own = regular_rows(slot);
+        rows.own = regular_rows(slot, cell_of(slot));
         return rows;
     }
     if !has(word, VERTEX_GAS | VERTEX_SOLID) { return rows; }

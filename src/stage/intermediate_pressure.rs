@@ -1,8 +1,8 @@
 //! `intermediate_pressure`: which pressure does the advected gas have, and how stiff is what it meets?
 //! [Cao et al. 2022, eqs. 9, 17, 22, 24]
 
-use super::{Parts, extent};
 use super::time_step::slots;
+use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
