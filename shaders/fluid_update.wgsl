@@ -8,6 +8,7 @@
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/interior.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -76,6 +77,32 @@ fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
     return sum;
 }
 
+// Mean pressure of the low face of a cell deep inside the gas.
+fn interior_face(at: u32, n: u32) -> f32 {
+    let t = across(n);
+    if DIM == 1u { return pressure[at]; }
+    if DIM == 2u { return mean2(pressure[at], pressure[at + t.x + t.y]); }
+    return 0.25 * (pressure[at] + pressure[at + t.x] + pressure[at + t.y] + pressure[at + t.x + t.y]);
+}
+
+fn interior_impulse(slot: u32) -> vec3f {
+    var impulse = vec3f(0.0);
+    for (var n = 0u; n < DIM; n++) { impulse[n] = interior_face(slot, n) - interior_face(slot + step_of(n), n); }
+    return impulse;
+}
+
+fn interior_heat(slot: u32) -> f32 {
+    var heat = 0.0;
+    let here = conserved[slot];
+    for (var n = 0u; n < DIM; n++) {
+        let low = conserved[slot - step_of(n)];
+        let high = conserved[slot + step_of(n)];
+        heat += interior_face(slot, n) * (low[n + 1u] + here[n + 1u]) / (low.x + here.x)
+            - interior_face(slot + step_of(n), n) * (here[n + 1u] + high[n + 1u]) / (here.x + high.x);
+    }
+    return heat;
+}
+
 // Calls with c in GAS; slots of other kinds see the same face from the other side.
 @compute @workgroup_size(WORKGROUP)
 fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -84,6 +111,10 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     if slot >= params.slots { return; }
     let kind = kind_of(cells[slot]);
     if kind == SOLID { return; }
+    if !QUADRATIC && kind == GAS && has(cells[slot], NODE_INTERIOR) {
+        conserved[slot] += vec4f(0.0, interior_impulse(slot) * control.dt / params.spacing);
+        return;
+    }
     let c = cell_of(slot);
     var impulse = vec3f(0.0);
     for (var n = 0u; n < DIM; n++) {
@@ -149,6 +180,10 @@ fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     if slot >= params.slots { return; }
     let kind = kind_of(cells[slot]);
     if kind == SOLID || kind == WALL { return; }
+    if !QUADRATIC && kind == GAS && has(cells[slot], NODE_INTERIOR) {
+        energy[slot] += interior_heat(slot) * control.dt / params.spacing;
+        return;
+    }
     let c = cell_of(slot);
     var heat = 0.0;
     for (var n = 0u; n < DIM; n++) {

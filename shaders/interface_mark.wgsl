@@ -68,6 +68,7 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     }
     if gas > 0u { flags |= NODE_GAS; }
     if gas > 0u && gas == around { flags |= NODE_REGULAR; }
+    if gas == block_size() { flags |= NODE_INTERIOR; }
     if solid > 0u { flags |= NODE_SOLID; }
     if is_vertex(c) { flags |= vertex_flags(c, slot); }
     if inside(c) {
@@ -98,6 +99,7 @@ fn vertex_flags(v: vec3i, slot: u32) -> u32 {
     var flags = 0u;
     if gas > 0u { flags |= VERTEX_GAS; }
     if gas > 0u && gas == around { flags |= VERTEX_REGULAR; }
+    if gas == corner_count() { flags |= VERTEX_INTERIOR; }
     if solid > 0u { flags |= VERTEX_SOLID; }
     if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }
     return flags;

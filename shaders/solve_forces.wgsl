@@ -4,6 +4,7 @@
 #include "shared/cell.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/interior.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
@@ -33,6 +34,24 @@ fn regular_force(slot: u32, c: vec3i) -> vec3f {
         }
     }
     return force;
+}
+
+// (mean, difference) of the two vertices along x.
+fn line(at: u32) -> vec2f { return vec2f(mean2(x[at], x[at + 1u]), x[at + 1u] - x[at]); }
+
+// (mean, x-difference, y-difference) of a layer.
+fn layer(at: u32) -> vec3f {
+    let low = line(at);
+    if DIM == 1u { return vec3f(low, 0.0); }
+    let high = line(at + params.stride.x);
+    return vec3f(mean2(low.x, high.x), mean2(low.y, high.y), high.x - low.x);
+}
+
+fn interior_force(slot: u32) -> vec3f {
+    let low = layer(slot);
+    if DIM < 3u { return vec3f(low.yz, 0.0); }
+    let high = layer(slot + params.stride.x * params.stride.y);
+    return vec3f(mean2(low.y, high.y), mean2(low.z, high.z), high.x - low.x);
 }
 
 fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid: bool) {
@@ -72,6 +91,10 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     if slot >= params.slots { return; }
     let word = cells[slot];
     let inverse_mass = work[slot].w;
+    if !QUADRATIC && has(word, NODE_INTERIOR) {
+        work[slot] = vec4f(interior_force(slot) * face_area() * inverse_mass, inverse_mass);
+        return;
+    }
     if has(word, NODE_REGULAR) {
         work[slot] = vec4f(regular_force(slot, cell_of(slot)) * face_area() * inverse_mass, inverse_mass);
         return;

@@ -18,6 +18,26 @@
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> residual: array<f32>;
 
+// Masses of a line, a layer and a block of cells as a node in their middle sees them.
+fn line_mass(at: u32) -> f32 {
+    let middle = mass_share(0);
+    return middle * conserved[at].x + mass_share(1) * (conserved[at - 1u].x + conserved[at + 1u].x);
+}
+
+fn layer_mass(at: u32) -> f32 {
+    if DIM == 1u { return line_mass(at); }
+    let y = params.stride.x;
+    return mass_share(0) * line_mass(at) + mass_share(1) * (line_mass(at - y) + line_mass(at + y));
+}
+
+fn interior_mass(at: u32) -> f32 {
+    if DIM < 3u { return layer_mass(at); }
+    let z = params.stride.x * params.stride.y;
+    return mass_share(0) * layer_mass(at) + mass_share(1) * (layer_mass(at - z) + layer_mass(at + z));
+}
+
+fn mass_share(node: i32) -> f32 { return mean_entry(QUADRATIC, node, false) + mean_entry(QUADRATIC, node, true); }
+
 // Lumped mass of a gas node from the gas cells around it.
 @compute @workgroup_size(WORKGROUP)
 fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -25,7 +45,8 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     var mass = 0.0;
-    if has(cells[slot], NODE_GAS) {
+    if has(cells[slot], NODE_INTERIOR) { mass = interior_mass(slot); }
+    else if has(cells[slot], NODE_GAS) {
         let c = cell_of(slot);
         for (var k = 0u; k < block_size(); k++) {
             let offset = block_offset(k);

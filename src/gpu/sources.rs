@@ -42,6 +42,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/gather.wgsl",
     "shared/grid_wall.wgsl",
     "shared/index.wgsl",
+    "shared/interior.wgsl",
     "shared/material.wgsl",
     "shared/matrix.wgsl",
     "shared/params.wgsl",

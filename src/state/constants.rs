@@ -76,8 +76,17 @@ pub fn source() -> String {
     for (name, value) in [("GAS", GAS), ("SOLID", SOLID), ("WALL", WALL), ("GHOST", GHOST)] {
         put(name, value);
     }
-    let flags =
-        ["NODE_GAS", "NODE_REGULAR", "NODE_SOLID", "VERTEX_GAS", "VERTEX_REGULAR", "VERTEX_SOLID", "FLUX_REGULAR"];
+    let flags = [
+        "NODE_GAS",
+        "NODE_REGULAR",
+        "NODE_INTERIOR",
+        "NODE_SOLID",
+        "VERTEX_GAS",
+        "VERTEX_REGULAR",
+        "VERTEX_INTERIOR",
+        "VERTEX_SOLID",
+        "FLUX_REGULAR",
+    ];
     for (bit, name) in flags.iter().enumerate() {
         put(name, 1 << (4 + bit));
     }
