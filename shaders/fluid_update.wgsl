@@ -2,6 +2,7 @@
 // Reads pressure, cells, nodes. Writes gas. On return momentum and energy are final; each face gives one cell what it takes
 // from the other, so their sums are conserved. WALL and GHOST slots collect the impulse and work that leaves through them.
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -79,6 +80,7 @@ fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
 
 // Mean pressure of the low face of a cell deep inside the gas.
 fn interior_face(at: u32, n: u32) -> f32 {
+    if QUADRATIC { return wide_face_pressure(cell_of(at), n); }
     let t = across(n);
     if DIM == 1u { return pressure[at]; }
     if DIM == 2u { return mean2(pressure[at], pressure[at + t.x + t.y]); }
@@ -107,14 +109,16 @@ fn interior_heat(slot: u32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
-    let kind = kind_of(cells[slot]);
-    if kind == SOLID { return; }
-    if !QUADRATIC && kind == GAS && has(cells[slot], NODE_INTERIOR) {
-        conserved[slot] += vec4f(0.0, interior_impulse(slot) * control.dt / params.spacing);
+    if !LISTED {
+        if has(cells[slot], INTERIOR) {
+            conserved[slot] += vec4f(0.0, interior_impulse(slot) * control.dt / params.spacing);
+        }
         return;
     }
+    let kind = kind_of(cells[slot]);
+    if kind == SOLID { return; }
     let c = cell_of(slot);
     var impulse = vec3f(0.0);
     for (var n = 0u; n < DIM; n++) {
@@ -176,14 +180,14 @@ fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
-    let kind = kind_of(cells[slot]);
-    if kind == SOLID || kind == WALL { return; }
-    if !QUADRATIC && kind == GAS && has(cells[slot], NODE_INTERIOR) {
-        energy[slot] += interior_heat(slot) * control.dt / params.spacing;
+    if !LISTED {
+        if has(cells[slot], INTERIOR) { energy[slot] += interior_heat(slot) * control.dt / params.spacing; }
         return;
     }
+    let kind = kind_of(cells[slot]);
+    if kind == SOLID || kind == WALL { return; }
     let c = cell_of(slot);
     var heat = 0.0;
     for (var n = 0u; n < DIM; n++) {

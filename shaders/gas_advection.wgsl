@@ -4,6 +4,7 @@
 // Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -19,6 +20,7 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // first half: U1, second half: U*
 @group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // thirds: now, U1, U*
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
+@group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 
 // A cell must keep this share of what the first-order update leaves of density and internal energy.
@@ -184,12 +186,11 @@ fn write_result(slot: u32, before: Gas, change: Gas) {
 @compute @workgroup_size(WORKGROUP)
 fn advect_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
-    if slot >= params.slots { return; }
+    let slot = listed_slot(thread_index(group, groups, lane));
+    if slot >= params.slots || (!LISTED && !has(cells[slot], INTERIOR)) { return; }
     let before = source(slot);
     var change: Change;
-    if has(cells[slot], FLUX_REGULAR) { change = change_of_interior(slot, before); }
-    else { change = change_of(cell_of(slot), slot, false); }
+    if LISTED { change = change_of(cell_of(slot), slot, false); } else { change = change_of_interior(slot, before); }
     if LIMITER {
         var share = 1.0;
         if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }

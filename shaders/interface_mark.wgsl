@@ -9,8 +9,10 @@
 @group(0) @binding(3) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // 1 where a vertex wants P, h, Q apart
 @group(0) @binding(5) var<storage, read> place: array<u32>;         // scan of wanted
-@group(0) @binding(6) var<storage, read_write> extra: array<u32>;   // place in the extra block, or NO_EXTRA
+@group(0) @binding(6) var<storage, read_write> extra: array<u32>;   // place in the extra block, or NO_EXTRA; then the list
 @group(0) @binding(7) var<storage, read_write> control: Control;
+@group(0) @binding(8) var<storage, read_write> edge: array<u32>;    // 1 where a slot is not INTERIOR
+@group(0) @binding(9) var<storage, read> edge_place: array<u32>;    // scan of edge
 
 fn is_full(slot: u32) -> bool { return fill[slot].x > params.solid_threshold * cell_volume(); }
 
@@ -79,8 +81,9 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
                 open = open && inside(near) && kind_near(near) == GAS;
             }
         }
-        if open { flags |= FLUX_REGULAR; }
+        if open && has(flags, NODE_INTERIOR) && has(flags, VERTEX_INTERIOR) { flags |= INTERIOR; }
     }
+    edge[slot] = u32(!has(flags, INTERIOR));
     cells[slot] = (cells[slot] & 0xffff000fu) | flags;
 }
 
@@ -120,6 +123,16 @@ fn shares_pressure(v: vec3i) -> bool {
     }
     // 2 of 16 cells in 2D: half of a sheet one cell thick that passes through the block, in any dimension.
     return volume >= 2.0 * pow(4.0, f32(DIM) - 2.0) * cell_volume();
+}
+
+// After the scan of `edge`: the list of all slots that are not INTERIOR, and its length.
+@compute @workgroup_size(WORKGROUP)
+fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    if edge[slot] == 1u { extra[params.slots + edge_place[slot]] = slot; }
+    if slot == params.slots - 1u { extra[2u * params.slots] = edge_place[slot] + edge[slot]; }
 }
 
 // After the scan of `wanted`.

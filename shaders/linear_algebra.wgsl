@@ -13,6 +13,8 @@ struct Pcg {
     max_iterations: u32,
     outcome: u32,           // PCG_RUNNING, PCG_CONVERGED, PCG_STALLED
     length: u32,            // unknowns
+    listed_wide: u32,       // groups of kernels over a list that the caller keeps, x
+    listed_high: u32,       // and y
     groups_wide: u32,       // groups of the kernels with one thread per slot, x
     groups_high: u32,       // and y
     groups_partial: u32,    // groups of the kernels that leave partial sums
@@ -32,6 +34,7 @@ fn open_iteration(on: bool) {
     pcg_extents[PCG_SLOTS] = vec4u(pcg.groups_wide, pcg.groups_high, 1u, 0u) * keep;
     pcg_extents[PCG_PARTIAL] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
     pcg_extents[PCG_SINGLE] = vec4u(keep);
+    pcg_extents[PCG_LISTED] = vec4u(pcg.listed_wide, pcg.listed_high, 1u, 0u) * keep;
 }
 
 fn total(lane: u32) -> vec4f {

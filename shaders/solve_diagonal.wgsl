@@ -1,6 +1,7 @@
 // coupled_solve, preparation: the Jacobi diagonal D = S^-1 + dt^2 sum over nodes |coefficient|^2 / M. All coefficients of one
 // vertex on one node are summed before they are squared. Unused unknowns get the inverse 0 and stay 0.
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
@@ -50,15 +51,16 @@ fn inverse(d: f32) -> f32 { return select(0.0, 1.0 / d, d > 0.0); }
 @compute @workgroup_size(WORKGROUP)
 fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if !has(word, VERTEX_GAS | VERTEX_SOLID) {
+    if !LISTED && !has(word, INTERIOR) { return; }
+    if LISTED && !has(word, VERTEX_GAS | VERTEX_SOLID) {
         inverse_diagonal[slot] = 0.0;
         return;
     }
     let scale = control.dt * face_area() * control.dt * face_area();
-    if !QUADRATIC && has(word, VERTEX_INTERIOR) {
+    if !LISTED && !QUADRATIC {
         // Each of the 2^DIM nodes: DIM components of (1/2)^(DIM - 1).
         var masses = 0.0;
         for (var k = 0u; k < corner_count(); k++) {

@@ -1,6 +1,7 @@
 // coupled_solve, first half of the operator: velocity change per unit time W = M^-1 C x at every node.
 // Reads x, cells, masses. Writes work: gas nodes, then solid nodes; w keeps the inverse mass of the gas node.
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
@@ -87,12 +88,15 @@ fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid:
 @compute @workgroup_size(WORKGROUP)
 fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     let inverse_mass = work[slot].w;
-    if !QUADRATIC && has(word, NODE_INTERIOR) {
-        work[slot] = vec4f(interior_force(slot) * face_area() * inverse_mass, inverse_mass);
+    if !LISTED {
+        if !has(word, INTERIOR) { return; }
+        var force: vec3f;
+        if QUADRATIC { force = regular_force(slot, cell_of(slot)); } else { force = interior_force(slot); }
+        work[slot] = vec4f(force * face_area() * inverse_mass, inverse_mass);
         return;
     }
     if has(word, NODE_REGULAR) {

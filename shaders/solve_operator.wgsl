@@ -1,5 +1,6 @@
 // coupled_solve, second half of the operator: y = S^-1 x + dt^2 C^T (M^-1 C x), and the partial sums of x . y.
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
@@ -21,11 +22,16 @@ fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
                   @builtin(local_invocation_index) lane: u32) {
     let scale = control.dt * control.dt * face_area();
     var product = 0.0;
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
-        let rows = gather_rows(slot, cells[slot]);
+    let end = listed_count();
+    for (var k = thread_index(group, groups, lane); k < end; k += groups.x * groups.y * WORKGROUP) {
+        let slot = listed_slot(k);
+        let word = cells[slot];
+        if !LISTED && !has(word, INTERIOR) { continue; }
+        let rows = gather_rows(slot, word);
         let own = stiffness[slot] * x[slot] + scale * rows.own;
         y[slot] = own;
         product += x[slot] * own;
+        if !LISTED { continue; }
         let i = interface_index(slot);
         if i != slot {
             let j = ghost_index(slot);
@@ -37,5 +43,8 @@ fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         }
     }
     let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = sum; }
+    if lane != 0u { return; }
+    // The listed form comes first; the plain one adds to what it left.
+    let at = thread_index(group, groups, 0u) / WORKGROUP;
+    if LISTED { partials[at] = sum; } else { partials[at] += sum; }
 }

@@ -2,6 +2,7 @@
 //   A D = dt C^T (V* - dt M^-1 C X*) - dt b,  X = X* + D,
 // which keeps float32 from losing a small increment in a large pressure. b: what inlets and outlets let through.
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -130,12 +131,14 @@ fn open_flow(v: vec3i) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
+    if !LISTED && !has(word, INTERIOR) { return; }
     let rows = gather_rows(slot, word);
     let scale = control.dt * face_area();
     var own = rows.own;
+    if !LISTED { residual[slot] = scale * own; return; }
     let v = cell_of(slot);
     let at_side = any(((v == vec3i(0)) | (v == vec3i(params.cells))) & (reach() == vec3i(1)));
     if at_side && has(word, VERTEX_GAS) { own -= open_flow(v); }

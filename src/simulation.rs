@@ -82,6 +82,7 @@ impl Simulation {
             particle_sort.record(&mut pass, &simulation.state, "BEGIN");
         }
         simulation.interface.record_start(&mut pass, &simulation.state);
+        simulation.time_step.record_listed(&mut pass);
         pass.submit()?;
         Ok(simulation)
     }
@@ -97,6 +98,7 @@ impl Simulation {
             p2g.record(pass, state); // (1) particles to grid
         }
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
+        self.time_step.record_listed(pass);
         self.gas_advection.record(pass, state, &self.time_step); // (3) eqs. 10-12
         self.intermediate_pressure.record(pass, state); // (4) eqs. 9 and 17
         self.coupled_solve.record_setup(pass, state);

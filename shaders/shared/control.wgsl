@@ -17,6 +17,7 @@ struct Control {
     extra: u32,                 // vertices that carry P, h and Q apart, this step
     iterations: u32,            // of the last solve
     residual: f32,              // of the last solve, relative
+    listed: u32,                // slots that are not INTERIOR
 }
 
 // True for NaN and infinities; comparisons alone do not find a NaN on every driver.

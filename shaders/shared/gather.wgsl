@@ -86,8 +86,8 @@ fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3
 // C^T W at a vertex, in units of face_area().
 fn gather_rows(slot: u32, word: u32) -> Rows {
     var rows: Rows;
-    if !QUADRATIC && has(word, VERTEX_INTERIOR) {
-        rows.own = interior_rows(slot);
+    if !LISTED {
+        if QUADRATIC { rows.own = regular_rows(slot, cell_of(slot)); } else { rows.own = interior_rows(slot); }
         return rows;
     }
     if has(word, VERTEX_REGULAR) {

@@ -10,7 +10,7 @@ use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP,
 
 /// WGSL constants of this method.
 const SOURCE: &str = "const PCG_RUNNING = 0u;\nconst PCG_CONVERGED = 1u;\nconst PCG_STALLED = 2u;\n\
-                      const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\n";
+                      const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\nconst PCG_LISTED = 3u;\n";
 
 /// The vectors of one system.
 #[derive(Debug)]
@@ -65,6 +65,10 @@ pub struct PcgControl {
     pub outcome: u32,
     /// Unknowns.
     pub length: u32,
+    /// Groups of kernels over a list that the caller keeps, x.
+    pub listed_wide: u32,
+    /// The same, y.
+    pub listed_high: u32,
     /// Groups of the kernels with one thread per slot, x.
     pub groups_wide: u32,
     /// The same, y.
@@ -94,6 +98,10 @@ pub enum Width {
     Slots,
     /// Groups that stride and leave partial sums.
     Partial,
+    /// One group.
+    Single,
+    /// One thread per entry of the caller's list.
+    Listed,
 }
 
 impl Pcg {
@@ -124,7 +132,7 @@ impl Pcg {
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
-        let extents = Buffer::indirect(gpu, "pcg_extents", 12)?;
+        let extents = Buffer::indirect(gpu, "pcg_extents", 16)?;
         let named = [
             ("pcg", control.raw()),
             ("solution", vectors.solution.raw()),

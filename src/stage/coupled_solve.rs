@@ -2,7 +2,7 @@
 //! and ghost pressure, matrix-free, by conjugate gradients with a Jacobi preconditioner. [Cao et al. 2022, eqs. 34-37]
 
 use super::time_step::slots;
-use super::{Parts, extent};
+use super::{Parts, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::numerics::{Pcg, Width};
@@ -16,13 +16,13 @@ pub struct CoupledSolve {
     pub pcg: Pcg,
     predictor: Option<Bound>,
     masses: Bound,
-    forces_of_pressure: Bound,
+    forces_of_pressure: [Bound; 2],
     velocities: Bound,
-    residual: Bound,
-    diagonal: Bound,
+    residual: [Bound; 2],
+    diagonal: [Bound; 2],
     reference: Bound,
-    forces: Bound,
-    operator: Bound,
+    forces: [Bound; 2],
+    operator: [Bound; 2],
     add: Bound,
     kick: Option<[Bound; 2]>,
 }
@@ -37,7 +37,7 @@ impl CoupledSolve {
         let limits = (state.params.tolerance, state.params.max_iterations);
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), state.params.groups, limits)?;
         let setup = |entry: &str| state.bind(gpu, "solve_setup.wgsl", entry, &[], &[]);
-        let forces = |x: &wgpu::Buffer| state.bind(gpu, "solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
+        let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
         let direction = [("x", state.pcg.direction.raw()), ("y", state.pcg.product.raw())];
         let optional = |shader: &str, entry: &str| -> Result<Option<Bound>> {
             if state.has_solids() { state.bind(gpu, shader, entry, &[], &[]).map(Some) } else { Ok(None) }
@@ -48,11 +48,11 @@ impl CoupledSolve {
             masses: setup("solve_masses")?,
             forces_of_pressure: forces(state.pressure.raw())?,
             velocities: setup("solve_velocities")?,
-            residual: setup("solve_residual")?,
-            diagonal: state.bind(gpu, "solve_diagonal.wgsl", "solve_diagonal", &[], &[])?,
+            residual: parts.both("solve_setup.wgsl", "solve_residual", &[], &[])?,
+            diagonal: parts.both("solve_diagonal.wgsl", "solve_diagonal", &[], &[])?,
             reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
-            operator: state.bind(gpu, "solve_operator.wgsl", "solve_operator", &direction, &[])?,
+            operator: parts.both("solve_operator.wgsl", "solve_operator", &direction, &[])?,
             add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[], &[])?,
             kick: optional("solid_kick.wgsl", "solid_kick")?
                 .zip(optional("solid_kick.wgsl", "solid_kick_spread")?)
@@ -66,12 +66,11 @@ impl CoupledSolve {
         if let Some(predictor) = &self.predictor {
             pass.dispatch(predictor, &slots(state, "BEGIN"));
         }
-        for kernel in [&self.masses, &self.forces_of_pressure, &self.velocities] {
-            pass.dispatch(kernel, &slots(state, "BEGIN"));
-        }
-        // Unknowns that no vertex uses must stay zero in every vector.
-        pass.dispatch(&self.residual, &slots(state, "BEGIN"));
-        pass.dispatch(&self.diagonal, &slots(state, "BEGIN"));
+        pass.dispatch(&self.masses, &slots(state, "BEGIN"));
+        record_both(pass, state, "BEGIN", &self.forces_of_pressure);
+        pass.dispatch(&self.velocities, &slots(state, "BEGIN"));
+        record_both(pass, state, "BEGIN", &self.residual);
+        record_both(pass, state, "BEGIN", &self.diagonal);
         pass.dispatch(&self.reference, &extent(state, "BEGIN", Entry::Reduce));
         self.pcg.begin(pass, &extent(state, "BEGIN", Entry::Reduce), &extent(state, "BEGIN", Entry::Single));
     }
@@ -80,14 +79,19 @@ impl CoupledSolve {
     pub fn record_iterations(&self, pass: &mut Pass, count: u32) {
         pass.stage("coupled_solve");
         for _ in 0..count {
-            self.pcg.iterate(pass, &[(&self.forces, Width::Slots), (&self.operator, Width::Partial)]);
+            let [forces, listed_forces] = &self.forces;
+            let [operator, listed_operator] = &self.operator;
+            let forces = [(forces, Width::Slots), (listed_forces, Width::Listed)];
+            // The listed form leaves its partial sums first, the plain form adds to them.
+            let operator = [(listed_operator, Width::Partial), (operator, Width::Partial)];
+            self.pcg.iterate(pass, &[forces, operator].concat());
         }
     }
 
     /// X = X* + D and the forces that belong to it.
     pub fn record_solution(&self, pass: &mut Pass, state: &State) {
         pass.dispatch(&self.add, &extent(state, "UPDATE", Entry::Reduce));
-        pass.dispatch(&self.forces_of_pressure, &slots(state, "UPDATE"));
+        record_both(pass, state, "UPDATE", &self.forces_of_pressure);
     }
 
     /// Pressure kick of the solid nodes, change of the ghost pressure.

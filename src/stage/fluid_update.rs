@@ -1,7 +1,7 @@
 //! `fluid_update`: what does the solved pressure do to the gas? Local gradients, flux form. [Kwatra et al. 2009; eqs. 3, 14]
 
-use super::Parts;
 use super::time_step::slots;
+use super::{Parts, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
@@ -9,7 +9,9 @@ use crate::state::State;
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct FluidUpdate {
-    kernels: [Bound; 3],
+    momentum: [Bound; 2],
+    energy: [Bound; 2],
+    floor: Bound,
 }
 
 impl FluidUpdate {
@@ -19,21 +21,18 @@ impl FluidUpdate {
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>) -> Result<Self> {
         let Parts { gpu, state } = parts;
-        let bind = |shader: &str, entry: &str| state.bind(gpu, shader, entry, &[], &[]);
         Ok(Self {
-            kernels: [
-                bind("fluid_update.wgsl", "fluid_momentum")?,
-                bind("fluid_update.wgsl", "fluid_energy")?,
-                bind("fluid_floor.wgsl", "fluid_floor")?,
-            ],
+            momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
+            energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
+            floor: state.bind(gpu, "fluid_floor.wgsl", "fluid_floor", &[], &[])?,
         })
     }
 
     /// Momentum, energy, floor.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("fluid_update");
-        for kernel in &self.kernels {
-            pass.dispatch(kernel, &slots(state, "UPDATE"));
-        }
+        record_both(pass, state, "UPDATE", &self.momentum);
+        record_both(pass, state, "UPDATE", &self.energy);
+        pass.dispatch(&self.floor, &slots(state, "UPDATE"));
     }
 }

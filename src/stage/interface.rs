@@ -4,7 +4,7 @@
 use super::Parts;
 use super::time_step::slots;
 use crate::error::Result;
-use crate::gpu::{Bound, Extent, Pass};
+use crate::gpu::{Bound, Pass};
 use crate::numerics::Scan;
 use crate::state::State;
 
@@ -12,6 +12,8 @@ use crate::state::State;
 #[derive(Debug)]
 pub struct InterfaceStage {
     flags: Bound,
+    list_scan: Scan,
+    list: Bound,
     solids: Option<Solids>,
 }
 
@@ -34,7 +36,8 @@ impl InterfaceStage {
     pub fn new(parts: Parts<'_>) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let (wanted, place) = (state.pcg.residual.raw(), state.pcg.product.raw());
-        let renamed = [("wanted", wanted), ("place", place)];
+        let (edge, edge_place) = (state.pcg.direction.raw(), state.pcg.solution.raw());
+        let renamed = [("wanted", wanted), ("place", place), ("edge", edge), ("edge_place", edge_place)];
         let mark = |entry: &str| state.bind(gpu, "interface_mark.wgsl", entry, &renamed, &[]);
         let fill = |entry: &str| state.bind(gpu, "interface.wgsl", entry, &[], &[]);
         let ledger = |entry: &str| state.bind(gpu, "ledger.wgsl", entry, &[], &[]);
@@ -51,18 +54,29 @@ impl InterfaceStage {
         } else {
             None
         };
-        Ok(Self { flags: mark("interface_flags")?, solids })
+        Ok(Self {
+            flags: mark("interface_flags")?,
+            list_scan: Scan::over(gpu, edge, edge_place, state.params.slots, state.params.slots + 1)?,
+            list: mark("interface_list")?,
+            solids,
+        })
     }
 
     /// Marks the start: without bodies these marks stay; with bodies the cells they cover lose their gas.
     pub fn record_start(&self, pass: &mut Pass, state: &State) {
-        let Some(solids) = &self.solids else {
-            pass.dispatch(&self.flags, &Extent::Threads(u64::from(state.params.slots)));
-            return;
-        };
-        for kernel in [&solids.fill, &solids.kind, &self.flags, &solids.start] {
-            pass.dispatch(kernel, &slots(state, "BEGIN"));
+        if let Some(solids) = &self.solids {
+            for kernel in [&solids.fill, &solids.kind, &solids.start] {
+                pass.dispatch(kernel, &slots(state, "BEGIN"));
+            }
         }
+        self.record_flags(pass, state);
+    }
+
+    /// Flags and the list that follow from the kinds.
+    fn record_flags(&self, pass: &mut Pass, state: &State) {
+        pass.dispatch(&self.flags, &slots(state, "BEGIN"));
+        self.list_scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
+        pass.dispatch(&self.list, &slots(state, "BEGIN"));
     }
 
     /// Marks all slots and settles the gas books. Without bodies nothing changes.
@@ -72,7 +86,7 @@ impl InterfaceStage {
         pass.dispatch(&solids.fill, &slots(state, "BEGIN"));
         pass.dispatch(&solids.ghost, &slots(state, "BEGIN"));
         pass.dispatch(&solids.kind, &slots(state, "BEGIN"));
-        pass.dispatch(&self.flags, &slots(state, "BEGIN"));
+        self.record_flags(pass, state);
         solids.scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
         pass.dispatch(&solids.extra, &slots(state, "BEGIN"));
         for kernel in &solids.ledger {

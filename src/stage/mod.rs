@@ -41,7 +41,8 @@ pub use particle_sort::ParticleSort;
 pub use time_step::TimeStep;
 pub use totals::Totals;
 
-use crate::gpu::{Extent, Gpu};
+use crate::error::Result;
+use crate::gpu::{Bound, Extent, Gpu, Pass};
 use crate::state::State;
 use crate::state::constants::{Entry, SCAN_DISPATCHES, extent_offset};
 
@@ -52,6 +53,29 @@ pub struct Parts<'a> {
     pub gpu: &'a Gpu,
     /// The buffers.
     pub state: &'a State,
+}
+
+impl Parts<'_> {
+    /// The two forms of a kernel: plain, over the slots deep inside the gas, and LISTED, over all others.
+    fn both(
+        &self,
+        shader: &str,
+        entry: &str,
+        renamed: &[(&str, &wgpu::Buffer)],
+        switches: &[(&str, f64)],
+    ) -> Result<[Bound; 2]> {
+        let form = |listed: f64| {
+            let switches: Vec<_> = switches.iter().copied().chain([("LISTED", listed)]).collect();
+            self.state.bind(self.gpu, shader, entry, renamed, &switches)
+        };
+        Ok([form(0.0)?, form(1.0)?])
+    }
+}
+
+/// Records both forms of a kernel.
+fn record_both(pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
+    pass.dispatch(plain, &extent(state, phase, Entry::Slots));
+    pass.dispatch(listed, &extent(state, phase, Entry::Listed));
 }
 
 /// Group counts of a phase, which the device opens and closes.

@@ -13,6 +13,7 @@ pub struct TimeStep {
     particles: Bound,
     choose: Bound,
     start: Bound,
+    listed: Bound,
     limiter: Bound,
     solved: Bound,
     substep: Bound,
@@ -34,6 +35,7 @@ impl TimeStep {
             particles: time("time_step_particles")?,
             choose: time("time_step_choose")?,
             start: control("control_start")?,
+            listed: control("control_listed")?,
             limiter: control("control_limiter")?,
             solved: control("control_solved")?,
             substep: control("control_substep")?,
@@ -54,6 +56,11 @@ impl TimeStep {
     /// Opens the marks of the start.
     pub fn record_start(&self, pass: &mut Pass) {
         pass.dispatch(&self.start, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Takes the length of the list of slots that are not deep inside the gas.
+    pub fn record_listed(&self, pass: &mut Pass) {
+        pass.dispatch(&self.listed, &Extent::Groups([1, 1, 1]));
     }
 
     /// Opens the correction of the advection where the limiter acted.

@@ -38,4 +38,6 @@ pub struct Control {
     pub iterations: u32,
     /// Relative residual of the last solve.
     pub residual: f32,
+    /// Slots that are not INTERIOR.
+    pub listed: u32,
 }

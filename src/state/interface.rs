@@ -12,7 +12,8 @@ pub struct Interface {
     pub fill: Buffer<[f32; 2]>,
     /// Vertex ghost pressure before the solve; its change after.
     pub ghost: Buffer<f32>,
-    /// Place of a vertex in the list of those that carry P, h and Q apart.
+    /// Place of a vertex in the list of those that carry P, h and Q apart; then the list of slots that are not deep inside the
+    /// gas, and its length.
     pub extra: Buffer<u32>,
 }
 
@@ -27,7 +28,7 @@ impl Interface {
             cells: Buffer::new(gpu, "cells", slots)?,
             fill: Buffer::new(gpu, "fill", slots)?,
             ghost: Buffer::new(gpu, "ghost", solid_slots)?,
-            extra: Buffer::new(gpu, "extra", solid_slots)?,
+            extra: Buffer::new(gpu, "extra", 2 * slots + 1)?,
         })
     }
 }

@@ -50,7 +50,10 @@ impl MemoryPlan {
         };
         plan.add("gas", &[("conserved", slots, 16), ("energy", 3 * slots, 4), ("work", 2 * slots, 16)]);
         plan.add("gas", &[("owed_flow", slots, 16), ("owed_energy", slots, 4)]);
-        plan.add("interface", &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", solid, 4)]);
+        plan.add(
+            "interface",
+            &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", 2 * slots + 1, 4)],
+        );
         plan.add("pressure", &[("pressure", unknowns, 4), ("stiffness", unknowns, 4), ("solution", unknowns, 4)]);
         plan.add("pressure", &[("residual", unknowns, 4), ("direction", unknowns, 4), ("product", unknowns, 4)]);
         plan.add("pressure", &[("inverse_diagonal", unknowns, 4)]);

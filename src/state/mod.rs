@@ -65,7 +65,7 @@ pub struct State {
 }
 
 /// Share of the vertices that may carry P, h and Q apart: only surfaces of fragments do.
-const EXTRA_SHARE: usize = 8;
+const EXTRA_SHARE: usize = 16;
 
 /// Vertices that may carry P, h and Q apart in a scene with this many slots and particles.
 fn extra_capacity(slots: usize, particles: usize, dimension: u32) -> usize {

@@ -1,0 +1,17 @@
+// Two forms of one kernel. The plain form runs over all slots and acts on those deep inside the gas (INTERIOR), where every
+// stencil is the same; the LISTED form runs over the list of all others. So no thread waits for a neighbour's special case.
+// Needs the binding extra: places of the extra unknowns, then the list, then its length.
+
+override LISTED: bool;
+
+// Slot of a thread, or the number of slots if it has none.
+fn listed_slot(thread: u32) -> u32 {
+    if !LISTED { return min(thread, params.slots); }
+    if thread < extra[2u * params.slots] { return extra[params.slots + thread]; }
+    return params.slots;
+}
+
+fn listed_count() -> u32 {
+    if LISTED { return extra[2u * params.slots]; }
+    return params.slots;
+}
