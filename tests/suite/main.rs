@@ -1,10 +1,14 @@
 //! The test suite: one binary, one module per subject.
 
+mod analytic;
 mod cli;
 mod common;
+mod determinism;
 mod export;
 mod gpu;
+mod kernels;
 mod layering;
+mod layouts;
 mod numerics;
 mod reference;
 mod reference_exact;

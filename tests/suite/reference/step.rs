@@ -41,8 +41,9 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     ledger::change_kinds(problem, state, &kinds, &bins);
     let faces = interface::interface(problem, kinds, &bins, &nodes);
 
-    let (star, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
-    let intermediate = intermediate_pressure::intermediate(problem, &faces, &star, dt);
+    let (advected, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
+    let star = gas_advection::with_gravity(problem, &faces.cells, &advected, dt);
+    let intermediate = intermediate_pressure::intermediate(problem, &faces, &advected, &star, dt);
 
     let film = interface::film_force(problem, &faces.cells, &bins, &intermediate.vertex_pressure);
     let floor = problem.numerics.mass_floor * bins.density * problem.grid.volume();
@@ -76,8 +77,14 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     }
     gas_advection::fill_ghosts(problem, &faces.cells, &mut state.gas);
     state.time += dt;
-    let report =
-        Report { dt, iterations: solution.iterations, converged: solution.converged, limited, floored: touched, substeps };
+    let report = Report {
+        dt,
+        iterations: solution.iterations,
+        converged: solution.converged,
+        limited,
+        floored: touched,
+        substeps,
+    };
     (report, Trace { solution, nodes, shared: faces.shared })
 }
 
