@@ -117,8 +117,8 @@ fn sod_along(gpu: &Gpu, axis: usize, dimension: usize) -> Vec<f32> {
          [gas]\nambient = {{ density = 0.125, pressure = 0.1 }}\n\
          [[gas.regions]]\nshape = {{ half_space = {{ point = [{}], normal = [{}] }} }}\ndensity = 1.0\npressure = 1.0\n\
          [time]\nuntil = 1.0\nfixed_step = 0.004\n[numerics]\ntolerance = 1e-6\n",
-        list(&|d| along(d, "48", "4")),
-        list(&|d| along(d, "0.96", "0.08")),
+        list(&|d| along(d, "48", "6")),
+        list(&|d| along(d, "0.96", "0.12")),
         list(&|d| along(d, "0.48", "0.0")),
         list(&|d| along(d, "1.0", "0.0")),
     ));
@@ -126,7 +126,8 @@ fn sod_along(gpu: &Gpu, axis: usize, dimension: usize) -> Vec<f32> {
     simulation.advance_to(0.1).unwrap();
     let snapshot = simulation.snapshot().unwrap();
     let strides = [1, scene.domain.cells[0], scene.domain.cells[0] * scene.domain.cells[1]];
-    (0..48).map(|i| snapshot.density[(i * strides[axis]) as usize]).collect()
+    let middle: u32 = (0..dimension).filter(|d| *d != axis).map(|d| 3 * strides[d]).sum();
+    (0..48).map(|i| snapshot.density[(middle + i * strides[axis]) as usize]).collect()
 }
 
 #[test]

@@ -9,8 +9,9 @@ use wgpu::naga;
 
 /// Name and offset of each member of a WGSL structure, and its size.
 fn layout(shader: &str, structure: &str) -> (Vec<(String, usize)>, usize) {
+    let folder = Folder::Disk(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders").into());
     let source = constants::source_for(shader);
-    let compiled = Shader::load(shader, &source, &Folder::Embedded).and_then(Shader::compile);
+    let compiled = Shader::load(shader, &source, &folder).and_then(Shader::compile);
     let module = compiled.unwrap_or_else(|error| panic!("{error}")).module;
     let found = module.types.iter().find(|(_, kind)| kind.name.as_deref() == Some(structure));
     let Some((_, naga::Type { inner: naga::TypeInner::Struct { members, span }, .. })) = found else {
