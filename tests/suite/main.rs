@@ -18,3 +18,4 @@ mod reference_tables;
 mod render;
 mod scenes;
 mod shaders;
+mod twins;
