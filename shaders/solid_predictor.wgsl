@@ -8,17 +8,30 @@
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
-@group(0) @binding(3) var<storage, read> pressure: array<f32>;
+@group(0) @binding(3) var<storage, read> energy: array<f32>;    // second third: predicted pressure of gas cells
 @group(0) @binding(4) var<storage, read> ghost: array<f32>;
 @group(0) @binding(5) var<storage, read_write> node: array<vec4f>;
 
 // How far along the wall the film looks for gas, in cells.
 const FILM_REACH = 16;
 
+// Mean over the gas cells around a vertex: the vertex unknown may hold some of the body's own pressure.
+fn gas_pressure(v: vec3i) -> f32 {
+    var sum = 0.0;
+    var count = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let c = v - corner_offset(k);
+        if !inside(c) || kind_of(cells[slot_of(c)]) != GAS { continue; }
+        sum += energy[params.slots + slot_of(c)];
+        count += 1.0;
+    }
+    return sum / max(count, 1.0);
+}
+
 fn film_pressure(v: vec3i, n: u32) -> f32 {
     let slot = slot_of(v);
     if !FILM_NEAREST { return ghost[slot]; }
-    if has(cells[slot], VERTEX_GAS) { return pressure[slot]; }
+    if has(cells[slot], VERTEX_GAS) { return gas_pressure(v); }
     for (var far = 1; far <= FILM_REACH; far++) {
         var sum = 0.0;
         var count = 0.0;
@@ -27,7 +40,7 @@ fn film_pressure(v: vec3i, n: u32) -> f32 {
             for (var side = -1; side <= 1; side += 2) {
                 let near = v + side * far * axis(a);
                 if !is_vertex(near) || !has(cells[slot_of(near)], VERTEX_GAS) { continue; }
-                sum += pressure[slot_of(near)];
+                sum += gas_pressure(near);
                 count += 1.0;
             }
         }

@@ -1,15 +1,17 @@
 // Walls of the solid grid: a node beyond a wall may not move outward. [numerics: one-sided, nothing is glued]
 // Needs the binding cells.
 
+fn stops_at(side: u32) -> bool { return params.side[side >> 2u][side & 3u] == SIDE_WALL; }
+
 fn velocity_at_wall(c: vec3i, v: vec3f) -> vec3f {
     var out = v;
     let slot = slot_of(c);
     let here = kind_of(cells[slot]) == WALL;
     for (var a = 0u; a < DIM; a++) {
         if c[a] < 0 {
-            if here { out[a] = max(out[a], 0.0); }
+            if stops_at(2u * a) { out[a] = max(out[a], 0.0); }
         } else if c[a] >= i32(params.cells[a]) {
-            if here { out[a] = min(out[a], 0.0); }
+            if stops_at(2u * a + 1u) { out[a] = min(out[a], 0.0); }
         } else if here && inside(c) {
             // Inside an obstacle: outward is where the wall ends.
             if kind_of(cells[slot + step_of(a)]) == WALL { out[a] = min(out[a], 0.0); }

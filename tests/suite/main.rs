@@ -1,11 +1,21 @@
 //! The test suite: one binary, one module per subject.
 
+mod analytic;
 mod cli;
 mod common;
+mod determinism;
 mod export;
 mod gpu;
+mod kernels;
 mod layering;
+mod layouts;
 mod numerics;
+mod reference;
+mod reference_exact;
+mod reference_operator;
+mod reference_solids;
+mod reference_tables;
 mod render;
 mod scenes;
 mod shaders;
+mod twins;

@@ -70,16 +70,15 @@ fn confine(problem: &Problem, particle: &mut Particle) {
     let grid = &problem.grid;
     for d in 0..grid.dimension {
         let extent = f64::from(grid.cells[d]) * grid.spacing;
-        let margin = 1e-4 * grid.spacing;
-        let (low, high) = (grid.origin[d] + margin, grid.origin[d] + extent - margin);
-        let outside = [particle.position[d] < low, particle.position[d] > high];
-        for upper in 0..2 {
-            if !outside[upper] {
-                continue;
-            }
+        for (upper, edge) in [grid.origin[d], grid.origin[d] + extent].into_iter().enumerate() {
+            let inward = if upper == 0 { 1.0 } else { -1.0 };
+            let depth = inward * (particle.position[d] - edge);
+            let gap = 1e-3 * grid.spacing;
             if matches!(problem.sides[2 * d + upper], Side::Wall) {
-                particle.position[d] = [low, high][upper];
-            } else {
+                if depth < gap {
+                    particle.position[d] = edge + inward * gap;
+                }
+            } else if depth < 0.0 {
                 particle.active = false;
             }
         }

@@ -219,12 +219,13 @@ pub(crate) fn advect(
         let (a, b) = (before.get(slot), two.get(slot));
         after.set(slot, [0, 1, 2, 3, 4].map(|k| 0.5 * (a[k] + b[k])));
     }
-    add_gravity(problem, &interface.cells, &mut after, dt);
     fill_ghosts(problem, &interface.cells, &mut after);
     (after, touched_one + touched_two)
 }
 
-fn add_gravity(problem: &Problem, cells: &[u32], gas: &mut Gas, dt: f64) {
+/// The gas after a kick of gravity.
+pub(crate) fn with_gravity(problem: &Problem, cells: &[u32], advected: &Gas, dt: f64) -> Gas {
+    let mut gas = advected.clone();
     for slot in (0..cells.len()).filter(|slot| cells[*slot] == GAS) {
         let mut u = gas.get(slot);
         for axis in 0..problem.grid.dimension {
@@ -234,4 +235,6 @@ fn add_gravity(problem: &Problem, cells: &[u32], gas: &mut Gas, dt: f64) {
         }
         gas.set(slot, u);
     }
+    fill_ghosts(problem, cells, &mut gas);
+    gas
 }

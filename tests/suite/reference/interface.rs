@@ -10,7 +10,7 @@ use super::{GAS, GHOST, Pair, Problem, SOLID, Shared, Side, WALL};
 pub(crate) struct Interface {
     /// Kind per slot.
     pub(crate) cells: Vec<u32>,
-    /// Normal solid velocity of gas/solid faces, by axis, at the low cell.
+    /// Normal solid velocity of gas/solid faces, by axis, at the low cell: mean of the two nodes by mass.
     pub(crate) face_velocity: [Vec<f64>; 3],
     /// Blocked fraction of solid cells.
     pub(crate) blocked: Vec<f64>,
@@ -60,9 +60,9 @@ pub(crate) fn interface(problem: &Problem, cells: Vec<u32>, bins: &Bins, nodes: 
         for low in grid.faces(axis) {
             let (a, b) = (grid.slot(low), grid.slot(shift(low, axis, 1)));
             if (cells[a] == GAS && cells[b] == SOLID) || (cells[a] == SOLID && cells[b] == GAS) {
-                let weight = |slot: usize| f64::from(u8::from(nodes.mass[slot] > 0.0));
-                let sum = weight(a) * nodes.velocity[a][axis] + weight(b) * nodes.velocity[b][axis];
-                velocities[a] = sum / (weight(a) + weight(b)).max(1.0);
+                let momentum = |slot: usize| nodes.mass[slot] * nodes.velocity[slot][axis];
+                let mass = nodes.mass[a] + nodes.mass[b];
+                velocities[a] = if mass > 0.0 { (momentum(a) + momentum(b)) / mass } else { 0.0 };
             }
         }
     }

@@ -84,8 +84,14 @@ fn node_velocity(problem: &Problem, cells: &[u32], star: &Gas, node: [i32; 3]) -
     [0.0; 3]
 }
 
-/// The stage.
-pub(crate) fn intermediate(problem: &Problem, interface: &Interface, star: &Gas, dt: f64) -> Intermediate {
+/// The stage. The predictor sees what advection compressed, without the kick of gravity that `star` has.
+pub(crate) fn intermediate(
+    problem: &Problem,
+    interface: &Interface,
+    advected: &Gas,
+    star: &Gas,
+    dt: f64,
+) -> Intermediate {
     let grid = &problem.grid;
     let mut pressure = vec![0.0; grid.slots()];
     let mut predicted_pressure = vec![0.0; grid.slots()];
@@ -96,7 +102,7 @@ pub(crate) fn intermediate(problem: &Problem, interface: &Interface, star: &Gas,
             continue;
         }
         pressure[slot] = star.pressure(slot, problem.gamma);
-        let factor = if problem.numerics.predictor { predicted(problem, interface, star, c, dt) } else { 1.0 };
+        let factor = if problem.numerics.predictor { predicted(problem, interface, advected, c, dt) } else { 1.0 };
         predicted_pressure[slot] = factor * pressure[slot];
         for off in grid.offsets(-1, 1) {
             let share = element::node_weight(grid, problem.numerics.pair, off) * grid.volume();

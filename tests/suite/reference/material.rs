@@ -35,7 +35,7 @@ impl Material {
         ((self.lambda + 2.0 * self.mu) / density).sqrt()
     }
 
-    /// Deformation after the plastic return, and the plastic strain of it.
+    /// Deformation after the plastic return, and the equivalent plastic strain of it.
     pub(crate) fn plastic_return(&self, f: DMat3) -> (DMat3, f64) {
         if self.yield_stress.is_infinite() {
             return (f, 0.0);
@@ -50,7 +50,7 @@ impl Material {
         }
         let ratio = mean + deviator * (limit / norm) - strain;
         let stretch = DMat3::from_diagonal(DVec3::new(ratio.x.exp(), ratio.y.exp(), ratio.z.exp()));
-        (f * v * stretch * v.transpose(), norm - limit)
+        (f * v * stretch * v.transpose(), (2.0_f64 / 3.0).sqrt() * (norm - limit))
     }
 }
 

@@ -1,6 +1,7 @@
 //! One step in the order of the method.
 
-use super::coupled_solve::{Inputs, coupled_solve};
+use super::coupled_solve::{Inputs, Solution, coupled_solve};
+use super::p2g::Nodes;
 use super::{Problem, State};
 use super::{
     fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g, particle_sort,
@@ -18,16 +19,31 @@ pub(crate) struct Report {
     pub(crate) substeps: usize,
 }
 
+/// What a step leaves besides the state.
+pub(crate) struct Trace {
+    pub(crate) solution: Solution,
+    /// After the last elastic sub-step.
+    pub(crate) nodes: Nodes,
+    /// Vertices with one pressure.
+    pub(crate) shared: Vec<bool>,
+}
+
 /// Advances the state by dt.
 pub(crate) fn step(problem: &Problem, state: &mut State, dt: f64) -> Report {
+    traced_step(problem, state, dt).0
+}
+
+/// Advances the state by dt and keeps what the stages made on the way.
+pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Report, Trace) {
     let bins = particle_sort::bin(problem, &state.particles);
     let mut nodes = p2g::p2g(problem, &state.particles);
     let kinds = interface::kinds(problem, &bins);
     ledger::change_kinds(problem, state, &kinds, &bins);
     let faces = interface::interface(problem, kinds, &bins, &nodes);
 
-    let (star, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
-    let intermediate = intermediate_pressure::intermediate(problem, &faces, &star, dt);
+    let (advected, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
+    let star = gas_advection::with_gravity(problem, &faces.cells, &advected, dt);
+    let intermediate = intermediate_pressure::intermediate(problem, &faces, &advected, &star, dt);
 
     let film = interface::film_force(problem, &faces.cells, &bins, &intermediate.vertex_pressure);
     let floor = problem.numerics.mass_floor * bins.density * problem.grid.volume();
@@ -50,7 +66,7 @@ pub(crate) fn step(problem: &Problem, state: &mut State, dt: f64) -> Report {
     let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);
     let change = g2p::ghost_change(problem, &faces, &bins, &solution.pressure[2]);
     let (share, sub_dt) = (1.0 / substeps as f64, dt / substeps as f64);
-    nodes.velocity = solution.solid_velocity;
+    nodes.velocity.clone_from(&solution.solid_velocity);
     for index in 0..if state.particles.is_empty() { 0 } else { substeps } {
         if index > 0 {
             nodes = p2g::p2g(problem, &state.particles);
@@ -61,7 +77,15 @@ pub(crate) fn step(problem: &Problem, state: &mut State, dt: f64) -> Report {
     }
     gas_advection::fill_ghosts(problem, &faces.cells, &mut state.gas);
     state.time += dt;
-    Report { dt, iterations: solution.iterations, converged: solution.converged, limited, floored: touched, substeps }
+    let report = Report {
+        dt,
+        iterations: solution.iterations,
+        converged: solution.converged,
+        limited,
+        floored: touched,
+        substeps,
+    };
+    (report, Trace { solution, nodes, shared: faces.shared })
 }
 
 /// Runs to a time with steps by rule; the last one is shortened.

@@ -1,0 +1,188 @@
+//! The device against exact solutions, balances and symmetries.
+
+use brisance::gpu::Gpu;
+use brisance::scene::Scene;
+use brisance::simulation::Simulation;
+use brisance::snapshot::{Snapshot, kind};
+
+use crate::common::gpu_or_skip;
+
+fn load(path: &str, overrides: &[&str]) -> Scene {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    Scene::load(format!("{}/scenes/{path}", env!("CARGO_MANIFEST_DIR")), &overrides)
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn parse(text: &str) -> Scene {
+    Scene::parse(text, "analytic.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// L1 error of the density of a shipped shock tube at 400 cells, per length of the tube.
+fn density_error(gpu: &Gpu, file: &str, overrides: &[&str]) -> f64 {
+    let scene = load(&format!("gas/{file}.toml"), overrides);
+    assert_eq!(scene.domain.cells[0], 400, "{file}");
+    let (exact, jump) = scene.riemann().unwrap_or_else(|| panic!("{file} is a shock tube"));
+    let mut simulation = Simulation::new(gpu, &scene).unwrap();
+    simulation.advance_to(scene.time.until).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let snapshot = simulation.snapshot().unwrap();
+    let dx = scene.domain.spacing();
+    let difference = |(i, found): (usize, &f32)| {
+        let low = scene.domain.origin[0] + i as f64 * dx;
+        (f64::from(*found) - exact.cell_average(low, low + dx, jump, scene.time.until).0).abs()
+    };
+    snapshot.density.iter().enumerate().map(difference).sum::<f64>() / 400.0
+}
+
+/// Errors of the method in double precision: B1B0 without and with the predictor, B2B1 without and with.
+const TUBES: [(&str, [f64; 4]); 6] = [
+    ("sod", [0.00479, 0.00311, 0.00482, 0.00329]),
+    ("lax", [0.00828, 0.00750, 0.00828, 0.00756]),
+    ("strong_shock_tube", [0.00747, 0.00587, 0.0075, 0.00608]),
+    ("mach3", [0.0168, 0.0129, 0.0172, 0.01347]),
+    ("high_mach", [0.506, 0.495, 0.497, 0.48528]),
+    ("rarefactions", [0.00596, 0.00502, 0.0062, 0.00529]),
+];
+
+fn tubes(column: usize, overrides: &[&str]) {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut failures = Vec::new();
+    for (file, expected) in TUBES {
+        let error = density_error(&gpu, file, overrides);
+        let ratio = error / expected[column];
+        eprintln!("{file:18} L1 {error:.5}, {ratio:.3} of double precision");
+        if (ratio - 1.0).abs() > 0.05 || ratio.is_nan() {
+            failures.push(format!("{file}: L1 {error:.5}, expected {}", expected[column]));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn shock_tubes() {
+    tubes(1, &[]);
+}
+
+#[test]
+fn shock_tubes_without_predictor() {
+    tubes(0, &["numerics.predictor=false"]);
+}
+
+#[test]
+fn shock_tubes_quadratic() {
+    tubes(3, &["numerics.pair=b2b1"]);
+}
+
+#[test]
+fn shock_tubes_quadratic_without_predictor() {
+    tubes(2, &["numerics.pair=b2b1", "numerics.predictor=false"]);
+}
+
+/// Mass and energy of the gas per cell volume, summed in f64.
+fn totals(snapshot: &Snapshot) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for i in (0..snapshot.kind.len()).filter(|i| snapshot.kind[*i] == kind::GAS) {
+        sum[0] += f64::from(snapshot.density[i]);
+        sum[1] += f64::from(snapshot.energy[i]);
+    }
+    sum
+}
+
+#[test]
+fn a_closed_box_keeps_mass_and_energy() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut scene = load("gas/circular_shock.toml", &[]).with_resolution(24).unwrap();
+    scene.gas.regions[0].shape = disc_off_centre();
+    scene.time.fixed_step = Some(0.01);
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+    let before = totals(&simulation.snapshot().unwrap());
+    simulation.advance_to(10.0).unwrap();
+    assert!(simulation.step_count() >= 999, "{}", simulation.step_count());
+    let after = totals(&simulation.snapshot().unwrap());
+    let drift = [0, 1].map(|k| (after[k] / before[k] - 1.0).abs());
+    eprintln!("mass {:.1e}, energy {:.1e} after {} steps", drift[0], drift[1], simulation.step_count());
+    assert!(drift[0] <= 1e-6 && drift[1] <= 1e-5, "{drift:?}");
+}
+
+/// A disc off the centre, so that nothing cancels by symmetry.
+fn disc_off_centre() -> brisance::scene::Shape {
+    brisance::scene::Shape::Sphere { center: [-0.2, 0.3, 0.0], radius: 0.4 }
+}
+
+/// Density along a tube of 48 cells that lies along one axis of a grid.
+fn sod_along(gpu: &Gpu, axis: usize, dimension: usize) -> Vec<f32> {
+    let list = |value: &dyn Fn(usize) -> String| (0..dimension).map(value).collect::<Vec<_>>().join(", ");
+    let along = |d: usize, yes: &str, no: &str| if d == axis { yes.to_owned() } else { no.to_owned() };
+    let scene = parse(&format!(
+        "title = \"tube\"\n[domain]\ndimension = {dimension}\ncells = [{}]\nsize = [{}]\n\
+         [gas]\nambient = {{ density = 0.125, pressure = 0.1 }}\n\
+         [[gas.regions]]\nshape = {{ half_space = {{ point = [{}], normal = [{}] }} }}\ndensity = 1.0\npressure = 1.0\n\
+         [time]\nuntil = 1.0\nfixed_step = 0.004\n[numerics]\ntolerance = 1e-6\n",
+        list(&|d| along(d, "48", "6")),
+        list(&|d| along(d, "0.96", "0.12")),
+        list(&|d| along(d, "0.48", "0.0")),
+        list(&|d| along(d, "1.0", "0.0")),
+    ));
+    let mut simulation = Simulation::new(gpu, &scene).unwrap();
+    simulation.advance_to(0.1).unwrap();
+    let snapshot = simulation.snapshot().unwrap();
+    let strides = [1, scene.domain.cells[0], scene.domain.cells[0] * scene.domain.cells[1]];
+    let middle: u32 = (0..dimension).filter(|d| *d != axis).map(|d| 3 * strides[d]).sum();
+    (0..48).map(|i| snapshot.density[(middle + i * strides[axis]) as usize]).collect()
+}
+
+#[test]
+fn one_two_and_three_dimensions_agree_along_every_axis() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let one = sod_along(&gpu, 0, 1);
+    let spread = one.iter().fold((1.0f32, 0.0f32), |s, v| (s.0.min(*v), s.1.max(*v)));
+    assert!(spread.0 < 0.2 && spread.1 > 0.9, "the tube has no wave: {spread:?}");
+    for (axis, dimension) in [(0, 2), (1, 2), (0, 3), (1, 3), (2, 3)] {
+        let other = sod_along(&gpu, axis, dimension);
+        let worst = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        eprintln!("axis {axis} of {dimension}: {worst:.1e}");
+        assert!(worst < 5e-6, "axis {axis} of {dimension} differs by {worst:e}");
+    }
+}
+
+#[test]
+fn a_circular_shock_stays_symmetric() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = load("gas/circular_shock.toml", &[]).with_resolution(48).unwrap();
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+    simulation.advance_to(0.25).unwrap();
+    let density = simulation.snapshot().unwrap().density;
+    let at = |x: usize, y: usize| density[x + 48 * y];
+    let mut worst = 0.0f32;
+    for y in 0..48 {
+        for x in 0..48 {
+            for other in [at(47 - x, y), at(x, 47 - y), at(y, x)] {
+                worst = worst.max((at(x, y) - other).abs());
+            }
+        }
+    }
+    eprintln!("asymmetry {worst:.1e}");
+    assert!(worst < 2e-5, "mirror images differ by {worst:e}");
+}
+
+/// Largest particle and gas speed over the speed of sound after a short time at rest.
+fn noise_at_rest(gpu: &Gpu, path: &str, cells: u32, steps: u32) -> [f64; 2] {
+    let scene = load(path, &[]).with_resolution(cells).unwrap();
+    let sound = scene.gas.ambient.sound_speed(scene.gas.gamma);
+    let mut simulation = Simulation::new(gpu, &scene).unwrap();
+    simulation.advance_to(f64::from(steps) * scene.domain.spacing() / sound).unwrap();
+    let snapshot = simulation.snapshot().unwrap();
+    let length = |v: &[f32; 3]| f64::from(v[0].hypot(v[1]).hypot(v[2])) / sound;
+    let gas =
+        (0..snapshot.kind.len()).filter(|i| snapshot.kind[*i] == kind::GAS).map(|i| length(&snapshot.velocity[i]));
+    [snapshot.particles.iter().map(|p| length(&p.velocity)).fold(0.0, f64::max), gas.fold(0.0, f64::max)]
+}
+
+#[test]
+fn bodies_at_rest_stay_at_rest() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (path, cells) in [("coupled/slab_at_rest.toml", 50), ("coupled/shell_at_rest.toml", 40)] {
+        let [solid, gas] = noise_at_rest(&gpu, path, cells, 40);
+        eprintln!("{path}: particles {solid:.1e}, gas {gas:.1e} of the speed of sound");
+        assert!(solid < 1e-4 && gas < 1e-4, "{path}: {solid:e}, {gas:e}");
+    }
+}

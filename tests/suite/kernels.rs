@@ -1,0 +1,159 @@
+//! Whole steps on the device against the CPU twin: gas alone, bodies in gas, bodies at walls and open sides.
+
+use crate::common::gpu_or_skip;
+use crate::twins::Twins;
+
+const CHANNEL: &str = r#"
+title = "Channel with a block"
+gravity = [0.3, -0.5]
+[domain]
+dimension = 2
+cells = [20, 16]
+size = [1.25, 1.0]
+[gas]
+ambient = { density = 1.0, velocity = [0.3, 0.0], pressure = 1.0 }
+[boundary]
+x_min = { inlet = { density = 1.4, velocity = [0.5, 0.1], pressure = 1.3 } }
+x_max = "outlet"
+[[obstacles]]
+name = "block"
+shape = { box = { center = [0.6, 0.35], size = [0.25, 0.25] } }
+[time]
+until = 1.0
+[numerics]
+tolerance = 1e-6
+"#;
+
+fn channel(overrides: &[&str]) {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut twins = Twins::new(gpu, CHANNEL, overrides, 1.0);
+    for _ in 0..3 {
+        let (_, trace) = twins.step();
+        twins.compare_pressure(&trace, 2e-5);
+        twins.compare_gas(2e-5);
+    }
+    twins.finish();
+}
+
+#[test]
+fn gas_with_open_sides_and_a_block() {
+    channel(&[]);
+}
+
+#[test]
+fn gas_with_open_sides_and_a_block_quadratic() {
+    channel(&["numerics.pair=b2b1"]);
+}
+
+#[test]
+fn gas_without_predictor() {
+    channel(&["numerics.predictor=false"]);
+}
+
+const BODY: &str = r#"
+title = "A body in moving gas"
+[domain]
+dimension = 2
+cells = [16, 16]
+size = [1.0, 1.0]
+[gas]
+ambient = { density = 1.0, pressure = 1.0 }
+[materials.rubber]
+neo_hookean = { young_modulus = 100.0, poisson_ratio = 0.3 }
+[[bodies]]
+name = "ball"
+shape = { sphere = { center = [0.47, 0.55], radius = 0.22 } }
+material = "rubber"
+density = 10.0
+velocity = [0.6, -0.4]
+[time]
+until = 1.0
+fixed_step = 0.0078125
+[numerics]
+tolerance = 1e-6
+"#;
+
+const SOFT_METAL: &str =
+    "materials.rubber={ von_mises = { young_modulus = 100.0, poisson_ratio = 0.3, yield_stress = 0.5 } }";
+
+fn body(steps: usize, overrides: &[&str]) {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut twins = Twins::new(gpu, BODY, overrides, 0.5);
+    for _ in 0..steps {
+        let (_, trace) = twins.step();
+        twins.compare_pressure(&trace, 5e-5);
+        twins.compare_gas(5e-5);
+        twins.compare_solid(&trace, 2e-5);
+    }
+    twins.finish();
+}
+
+#[test]
+fn elastic_ball() {
+    body(3, &[]);
+}
+
+#[test]
+fn elastic_ball_quadratic_with_three_pressures() {
+    body(3, &["numerics.pair=b2b1", "numerics.interface=h"]);
+}
+
+#[test]
+fn stiff_ball_in_elastic_substeps() {
+    body(3, &["materials.rubber.neo_hookean.young_modulus=1000.0"]);
+}
+
+#[test]
+fn yielding_ball() {
+    body(3, &[SOFT_METAL]);
+}
+
+#[test]
+fn yielding_ball_in_space() {
+    body(
+        2,
+        &[
+            SOFT_METAL,
+            "domain.dimension=3",
+            "domain.cells=[12,12,12]",
+            "domain.size=[0.75,0.75,0.75]",
+            "bodies[0].shape.sphere.center=[0.36,0.38,0.41]",
+            "bodies[0].velocity=[0.6,-0.4,0.3]",
+        ],
+    );
+}
+
+/// On the floor, half out of the open side, pressed down and out.
+const AT_THE_SIDES: [&str; 6] = [
+    "bodies[0].shape.sphere.center=[0.77,0.224]",
+    "bodies[0].velocity=[1.5,-0.8]",
+    "boundary.x_max=outlet",
+    "gravity=[0.4,-1.0]",
+    "gas.ambient.velocity=[0.3,0.0]",
+    SOFT_METAL,
+];
+
+#[test]
+fn ball_on_the_floor_leaving_through_the_outlet() {
+    body(4, &AT_THE_SIDES);
+}
+
+#[test]
+fn ball_on_the_floor_with_the_film_of_its_own_pressure() {
+    let other = ["numerics.film=ghost", "numerics.interface=single", "numerics.power=end", "numerics.blending=false"];
+    body(2, &[&AT_THE_SIDES[..], &other].concat());
+}
+
+#[test]
+fn crumbs_by_scatter() {
+    body(
+        3,
+        &[
+            SOFT_METAL,
+            "bodies[0].shape.sphere.radius=0.04",
+            "bodies[0].density=2.0",
+            "numerics.transfer=scatter",
+            "numerics.tolerance=2e-7",
+        ],
+    );
+}

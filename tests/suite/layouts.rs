@@ -1,0 +1,134 @@
+//! Structures that Rust and WGSL share: member by member the same offsets, and the same size.
+
+use brisance::gpu::{Folder, Shader};
+use brisance::material::MaterialParams;
+use brisance::numerics::PcgControl;
+use brisance::state::constants;
+use brisance::state::{Control, Params};
+use wgpu::naga;
+
+/// Name and offset of each member of a WGSL structure, and its size.
+fn layout(shader: &str, structure: &str) -> (Vec<(String, usize)>, usize) {
+    let folder = Folder::Disk(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders").into());
+    let source = constants::source_for(shader);
+    let compiled = Shader::load(shader, &source, &folder).and_then(Shader::compile);
+    let module = compiled.unwrap_or_else(|error| panic!("{error}")).module;
+    let found = module.types.iter().find(|(_, kind)| kind.name.as_deref() == Some(structure));
+    let Some((_, naga::Type { inner: naga::TypeInner::Struct { members, span }, .. })) = found else {
+        panic!("{shader} has no struct {structure}")
+    };
+    let name = |member: &naga::StructMember| member.name.clone().unwrap_or_default();
+    (members.iter().map(|member| (name(member), member.offset as usize)).collect(), *span as usize)
+}
+
+/// Compares a structure with its mirror; fields of the mirror that only fill space are left out.
+macro_rules! same_layout {
+    ($shader:literal, $name:literal, $mirror:ty, [$($field:ident),* $(,)?]) => {
+        let expected = vec![$((stringify!($field).to_owned(), std::mem::offset_of!($mirror, $field))),*];
+        let (found, size) = layout($shader, $name);
+        assert_eq!(found, expected, concat!($name, " of ", $shader));
+        assert_eq!(size, size_of::<$mirror>(), concat!("size of ", $name));
+    };
+}
+
+#[test]
+fn params() {
+    same_layout!(
+        "time_step.wgsl",
+        "Params",
+        Params,
+        [
+            cells,
+            slots,
+            stride,
+            particles,
+            origin,
+            spacing,
+            gravity,
+            gamma,
+            ambient_density,
+            ambient_pressure,
+            cfl,
+            max_courant,
+            max_growth,
+            fixed_step,
+            elastic_cfl,
+            wave_speed,
+            solid_threshold,
+            mass_floor,
+            tolerance,
+            extra_capacity,
+            max_iterations,
+            probes,
+            crowd,
+            history,
+            bodies,
+            max_substeps,
+            groups,
+            side,
+            inlet_flow,
+            inlet_energy,
+            scan,
+        ]
+    );
+}
+
+#[test]
+fn control() {
+    same_layout!(
+        "time_step.wgsl",
+        "Control",
+        Control,
+        [
+            dt,
+            dt_previous,
+            remaining,
+            phase,
+            substeps,
+            substep,
+            step,
+            fault,
+            limited,
+            limited_before,
+            floored,
+            clamped,
+            escaped,
+            extra,
+            iterations,
+            residual,
+        ]
+    );
+}
+
+#[test]
+fn material() {
+    same_layout!(
+        "g2p.wgsl",
+        "MaterialParams",
+        MaterialParams,
+        [mu, lambda, yield_stress, density, kind, ghost_modulus, pad0, pad1,]
+    );
+}
+
+#[test]
+fn conjugate_gradients() {
+    same_layout!(
+        "linear_algebra.wgsl",
+        "Pcg",
+        PcgControl,
+        [
+            rho,
+            alpha,
+            beta,
+            reference,
+            tolerance,
+            iterations,
+            max_iterations,
+            outcome,
+            length,
+            groups_wide,
+            groups_high,
+            groups_partial,
+        ]
+    );
+}

@@ -1,0 +1,302 @@
+//! A simulation on the device and its CPU twin: same start, same steps, compared field by field.
+
+use brisance::gpu::{Buffer, Gpu, readback};
+use brisance::scene::{Boundary, Film, InterfacePressure, Pair, Power, Scene};
+use brisance::simulation::Simulation;
+use glam::{DMat3, DVec3};
+
+use crate::common::Random;
+use crate::reference::grid::Grid;
+use crate::reference::material::Material;
+use crate::reference::step::{Report, Trace, traced_step};
+use crate::reference::time_step::time_step;
+use crate::reference::{self as twin, GAS, Particle, Problem, SOLID, Shared, Side, State};
+
+/// The fixed parts of a scene for the twin.
+fn problem_of(scene: &Scene) -> Problem {
+    let axes = scene.domain.axes();
+    let cells: Vec<i32> = scene.domain.cells[..axes].iter().map(|n| *n as i32).collect();
+    let grid = Grid::new(&cells, scene.domain.origin, scene.domain.spacing());
+    let sides = scene.boundary.sides().map(|side| match side {
+        Boundary::Wall => Side::Wall,
+        Boundary::Inlet(state) => {
+            Side::Inlet { density: state.density, velocity: state.velocity, pressure: state.pressure }
+        }
+        Boundary::Outlet => Side::Outlet,
+    });
+    let mut problem = Problem::new(grid, sides);
+    for (c, wall) in problem.grid.interior().into_iter().zip(scene.obstacle_cells()) {
+        let slot = problem.grid.slot(c);
+        problem.obstacles[slot] = wall;
+    }
+    problem.gamma = scene.gas.gamma;
+    problem.gravity = scene.gravity;
+    problem.ambient = (scene.gas.ambient.density, scene.gas.ambient.pressure);
+    let material =
+        |m: &brisance::scene::Material| Material { mu: m.mu(), lambda: m.lambda(), yield_stress: m.yield_stress() };
+    problem.materials = scene.materials.values().map(material).collect();
+    problem.numerics.pair = match scene.numerics.pair {
+        Pair::B2b1 => twin::Pair::B2b1,
+        Pair::B1b0 => twin::Pair::B1b0,
+    };
+    problem.numerics.shared = match scene.numerics.interface {
+        InterfacePressure::Resolved => Shared::Resolved,
+        InterfacePressure::H => Shared::H,
+        InterfacePressure::Single => Shared::Single,
+    };
+    problem.numerics.tolerance = 1e-9;
+    problem.numerics.film_nearest = scene.numerics.film == Film::Nearest;
+    problem.numerics.power_midpoint = scene.numerics.power == Power::Midpoint;
+    problem.numerics.blending = scene.numerics.blending;
+    problem.numerics.predictor = scene.numerics.predictor;
+    problem
+}
+
+/// A simulation and its twin.
+pub(crate) struct Twins {
+    gpu: Gpu,
+    simulation: Simulation,
+    problem: Problem,
+    state: State,
+    /// What differs more than rounding explains.
+    failures: Vec<String>,
+}
+
+fn fetch<T: bytemuck::Pod>(gpu: &Gpu, buffer: &Buffer<T>) -> Vec<T> {
+    readback::read(gpu, buffer).unwrap()
+}
+
+impl Twins {
+    /// Both in the same state: the scene's, with random gas and velocity gradients of a relative size, in numbers that f32 holds.
+    pub(crate) fn new(gpu: Gpu, text: &str, overrides: &[&str], noise: f32) -> Twins {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let scene = Scene::parse(text, "kernels.toml", &overrides).unwrap_or_else(|error| panic!("{error}"));
+        let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+        simulation.set_target(1e3).unwrap();
+        let problem = problem_of(&scene);
+        let mut flow = fetch(&gpu, &simulation.state.gas.conserved);
+        let mut energy = fetch(&gpu, &simulation.state.gas.energy);
+        let cells = fetch(&gpu, &simulation.state.interface.cells);
+        let mut random = Random(11);
+        for c in problem.grid.interior() {
+            let slot = problem.grid.slot(c);
+            if cells[slot] & 3 == GAS {
+                let mut next = |low: f32, high: f32| random.between(low, high) * noise;
+                let density = flow[slot][0] * (1.0 + next(-0.5, 0.5));
+                let pressure = 0.4 * energy[slot] * (1.0 + next(-0.5, 0.5));
+                let mut velocity = [0.0; 3];
+                velocity[..problem.grid.dimension].iter_mut().for_each(|v| *v = next(-0.4, 0.4));
+                let kinetic = 0.5 * density * velocity.iter().map(|v| v * v).sum::<f32>();
+                flow[slot] = [density, density * velocity[0], density * velocity[1], density * velocity[2]];
+                energy[slot] = pressure / 0.4 + kinetic;
+            }
+        }
+        simulation.state.gas.conserved.write(&gpu, 0, &flow);
+        simulation.state.gas.energy.write(&gpu, 0, &energy);
+        let mut affine = fetch(&gpu, &simulation.state.particles.affine);
+        for column in affine.chunks_exact_mut(3).flat_map(|columns| &mut columns[..problem.grid.dimension]) {
+            column[..problem.grid.dimension].iter_mut().for_each(|rate| *rate = noise * random.between(-6.0, 6.0));
+        }
+        simulation.state.particles.affine.write(&gpu, 0, &affine);
+        let particles = particles(&gpu, &simulation);
+        let mut state = State::new(&problem, |_| (1.0, [0.0; 3], 1.0), particles);
+        for c in problem.grid.interior() {
+            let slot = problem.grid.slot(c);
+            assert_eq!(cells[slot] & 3, state.cells[slot], "kind of {c:?} at the start");
+            if state.cells[slot] == GAS {
+                state.gas.set(slot, conserved(&flow, &energy, slot));
+            }
+        }
+        twin::gas_advection::fill_ghosts(&problem, &state.cells.clone(), &mut state.gas);
+        Twins { gpu, simulation, problem, state, failures: Vec::new() }
+    }
+
+    /// One step of both; the twin takes the device's dt, which must follow the twin's rule unless the scene fixes it.
+    pub(crate) fn step(&mut self) -> (Report, Trace) {
+        let mut records = Vec::new();
+        while records.is_empty() {
+            self.simulation.advance_timed(&mut records).unwrap_or_else(|error| panic!("{error}"));
+        }
+        let dt = f64::from(records[0].dt);
+        if self.simulation.state.params.fixed_step == 0.0 {
+            let rule = time_step(&self.problem, &self.state);
+            self.check("dt", 2e-5, &[dt], &[rule]);
+            self.state.previous_dt = dt;
+        }
+        let (report, trace) = traced_step(&self.problem, &mut self.state, dt);
+        assert!(report.converged);
+        assert_eq!(report.substeps, (records[0].substeps as usize).max(1), "elastic sub-steps");
+        eprintln!(
+            "step {}: dt {dt:.3e}, iterations {} (twin {}), limited {} ({}), floored {} ({}), extra {}",
+            records[0].step,
+            records[0].iterations,
+            report.iterations,
+            records[0].limited,
+            report.limited,
+            records[0].floored,
+            report.floored,
+            records[0].extra,
+        );
+        (report, trace)
+    }
+
+    /// Notes the largest difference relative to the largest value.
+    fn check(&mut self, name: &str, tolerance: f64, found: &[f64], expected: &[f64]) {
+        self.check_scaled(name, tolerance, 0.0, found, expected);
+    }
+
+    /// The same with a least scale, for fields that may vanish.
+    fn check_scaled(&mut self, name: &str, tolerance: f64, least: f64, found: &[f64], expected: &[f64]) {
+        assert_eq!(found.len(), expected.len(), "{name}");
+        let scale = expected.iter().map(|value| value.abs()).fold(least, f64::max);
+        let (mut worst, mut at) = (0.0, 0);
+        for (index, (a, b)) in found.iter().zip(expected).enumerate() {
+            let difference = if (a - b).is_nan() { f64::INFINITY } else { (a - b).abs() };
+            if difference > worst {
+                (worst, at) = (difference, index);
+            }
+        }
+        if worst > 0.0 {
+            eprintln!("  {name:16} {:.1e} of {scale:.2e} ({} values)", worst / scale, found.len());
+        }
+        if worst > tolerance * scale {
+            let step = self.simulation.step_count();
+            let (a, b) = (found[at], expected[at]);
+            self.failures.push(format!("step {step}, {name}[{at}]: device {a}, twin {b}, scale {scale:.3e}"));
+        }
+    }
+
+    /// Interior slots of a kind, and a check that both agree on the kinds.
+    fn slots(&mut self, kind: u32) -> Vec<usize> {
+        let cells = fetch(&self.gpu, &self.simulation.state.interface.cells);
+        let interior = self.problem.grid.interior();
+        let slots: Vec<usize> = interior.into_iter().map(|c| self.problem.grid.slot(c)).collect();
+        let differ = slots.iter().filter(|slot| cells[**slot] & 3 != self.state.cells[**slot]).count();
+        if differ > 0 {
+            self.failures.push(format!("kinds of {differ} cells"));
+        }
+        slots.into_iter().filter(|slot| self.state.cells[*slot] == kind).collect()
+    }
+
+    /// Density, momentum, energy of gas cells, and what cells owe.
+    pub(crate) fn compare_gas(&mut self, tolerance: f64) {
+        let flow = fetch(&self.gpu, &self.simulation.state.gas.conserved);
+        let energy = fetch(&self.gpu, &self.simulation.state.gas.energy);
+        let owed = fetch(&self.gpu, &self.simulation.state.gas.owed_flow);
+        let owed_energy = fetch(&self.gpu, &self.simulation.state.gas.owed_energy);
+        let slots = self.slots(GAS);
+        let names = ["density", "momentum x", "momentum y", "momentum z", "energy"];
+        for (k, name) in names.into_iter().enumerate() {
+            let found: Vec<f64> = slots.iter().map(|slot| conserved(&flow, &energy, *slot)[k]).collect();
+            let expected: Vec<f64> = slots.iter().map(|slot| self.state.gas.get(*slot)[k]).collect();
+            self.check_scaled(name, tolerance, if (1..4).contains(&k) { 0.5 } else { 0.0 }, &found, &expected);
+        }
+        let volume = self.problem.grid.volume();
+        let covered = self.slots(SOLID);
+        for (k, name) in names.into_iter().enumerate() {
+            let held = |slot: &usize| conserved(&flow, &energy, *slot)[k];
+            let debt = |slot: &usize| conserved(&owed, &owed_energy, *slot)[k] / volume;
+            let found: Vec<f64> = covered.iter().map(held).chain(slots.iter().map(debt)).collect();
+            let twin = |slot: &usize| self.state.ledger[*slot][k] / volume;
+            let expected: Vec<f64> = covered.iter().chain(&slots).map(twin).collect();
+            self.check_scaled(&format!("owed {name}"), tolerance, 1.0, &found, &expected);
+        }
+    }
+
+    /// Every pressure unknown that is in use.
+    pub(crate) fn compare_pressure(&mut self, trace: &Trace, tolerance: f64) {
+        let solved = fetch(&self.gpu, &self.simulation.state.pressure);
+        let extra = fetch(&self.gpu, &self.simulation.state.interface.extra);
+        let solids = self.simulation.state.has_solids();
+        let grid = self.problem.grid.clone();
+        let capacity = self.simulation.state.params.extra_capacity as usize;
+        let mut pairs: [Vec<(f64, f64)>; 3] = Default::default();
+        for vertex in grid.vertices() {
+            let slot = grid.slot(vertex);
+            let touches = |kind| twin::interface::touches(&self.problem, &self.state.cells, vertex, kind);
+            let (gas, solid) = (touches(GAS), touches(SOLID));
+            let place = if solids && extra[slot] != u32::MAX { Some(extra[slot] as usize) } else { None };
+            assert_eq!(place.is_some(), gas && solid && !trace.shared[slot], "separate pressures at {vertex:?}");
+            let at = [
+                gas.then_some(slot),
+                place.map(|k| grid.slots() + k),
+                solid.then_some(place.map_or(slot, |k| grid.slots() + capacity + k)),
+            ];
+            for (field, at) in at.into_iter().enumerate() {
+                pairs[field].extend(at.map(|at| (f64::from(solved[at]), trace.solution.pressure[field][slot])));
+            }
+        }
+        for (name, pairs) in ["P", "h", "Q"].into_iter().zip(pairs) {
+            let (found, expected): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
+            self.check(name, tolerance, &found, &expected);
+        }
+    }
+
+    /// Nodes after the last sub-step, particles at the end.
+    pub(crate) fn compare_solid(&mut self, trace: &Trace, tolerance: f64) {
+        let node = fetch(&self.gpu, &self.simulation.state.particles.node);
+        let full = trace.nodes.mass.iter().copied().fold(0.0, f64::max);
+        let heavy: Vec<usize> = (0..node.len()).filter(|slot| trace.nodes.mass[*slot] > 1e-3 * full).collect();
+        let mass = |slot: &usize| f64::from(node[*slot][3]);
+        self.check(
+            "node mass",
+            tolerance,
+            &heavy.iter().map(mass).collect::<Vec<_>>(),
+            &heavy.iter().map(|slot| trace.nodes.mass[*slot]).collect::<Vec<_>>(),
+        );
+        let speed = |slot: &usize| [0, 1, 2].map(|d| f64::from(node[*slot][d]));
+        self.check(
+            "node velocity",
+            10.0 * tolerance,
+            &heavy.iter().flat_map(speed).collect::<Vec<_>>(),
+            &heavy.iter().flat_map(|slot| trace.nodes.velocity[*slot]).collect::<Vec<_>>(),
+        );
+        let found = particles(&self.gpu, &self.simulation);
+        let expected = self.state.particles.clone();
+        let cell = self.problem.grid.spacing;
+        let fields: [(&str, f64, fn(&Particle) -> Vec<f64>); 6] = [
+            ("position", cell, |p| p.position.to_array().to_vec()),
+            ("velocity", 0.0, |p| p.velocity.to_array().to_vec()),
+            ("affine", 1.0, |p| p.affine.to_cols_array().to_vec()),
+            ("F - 1", 0.1, |p| (p.deformation - DMat3::IDENTITY).to_cols_array().to_vec()),
+            ("ghost pressure", 0.0, |p| vec![p.ghost_pressure]),
+            ("plastic strain", 1e-3, |p| vec![p.plastic_strain]),
+        ];
+        for (name, least, field) in fields {
+            let values = |all: &[Particle]| all.iter().flat_map(field).collect::<Vec<f64>>();
+            self.check_scaled(name, 10.0 * tolerance, least, &values(&found), &values(&expected));
+        }
+    }
+
+    /// Fails the test if anything differed.
+    pub(crate) fn finish(self) {
+        assert!(self.failures.is_empty(), "{}", self.failures.join("\n"));
+    }
+}
+
+fn conserved(flow: &[[f32; 4]], energy: &[f32], slot: usize) -> [f64; 5] {
+    let u = flow[slot].map(f64::from);
+    [u[0], u[1], u[2], u[3], f64::from(energy[slot])]
+}
+
+/// The device's particles for the twin.
+fn particles(gpu: &Gpu, simulation: &Simulation) -> Vec<Particle> {
+    let all = &simulation.state.particles;
+    let (position, velocity) = (fetch(gpu, &all.position), fetch(gpu, &all.velocity));
+    let (affine, deformation) = (fetch(gpu, &all.affine), fetch(gpu, &all.deformation));
+    let xyz = |v: [f32; 4]| DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]));
+    let matrix = |columns: &[[f32; 4]]| DMat3::from_cols(xyz(columns[0]), xyz(columns[1]), xyz(columns[2]));
+    let particle = |p: usize| Particle {
+        position: xyz(position[p]),
+        velocity: xyz(velocity[p]),
+        affine: matrix(&affine[3 * p..]),
+        deformation: matrix(&deformation[3 * p..]),
+        mass: f64::from(position[p][3]),
+        volume0: f64::from(velocity[p][3]),
+        ghost_pressure: f64::from(affine[3 * p][3]),
+        plastic_strain: f64::from(affine[3 * p + 1][3]),
+        material: affine[3 * p + 2][3].to_bits() as usize,
+        active: deformation[3 * p + 1][3] > 0.0,
+    };
+    (0..all.count as usize).map(particle).collect()
+}
