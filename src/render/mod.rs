@@ -44,7 +44,7 @@ const BODY_COLORS: [[u8; 3]; 8] = [
 ];
 
 /// Optical depth of a layer as thick as a shock (three cells) with the steepest gradient.
-const SHOCK_OPTICAL_DEPTH: f32 = 2.5;
+const SHOCK_OPTICAL_DEPTH: f32 = 0.9;
 
 /// Optical depth of the whole domain filled with the most unusual value.
 const DOMAIN_OPTICAL_DEPTH: f32 = 14.0;
