@@ -43,10 +43,10 @@ fn mass_share(node: i32) -> f32 { return mean_entry(QUADRATIC, node, false) + me
 @compute @workgroup_size(WORKGROUP)
 fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
-    if slot >= params.slots { return; }
+    let slot = listed_slot(thread_index(group, groups, lane));
+    if slot >= params.slots || (!LISTED && !has(cells[slot], INTERIOR)) { return; }
     var mass = 0.0;
-    if has(cells[slot], NODE_INTERIOR) { mass = interior_mass(slot); }
+    if !LISTED { mass = interior_mass(slot); }
     else if has(cells[slot], NODE_GAS) {
         let c = cell_of(slot);
         for (var k = 0u; k < block_size(); k++) {
@@ -98,9 +98,15 @@ fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
 @compute @workgroup_size(WORKGROUP)
 fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                     @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
+    if !LISTED {
+        if !has(word, INTERIOR) { return; }
+        let gas = work[slot];
+        work[slot] = vec4f(velocity_of(conserved[slot]) - control.dt * gas.xyz, gas.w);
+        return;
+    }
     if has(word, NODE_GAS) {
         let gas = work[slot];
         work[slot] = vec4f(gas_node_velocity(cell_of(slot), slot) - control.dt * gas.xyz, gas.w);

@@ -15,9 +15,9 @@ pub struct CoupledSolve {
     /// The iteration.
     pub pcg: Pcg,
     predictor: Option<Bound>,
-    masses: Bound,
+    masses: [Bound; 2],
     forces_of_pressure: [Bound; 2],
-    velocities: Bound,
+    velocities: [Bound; 2],
     residual: [Bound; 2],
     diagonal: [Bound; 2],
     reference: Bound,
@@ -36,7 +36,7 @@ impl CoupledSolve {
         let Parts { gpu, state } = parts;
         let limits = (state.params.tolerance, state.params.max_iterations);
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), state.params.groups, limits)?;
-        let setup = |entry: &str| state.bind(gpu, "solve_setup.wgsl", entry, &[], &[]);
+        let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
         let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
         let direction = [("x", state.pcg.direction.raw()), ("y", state.pcg.product.raw())];
         let optional = |shader: &str, entry: &str| -> Result<Option<Bound>> {
@@ -48,7 +48,7 @@ impl CoupledSolve {
             masses: setup("solve_masses")?,
             forces_of_pressure: forces(state.pressure.raw())?,
             velocities: setup("solve_velocities")?,
-            residual: parts.both("solve_setup.wgsl", "solve_residual", &[], &[])?,
+            residual: setup("solve_residual")?,
             diagonal: parts.both("solve_diagonal.wgsl", "solve_diagonal", &[], &[])?,
             reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
@@ -66,11 +66,9 @@ impl CoupledSolve {
         if let Some(predictor) = &self.predictor {
             pass.dispatch(predictor, &slots(state, "BEGIN"));
         }
-        pass.dispatch(&self.masses, &slots(state, "BEGIN"));
-        record_both(pass, state, "BEGIN", &self.forces_of_pressure);
-        pass.dispatch(&self.velocities, &slots(state, "BEGIN"));
-        record_both(pass, state, "BEGIN", &self.residual);
-        record_both(pass, state, "BEGIN", &self.diagonal);
+        for kernels in [&self.masses, &self.forces_of_pressure, &self.velocities, &self.residual, &self.diagonal] {
+            record_both(pass, state, "BEGIN", kernels);
+        }
         pass.dispatch(&self.reference, &extent(state, "BEGIN", Entry::Reduce));
         self.pcg.begin(pass, &extent(state, "BEGIN", Entry::Reduce), &extent(state, "BEGIN", Entry::Single));
     }

@@ -60,8 +60,10 @@ impl MemoryPlan {
         plan.add("particles", &[("position", count, 16), ("velocity", count, 16), ("affine", 3 * count, 16)]);
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);
         plan.add("nodes", &[("node", solid, 16), ("cell_start", solid + 1, 4)]);
+        let scan = Scan::planned_bytes(slots as u32 + 1);
+        plan.add("interface", &[("list scan", scan, 1)]);
         if particles > 0 {
-            plan.add("nodes", &[("scans", 2 * Scan::planned_bytes(slots as u32 + 1), 1)]);
+            plan.add("nodes", &[("scans", 2 * scan, 1)]);
         }
         plan.add_fixed(scene.probes.len() as u64);
         plan
@@ -76,7 +78,7 @@ impl MemoryPlan {
         self.add("fixed", &[("partials", 9 * u64::from(constants::PARTIALS) + 1, 16)]);
         self.add("fixed", &[("history", history * u64::from(constants::HISTORY_WIDTH), 16)]);
         self.add("fixed", &[("probe_cells", probes, 4), ("probe_history", 2 * history * probes, 16)]);
-        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 12, 4)]);
+        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 16, 4)]);
     }
 
     /// Adds buffers: label, elements, bytes of an element. An empty buffer takes the room of one element.

@@ -102,7 +102,7 @@ fn schema_is_json() {
 #[test]
 fn check_prints_what_a_run_would_use() {
     let text = succeeds(&["check", "bursting_shell_3d"]);
-    assert!(text.contains("# cells      48 x 48 x 48 = 110592"), "{text}");
+    assert!(text.contains("# cells      32 x 32 x 32 = 32768"), "{text}");
     assert!(text.contains("bytes per cell") && text.contains("solid_threshold = 0.5"), "{text}");
     // What is printed is a scene again, and the same one.
     let folder = tempfile::tempdir().unwrap();

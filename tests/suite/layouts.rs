@@ -96,6 +96,7 @@ fn control() {
             extra,
             iterations,
             residual,
+            listed,
         ]
     );
 }
@@ -126,6 +127,8 @@ fn conjugate_gradients() {
             max_iterations,
             outcome,
             length,
+            listed_wide,
+            listed_high,
             groups_wide,
             groups_high,
             groups_partial,
