@@ -23,16 +23,20 @@ fn p2g_gather(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     let c = cell_of(slot);
     var momentum = vec4f(0.0);
     var force = vec3f(0.0);
-    for (var k = 0u; k < block_size(); k++) {
-        let offset = block_offset(k);
-        if !inside(c + offset) { continue; }
-        let source = slot_of(c + offset);
-        let end = cell_start[source + 1u];
-        for (var i = cell_start[source]; i < end; i++) {
-            let p = order[i];
-            let share = share_of(p, spline_at(position[p].xyz), -offset);
-            momentum += share.momentum;
-            force += share.force;
+    // Three neighbours along x lie side by side in `order`; the ring around the grid holds no particles.
+    for (var z = -reach().z; z <= reach().z; z++) {
+        for (var y = -reach().y; y <= reach().y; y++) {
+            let row = c + vec3i(0, y, z);
+            if any(row.yz < vec2i(0)) || any(row.yz >= vec2i(params.cells.yz)) { continue; }
+            let middle = u32(i32(slot) + i32(params.stride.x) * (y + i32(params.stride.y) * z));
+            let end = cell_start[min(middle + 2u, params.slots)];
+            for (var i = cell_start[max(middle, 1u) - 1u]; i < end; i++) {
+                let p = order[i];
+                let s = spline_at(position[p].xyz);
+                let share = share_of(p, s, c - s.base);
+                momentum += share.momentum;
+                force += share.force;
+            }
         }
     }
     if WITH_MASS {
