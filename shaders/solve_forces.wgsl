@@ -55,33 +55,38 @@ fn interior_force(slot: u32) -> vec3f {
     return vec3f(mean2(low.y, high.y), mean2(low.z, high.z), high.x - low.x);
 }
 
+// One element's force on one of its nodes: a product of one-dimensional entries. A closed face adds 1/2 to the slope of its
+// vertices; where h is an unknown of its own, the face carries h instead of the element's pressure.
 fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid: bool) {
     let quadratic = solid || QUADRATIC;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        if !coupled(quadratic, node_offset, corner) { continue; }
-        let v = slot_of(e + corner);
-        var at = v;
-        if solid { at = ghost_index(v); }
-        *force += x[at] * element_entry(quadratic, node_offset, corner);
-    }
+    var slope = mat2x3f();      // [high corner][axis]
+    var face = mat2x3f();       // of faces between gas and solid
+    var mean = mat2x3f(vec3f(1.0), vec3f(1.0));
     for (var n = 0u; n < DIM; n++) {
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
+            slope[side][n] = gradient_entry(quadratic, node_offset[n], up);
+            mean[side][n] = mean_entry(quadratic, node_offset[n], up);
             if !face_holds(node_offset, n, up) { continue; }
             let beyond = neighbour_kind(e, n, up);
-            let through_body = select(beyond == SOLID, beyond == GAS, solid);
+            let body = select(beyond == SOLID, beyond == GAS, solid);
             let bare = !solid && (beyond == WALL || beyond == GHOST);
-            if !through_body && !bare { continue; }
-            for (var k = 0u; k < corner_count(); k++) {
-                let corner = corner_offset(k);
-                if (corner[n] == 1) != up { continue; }
-                let v = slot_of(e + corner);
-                var at = v;
-                if through_body { at = interface_index(v); }
-                (*force)[n] += select(-1.0, 1.0, up) * x[at] * face_entry(quadratic, n, node_offset, corner);
-            }
+            let share = select(0.0, select(-0.5, 0.5, up), body || bare);
+            slope[side][n] += share;
+            if body { face[side][n] = share; }
         }
+    }
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        let v = slot_of(e + corner);
+        var at = v;
+        if solid { at = ghost_index(v); }
+        let m = vec3f(mean[corner.x].x, mean[corner.y].y, mean[corner.z].z);
+        let across = vec3f(m.y * m.z, m.x * m.z, m.x * m.y);
+        let value = x[at];
+        *force += value * across * vec3f(slope[corner.x].x, slope[corner.y].y, slope[corner.z].z);
+        let h = interface_index(v);
+        if h != v { *force += (x[h] - value) * across * vec3f(face[corner.x].x, face[corner.y].y, face[corner.z].z); }
     }
 }
 

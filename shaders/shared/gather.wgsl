@@ -60,26 +60,43 @@ fn interior_rows(slot: u32) -> f32 {
     return 0.5 * (low.x + high.x + low.y + high.y) + low.z - high.z;
 }
 
+// The transpose of add_element: one element's nodes as one of its vertices sees them.
 fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3i, solid: bool) {
     let quadratic = solid || QUADRATIC;
     let base = select(0u, params.slots, solid);
-    var r: Rows;
-    var body = 0.0;
+    let apart = interface_index(slot) != slot;
+    var closed = vec3f(0.0);    // +-1/2 where the face on this corner's side acts on the element's own pressure
+    var shared_face = vec3f(0.0);   // the same where it acts on h
+    for (var n = 0u; n < DIM; n++) {
+        let up = corner[n] == 1;
+        let beyond = neighbour_kind(e, n, up);
+        let share = select(-0.5, 0.5, up);
+        let body = select(beyond == SOLID, beyond == GAS, solid);
+        if body && apart { shared_face[n] = share; }
+        else if body || (!solid && (beyond == WALL || beyond == GHOST)) { closed[n] = share; }
+    }
+    var own = 0.0;
+    var h = 0.0;
     let count = select(corner_count(), block_size(), quadratic);
     for (var k = 0u; k < count; k++) {
         let node_offset = select(corner + corner_offset(k) - reach(), block_offset(k), quadratic);
         let velocity = work[base + slot_of(e + node_offset)].xyz;
-        body += dot(velocity, element_entry(quadratic, node_offset, corner));
+        var mean = vec3f(1.0);
+        var slope = vec3f(0.0);
+        var holds = vec3f(0.0);
         for (var n = 0u; n < DIM; n++) {
             let up = corner[n] == 1;
-            if !face_holds(node_offset, n, up) { continue; }
-            let beyond = neighbour_kind(e, n, up);
-            let flow = select(-1.0, 1.0, up) * velocity[n] * face_entry(quadratic, n, node_offset, corner);
-            if select(beyond == SOLID, beyond == GAS, solid) { r.h += flow; }
-            else if !solid && (beyond == WALL || beyond == GHOST) { body += flow; }
+            mean[n] = mean_entry(quadratic, node_offset[n], up);
+            slope[n] = gradient_entry(quadratic, node_offset[n], up);
+            holds[n] = f32(face_holds(node_offset, n, up));
         }
+        let across = velocity * vec3f(mean.y * mean.z, mean.x * mean.z, mean.x * mean.y);
+        own += dot(across, slope + closed * holds);
+        h += dot(across, shared_face * holds);
     }
-    if solid { r.q = body; } else { r.own = body; }
+    var r: Rows;
+    r.h = h;
+    if solid { r.q = own; } else { r.own = own; }
     add_rows(rows, slot, r);
 }
 
