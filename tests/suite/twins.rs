@@ -5,6 +5,9 @@ use brisance::scene::{Boundary, Film, InterfacePressure, Pair, Power, Scene};
 use brisance::simulation::Simulation;
 use glam::{DMat3, DVec3};
 
+/// Numbers of a particle that are compared.
+type Components = fn(&Particle) -> Vec<f64>;
+
 use crate::common::Random;
 use crate::reference::grid::Grid;
 use crate::reference::material::Material;
@@ -254,7 +257,7 @@ impl Twins {
         let found = particles(&self.gpu, &self.simulation);
         let expected = self.state.particles.clone();
         let cell = self.problem.grid.spacing;
-        let fields: [(&str, f64, fn(&Particle) -> Vec<f64>); 6] = [
+        let fields: [(&str, f64, Components); 6] = [
             ("position", cell, |p| p.position.to_array().to_vec()),
             ("velocity", 0.0, |p| p.velocity.to_array().to_vec()),
             ("affine", 1.0, |p| p.affine.to_cols_array().to_vec()),
