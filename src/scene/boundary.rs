@@ -12,7 +12,7 @@ pub enum Boundary {
     /// Slip wall: nothing passes, nothing sticks.
     #[default]
     Wall,
-    /// Gas of a fixed state flows in; solids meet a slip wall.
+    /// Gas of a fixed state flows in; solids may leave through it.
     Inlet(GasState),
     /// Gas leaves freely; so do solids.
     Outlet,
