@@ -9,7 +9,7 @@
 @group(0) @binding(3) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // 1 where a vertex wants P, h, Q apart
 @group(0) @binding(5) var<storage, read> place: array<u32>;         // scan of wanted
-@group(0) @binding(6) var<storage, read_write> extra: array<u32>;   // place in the extra block, or NO_EXTRA; then the list
+@group(0) @binding(6) var<storage, read_write> extra: array<atomic<u32>>;   // place in the extra block, or NO_EXTRA; then the lists
 @group(0) @binding(7) var<storage, read_write> control: Control;
 @group(0) @binding(8) var<storage, read_write> edge: array<u32>;    // 1 where a slot is not INTERIOR
 @group(0) @binding(9) var<storage, read> edge_place: array<u32>;    // scan of edge
@@ -56,6 +56,7 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
+    if slot == 0u { atomicStore(&extra[2u * params.slots + 1u], 0u); }
     var flags = 0u;
     var around = 0u;
     var gas = 0u;
@@ -73,17 +74,6 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if gas == block_size() { flags |= NODE_INTERIOR; }
     if solid > 0u { flags |= NODE_SOLID; }
     if is_vertex(c) { flags |= vertex_flags(c, slot); }
-    if inside(c) {
-        var open = true;
-        for (var a = 0u; a < DIM; a++) {
-            for (var d = -2; d <= 2; d++) {
-                let near = c + d * axis(a);
-                open = open && inside(near) && kind_near(near) == GAS;
-            }
-        }
-        if open && has(flags, NODE_INTERIOR) && has(flags, VERTEX_INTERIOR) { flags |= INTERIOR; }
-    }
-    edge[slot] = u32(!has(flags, INTERIOR));
     cells[slot] = (cells[slot] & 0xffff000fu) | flags;
 }
 
@@ -102,7 +92,6 @@ fn vertex_flags(v: vec3i, slot: u32) -> u32 {
     var flags = 0u;
     if gas > 0u { flags |= VERTEX_GAS; }
     if gas > 0u && gas == around { flags |= VERTEX_REGULAR; }
-    if gas == corner_count() { flags |= VERTEX_INTERIOR; }
     if solid > 0u { flags |= VERTEX_SOLID; }
     if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }
     return flags;
@@ -125,14 +114,45 @@ fn shares_pressure(v: vec3i) -> bool {
     return volume >= 2.0 * pow(4.0, f32(DIM) - 2.0) * cell_volume();
 }
 
-// After the scan of `edge`: the list of all slots that are not INTERIOR, and its length.
+// INTERIOR: every stencil of cell, node and vertex stays deep inside the gas. The nodes of the vertex have only gas around them,
+// so do the next ones up: gas in the 4^DIM cells around the vertex and two cells along each axis.
+@compute @workgroup_size(WORKGROUP)
+fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let c = cell_of(slot);
+    var interior = inside(c);
+    if interior {
+        for (var k = 0u; k < corner_count(); k++) {
+            interior = interior && has(cells[slot_of(c - corner_offset(k))], NODE_INTERIOR);
+        }
+        for (var a = 0u; a < DIM; a++) { interior = interior && has(cells[slot_of(c + axis(a))], NODE_INTERIOR); }
+    }
+    edge[slot] = u32(!interior);
+}
+
+// INTERIOR slots whose node a listed vertex rests on, B1B0: the vertices of a node lie at its own slot and above.
+fn on_frontier(slot: u32) -> bool {
+    for (var k = 1u; k < corner_count(); k++) {
+        let o = vec3u(corner_offset(k));
+        if edge[slot + o.x + params.stride.x * (o.y + params.stride.y * o.z)] == 1u { return true; }
+    }
+    return false;
+}
+
+// After the scan of `edge`: the mark and the list of all slots that are not INTERIOR, the frontier in any order, and their lengths.
 @compute @workgroup_size(WORKGROUP)
 fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
-    if edge[slot] == 1u { extra[params.slots + edge_place[slot]] = slot; }
-    if slot == params.slots - 1u { extra[2u * params.slots] = edge_place[slot] + edge[slot]; }
+    if edge[slot] == 0u { cells[slot] |= INTERIOR; } else { atomicStore(&extra[params.slots + edge_place[slot]], slot); }
+    if edge[slot] == 0u && !QUADRATIC && on_frontier(slot) {
+        let at = atomicAdd(&extra[2u * params.slots + 1u], 1u);
+        atomicStore(&extra[2u * params.slots - 1u - at], slot);
+    }
+    if slot == params.slots - 1u { atomicStore(&extra[2u * params.slots], edge_place[slot] + edge[slot]); }
 }
 
 // After the scan of `wanted`.
@@ -147,6 +167,6 @@ fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         atomicMin(&control.fault, (STAGE_INTERFACE << 27u) | slot);
         at = NO_EXTRA;
     }
-    extra[slot] = at;
+    atomicStore(&extra[slot], at);
     if slot == params.slots - 1u { control.extra = place[slot] + wanted[slot]; }
 }

@@ -15,6 +15,8 @@ struct Pcg {
     length: u32,            // unknowns
     listed_wide: u32,       // groups of kernels over a list that the caller keeps, x
     listed_high: u32,       // and y
+    frontier_wide: u32,     // the same of a second list
+    frontier_high: u32,
     groups_wide: u32,       // groups of the kernels with one thread per slot, x
     groups_high: u32,       // and y
     groups_partial: u32,    // groups of the kernels that leave partial sums
@@ -35,6 +37,7 @@ fn open_iteration(on: bool) {
     pcg_extents[PCG_PARTIAL] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
     pcg_extents[PCG_SINGLE] = vec4u(keep);
     pcg_extents[PCG_LISTED] = vec4u(pcg.listed_wide, pcg.listed_high, 1u, 0u) * keep;
+    pcg_extents[PCG_FRONTIER] = vec4u(pcg.frontier_wide, pcg.frontier_high, 1u, 0u) * keep;
 }
 
 fn total(lane: u32) -> vec4f {

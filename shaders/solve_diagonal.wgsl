@@ -60,17 +60,6 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         return;
     }
     let scale = control.dt * face_area() * control.dt * face_area();
-    if !LISTED && !QUADRATIC {
-        // Each of the 2^DIM nodes: DIM components of (1/2)^(DIM - 1).
-        var masses = 0.0;
-        for (var k = 0u; k < corner_count(); k++) {
-            let offset = vec3u(corner_offset(k));
-            masses += work[slot - offset.x - params.stride.x * (offset.y + params.stride.y * offset.z)].w;
-        }
-        let square = f32(DIM) / f32(1u << (2u * (DIM - 1u)));
-        inverse_diagonal[slot] = inverse(stiffness[slot] + scale * square * masses);
-        return;
-    }
     let v = cell_of(slot);
     let regular = has(word, VERTEX_REGULAR);
     let apart = interface_index(slot) != slot;

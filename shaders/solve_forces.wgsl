@@ -93,7 +93,7 @@ fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid:
 @compute @workgroup_size(WORKGROUP)
 fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+    let slot = frontier_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     let inverse_mass = work[slot].w;

@@ -18,6 +18,7 @@
 @group(0) @binding(5) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> residual: array<f32>;
+@group(0) @binding(8) var<storage, read_write> energy: array<f32>;  // last third: inverse masses of gas nodes, for the plain forms
 
 // Masses of a line, a layer and a block of cells as a node in their middle sees them.
 fn line_mass(at: u32) -> f32 {
@@ -56,7 +57,9 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
             if kind_of(cells[at]) == GAS { mass += conserved[at].x * mass_entry(QUADRATIC, -offset); }
         }
     }
-    work[slot] = vec4f(0.0, 0.0, 0.0, select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0));
+    let inverse = select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0);
+    work[slot] = vec4f(0.0, 0.0, 0.0, inverse);
+    energy[2u * params.slots + slot] = inverse;
 }
 
 // Velocity beyond an open side: what the inlet prescribes, or the last cell's.
@@ -98,7 +101,7 @@ fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
 @compute @workgroup_size(WORKGROUP)
 fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                     @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+    let slot = frontier_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     if !LISTED {

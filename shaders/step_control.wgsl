@@ -5,7 +5,7 @@
 #include "shared/extents.wgsl"
 
 struct PcgResult { rho: f32, alpha: f32, beta: f32, reference: f32, tolerance: f32, iterations: u32, max_iterations: u32, outcome: u32,
-    length: u32, listed_wide: u32, listed_high: u32 }
+    length: u32, listed_wide: u32, listed_high: u32, frontier_wide: u32, frontier_high: u32 }
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read_write> pcg: PcgResult;
@@ -13,23 +13,29 @@ struct PcgResult { rho: f32, alpha: f32, beta: f32, reference: f32, tolerance: f
 
 // Before the first step: lets the marks of the start run.
 @compute @workgroup_size(1)
-fn control_start() { open_phase(PHASE_BEGIN_EXTENTS, true, control.listed); }
+fn control_start() { open_phase(PHASE_BEGIN_EXTENTS, true); }
 
-// After the list of slots that are not INTERIOR: its length rules the LISTED dispatches.
+// After the lists of slots: their lengths rule the LISTED and FRONTIER dispatches.
 @compute @workgroup_size(1)
 fn control_listed() {
     control.listed = extra[2u * params.slots];
-    let groups = groups_for(control.listed);
-    pcg.listed_wide = groups.x;
-    pcg.listed_high = groups.y;
-    extents[PHASE_BEGIN_EXTENTS + EXTENT_LISTED] = groups * extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x;
+    control.frontier = extra[2u * params.slots + 1u];
+    let listed = groups_for(control.listed);
+    let frontier = groups_for(control.frontier);
+    pcg.listed_wide = listed.x;
+    pcg.listed_high = listed.y;
+    pcg.frontier_wide = frontier.x;
+    pcg.frontier_high = frontier.y;
+    let keep = extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x;
+    extents[PHASE_BEGIN_EXTENTS + EXTENT_LISTED] = listed * keep;
+    extents[PHASE_BEGIN_EXTENTS + EXTENT_FRONTIER] = frontier * keep;
 }
 
 // After an advection stage: did the limiter act?
 @compute @workgroup_size(1)
 fn control_limiter() {
     let now = atomicLoad(&control.limited);
-    open_phase(PHASE_LIMIT_EXTENTS, extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x > 0u && now > control.limited_before, control.listed);
+    open_phase(PHASE_LIMIT_EXTENTS, extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x > 0u && now > control.limited_before);
     control.limited_before = now;
 }
 
@@ -41,7 +47,7 @@ fn control_solved() {
         atomicMin(&control.fault, STAGE_COUPLED_SOLVE << 27u);
     }
     let done = solving && pcg.outcome == PCG_CONVERGED && atomicLoad(&control.fault) == NO_FAULT;
-    open_phase(PHASE_UPDATE_EXTENTS, done, control.listed);
+    open_phase(PHASE_UPDATE_EXTENTS, done);
     if !done { return; }
     control.iterations = pcg.iterations;
     control.residual = select(0.0, sqrt(max(pcg.rho, 0.0) / pcg.reference), pcg.reference > 0.0);
@@ -52,9 +58,9 @@ fn control_solved() {
 @compute @workgroup_size(1)
 fn control_substep() {
     let go = control.phase == PHASE_SUBSTEP && control.substep < control.substeps && atomicLoad(&control.fault) == NO_FAULT;
-    open_phase(PHASE_SUBSTEP_EXTENTS, go, control.listed);
-    open_phase(PHASE_AGAIN_EXTENTS, go && control.substep > 0u, control.listed);
-    open_phase(PHASE_FIRST_EXTENTS, go && control.substep == 0u, control.listed);
+    open_phase(PHASE_SUBSTEP_EXTENTS, go);
+    open_phase(PHASE_AGAIN_EXTENTS, go && control.substep > 0u);
+    open_phase(PHASE_FIRST_EXTENTS, go && control.substep == 0u);
     if go { control.substep += 1u; }
 }
 
@@ -62,7 +68,7 @@ fn control_substep() {
 @compute @workgroup_size(1)
 fn control_finish() {
     let done = control.phase == PHASE_SUBSTEP && control.substep == control.substeps && atomicLoad(&control.fault) == NO_FAULT;
-    open_phase(PHASE_END_EXTENTS, done, control.listed);
+    open_phase(PHASE_END_EXTENTS, done);
     if !done { return; }
     control.phase = PHASE_IDLE;
     control.step += 1u;

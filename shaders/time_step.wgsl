@@ -77,7 +77,7 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     let largest = workgroup_max4(lane, bound);
     if lane != 0u { return; }
     let start = control.phase == PHASE_IDLE && control.remaining > 0.0 && atomicLoad(&control.fault) == NO_FAULT;
-    open_phase(PHASE_BEGIN_EXTENTS, start, control.listed);
+    open_phase(PHASE_BEGIN_EXTENTS, start);
     if !start { return; }
     var dt = params.fixed_step;
     if dt == 0.0 {

@@ -2,7 +2,7 @@
 
 use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Pass, readback};
+use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::{ParticleSample, Snapshot};
 use crate::stage::{
@@ -165,13 +165,17 @@ impl Simulation {
         self.after_batch(records)
     }
 
-    /// Runs one recording with a stopwatch: as [`Simulation::advance_batch`] with the milliseconds of each stage, none if the
+    /// Runs one recording with a stopwatch: as [`Simulation::advance_batch`] with the milliseconds of each stage or kernel, none if the
     /// device has no timestamps.
     ///
     /// # Errors
     /// As [`Simulation::advance_to`].
-    pub fn advance_timed(&mut self, records: &mut Vec<StepRecord>) -> Result<(bool, Vec<(String, f64)>)> {
-        let mut pass = Pass::timed(&self.gpu, "steps");
+    pub fn advance_timed(
+        &mut self,
+        records: &mut Vec<StepRecord>,
+        detail: Detail,
+    ) -> Result<(bool, Vec<(String, f64)>)> {
+        let mut pass = Pass::timed(&self.gpu, "steps", detail);
         self.record_step(&mut pass);
         self.totals.record(&mut pass, &self.state);
         let times = pass.submit_timed()?;

@@ -18,6 +18,7 @@ struct Control {
     iterations: u32,            // of the last solve
     residual: f32,              // of the last solve, relative
     listed: u32,                // slots that are not INTERIOR
+    frontier: u32,              // INTERIOR slots whose nodes listed vertices rest on
 }
 
 // True for NaN and infinities; comparisons alone do not find a NaN on every driver.

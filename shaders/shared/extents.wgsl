@@ -8,13 +8,14 @@ fn groups_for(threads: u32) -> vec4u {
     return vec4u(x, (groups + MAX_GROUPS - 1u) / MAX_GROUPS, 1u, 0u);
 }
 
-// Switches the dispatches of one phase on or off.
-fn open_phase(first: u32, on: bool, listed: u32) {
+// Switches the dispatches of one phase on or off. Needs the binding control.
+fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
     extents[first + EXTENT_SLOTS] = groups_for(params.slots) * keep;
     extents[first + EXTENT_PARTICLES] = groups_for(params.particles) * keep;
     extents[first + EXTENT_REDUCE] = vec4u(params.groups, 1u, 1u, 0u) * keep;
-    extents[first + EXTENT_LISTED] = groups_for(listed) * keep;
+    extents[first + EXTENT_LISTED] = groups_for(control.listed) * keep;
+    extents[first + EXTENT_FRONTIER] = groups_for(control.frontier) * keep;
     extents[first + EXTENT_SINGLE] = vec4u(keep);
     for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
 }

@@ -38,28 +38,6 @@ fn regular_rows(slot: u32, v: vec3i) -> f32 {
     return sum;
 }
 
-// Node velocities of a line, a layer and a block below a vertex, each already differenced along its own axis.
-fn line_rows(at: u32) -> vec3f {
-    let high = work[at].xyz;
-    let low = work[at - 1u].xyz;
-    return vec3f(low.x - high.x, 0.5 * (low.yz + high.yz));
-}
-
-fn layer_rows(at: u32) -> vec3f {
-    let high = line_rows(at);
-    if DIM == 1u { return high; }
-    let low = line_rows(at - params.stride.x);
-    return vec3f(0.5 * (low.x + high.x), low.y - high.y, 0.5 * (low.z + high.z));
-}
-
-fn interior_rows(slot: u32) -> f32 {
-    let high = layer_rows(slot);
-    if DIM == 1u { return high.x; }
-    if DIM == 2u { return high.x + high.y; }
-    let low = layer_rows(slot - params.stride.x * params.stride.y);
-    return 0.5 * (low.x + high.x + low.y + high.y) + low.z - high.z;
-}
-
 // The transpose of add_element: one element's nodes as one of its vertices sees them.
 fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3i, solid: bool) {
     let quadratic = solid || QUADRATIC;
@@ -103,11 +81,7 @@ fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3
 // C^T W at a vertex, in units of face_area().
 fn gather_rows(slot: u32, word: u32) -> Rows {
     var rows: Rows;
-    if !LISTED {
-        if QUADRATIC { rows.own = regular_rows(slot, cell_of(slot)); } else { rows.own = interior_rows(slot); }
-        return rows;
-    }
-    if has(word, VERTEX_REGULAR) {
+    if !LISTED || has(word, VERTEX_REGULAR) {
         rows.own = regular_rows(slot, cell_of(slot));
         return rows;
     }

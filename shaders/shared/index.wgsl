@@ -40,6 +40,10 @@ fn block_offset(k: u32) -> vec3i {
 fn corner_count() -> u32 { return 1u << DIM; }
 fn corner_offset(k: u32) -> vec3i { return vec3i(vec3u(k & 1u, (k >> 1u) & 1u, k >> 2u)); }
 
-fn cell_volume() -> f32 { return pow(params.spacing, f32(DIM)); }
-fn face_area() -> f32 { return pow(params.spacing, f32(DIM - 1u)); }
+fn cell_volume() -> f32 { return face_area() * params.spacing; }
+fn face_area() -> f32 {
+    if DIM == 1u { return 1.0; }
+    if DIM == 2u { return params.spacing; }
+    return params.spacing * params.spacing;
+}
 fn world_from_cell(c: vec3i) -> vec3f { return params.origin + (vec3f(c) + 0.5) * params.spacing; }

@@ -1,6 +1,7 @@
 // Two forms of one kernel. The plain form runs over all slots and acts on those deep inside the gas (INTERIOR), where every
 // stencil is the same; the LISTED form runs over the list of all others. So no thread waits for a neighbour's special case.
-// Needs the binding extra: places of the extra unknowns, then the list, then its length.
+// Needs the binding extra: places of the extra unknowns; one block that the list fills from its start, and the frontier, the
+// INTERIOR slots whose nodes listed vertices rest on, from its end; then the lengths of both.
 
 override LISTED: bool;
 
@@ -8,6 +9,13 @@ override LISTED: bool;
 fn listed_slot(thread: u32) -> u32 {
     if !LISTED { return min(thread, params.slots); }
     if thread < extra[2u * params.slots] { return extra[params.slots + thread]; }
+    return params.slots;
+}
+
+// The same for kernels whose results only listed slots read, so that the plain form visits the frontier alone.
+fn frontier_slot(thread: u32) -> u32 {
+    if LISTED || QUADRATIC { return listed_slot(thread); }
+    if thread < extra[2u * params.slots + 1u] { return extra[2u * params.slots - 1u - thread]; }
     return params.slots;
 }
 

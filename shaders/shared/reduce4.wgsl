@@ -1,26 +1,39 @@
-// Sum and maximum of four values at once over a workgroup, as a tree of fixed shape. As shared/reduce.wgsl.
+// Sum and maximum of four values at once over a workgroup, as a tree of fixed shape: eight values, then eight such results.
+// Wide and shallow, because barriers cost more than additions. As shared/reduce.wgsl.
 
 var<workgroup> reduce4_scratch: array<vec4f, WORKGROUP>;
 
+const REDUCE4_WIDTH = 8u;
+
 fn workgroup_sum4(local: u32, value: vec4f) -> vec4f {
     reduce4_scratch[local] = value;
-    workgroupBarrier();
-    for (var width = WORKGROUP / 2u; width > 0u; width /= 2u) {
-        if local < width { reduce4_scratch[local] += reduce4_scratch[local + width]; }
+    for (var stride = 1u; stride < WORKGROUP; stride *= REDUCE4_WIDTH) {
         workgroupBarrier();
+        if local % (stride * REDUCE4_WIDTH) == 0u {
+            var sum = reduce4_scratch[local];
+            for (var k = 1u; k < REDUCE4_WIDTH; k++) { sum += reduce4_scratch[local + k * stride]; }
+            reduce4_scratch[local] = sum;
+        }
     }
-    let result = reduce4_scratch[0];
-    workgroupBarrier();
-    return result;
+    return reduce4_result();
 }
 
 fn workgroup_max4(local: u32, value: vec4f) -> vec4f {
     reduce4_scratch[local] = value;
-    workgroupBarrier();
-    for (var width = WORKGROUP / 2u; width > 0u; width /= 2u) {
-        if local < width { reduce4_scratch[local] = max(reduce4_scratch[local], reduce4_scratch[local + width]); }
+    for (var stride = 1u; stride < WORKGROUP; stride *= REDUCE4_WIDTH) {
         workgroupBarrier();
+        if local % (stride * REDUCE4_WIDTH) == 0u {
+            var largest = reduce4_scratch[local];
+            for (var k = 1u; k < REDUCE4_WIDTH; k++) { largest = max(largest, reduce4_scratch[local + k * stride]); }
+            reduce4_scratch[local] = largest;
+        }
     }
+    return reduce4_result();
+}
+
+// The barriers let every thread read the result, and a thread start the next reduction only when all have read this one.
+fn reduce4_result() -> vec4f {
+    workgroupBarrier();
     let result = reduce4_scratch[0];
     workgroupBarrier();
     return result;

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::gpu::Detail;
+
 /// Compressible gas, shock waves and the solids they bend, tear and shatter.
 #[derive(Debug, Parser)]
 #[command(name = "brisance", version, arg_required_else_help = true, subcommand_required = true)]
@@ -101,4 +103,15 @@ pub struct BenchOptions {
     /// Steps before the measurement
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub warmup: u32,
+    /// Time every kernel instead of whole stages
+    #[arg(long)]
+    pub kernels: bool,
+}
+
+impl BenchOptions {
+    /// What the stopwatch tells apart.
+    #[must_use]
+    pub fn detail(&self) -> Detail {
+        if self.kernels { Detail::Kernels } else { Detail::Stages }
+    }
 }

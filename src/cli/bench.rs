@@ -9,6 +9,7 @@ use super::check::size;
 use super::{interrupt, open_device, plan_for, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::Summary;
+use crate::gpu::Detail;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::stage::traffic::{self, Load};
@@ -70,7 +71,7 @@ pub(super) fn bench(options: &BenchOptions, cli: &Cli) -> Result<()> {
     let start = Instant::now();
     let whole = summary(&run_steps(&mut simulation, options.steps)?);
     let seconds = start.elapsed().as_secs_f64();
-    let (records, times) = timed_steps(&mut simulation, options.steps)?;
+    let (records, times) = timed_steps(&mut simulation, options.steps, options.detail())?;
     let timed = summary(&records);
     let load = Load {
         slots: simulation.state.grid.slots() as u64,
@@ -146,13 +147,13 @@ fn run_steps(simulation: &mut Simulation, steps: u32) -> Result<Vec<StepRecord>>
     Ok(records)
 }
 
-/// Runs at least `steps` steps one by one and adds up the milliseconds of each stage.
-fn timed_steps(simulation: &mut Simulation, steps: u32) -> Result<(Vec<StepRecord>, StageTimes)> {
+/// Runs at least `steps` steps one by one and adds up the milliseconds of each stage or kernel.
+fn timed_steps(simulation: &mut Simulation, steps: u32, detail: Detail) -> Result<(Vec<StepRecord>, StageTimes)> {
     let mut records = Vec::new();
     let mut sums = StageTimes::new();
     while records.len() < steps as usize {
         stop_if_asked()?;
-        let (_, times) = simulation.advance_timed(&mut records)?;
+        let (_, times) = simulation.advance_timed(&mut records, detail)?;
         for (stage, time) in times {
             match sums.iter_mut().find(|(known, _)| *known == stage) {
                 Some((_, sum)) => *sum += time,
@@ -186,15 +187,18 @@ fn rows(times: &[(String, f64)], load: &Load) -> Vec<StageRow> {
 
 fn print(m: &Measurement) {
     say!("{} on {}: {} cells, {} particles", m.scene, m.device, m.cells, m.particles);
+    let width = m.stages.iter().map(|row| row.stage.len()).max().unwrap_or(0).max(24);
     if m.stages.is_empty() {
         say!("(this device has no timestamps: no table of stages)");
     } else {
-        say!("\n{:24} {:>10} {:>8} {:>12} {:>8}", "stage", "ms/step", "share", "MB/step", "GB/s");
+        say!("\n{:width$} {:>10} {:>8} {:>12} {:>8}", "stage", "ms/step", "share", "MB/step", "GB/s");
     }
     for row in &m.stages {
         let (share, megabytes) = (100.0 * row.share, row.bytes / 1e6);
         let speed = row.gigabytes_per_second;
-        say!("{:24} {:10.4} {share:6.1} % {megabytes:12.3} {speed:8.2}", row.stage, row.milliseconds);
+        // Bytes are counted per stage, not per kernel.
+        let moved = if row.bytes > 0.0 { format!("{megabytes:12.3} {speed:8.2}") } else { String::new() };
+        say!("{:width$} {:10.4} {share:6.1} % {moved}", row.stage, row.milliseconds);
     }
     say!("\n{:24} {:>14}", "steps", m.steps);
     say!("{:24} {:>14.4}", "milliseconds per step", m.milliseconds_per_step);

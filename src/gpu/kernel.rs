@@ -25,6 +25,7 @@ pub struct Constants<'a> {
 #[derive(Clone, Debug)]
 pub struct Kernel {
     label: String,
+    name: Arc<str>,
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
     bindings: Vec<Binding>,
@@ -37,6 +38,8 @@ pub struct Bound {
     pub(super) pipeline: wgpu::ComputePipeline,
     pub(super) group: wgpu::BindGroup,
     pub(super) threads_per_group: u32,
+    /// Entry point, with its form where there are several.
+    pub(super) name: Arc<str>,
 }
 
 /// How many threads a dispatch runs.
@@ -82,6 +85,8 @@ impl Kernel {
         });
         let overrides: Vec<_> =
             constants.overrides.iter().copied().filter(|(name, _)| compiled.has_override(name)).collect();
+        let listed = overrides.iter().any(|&(name, value)| name == "LISTED" && value != 0.0);
+        let name = if listed { format!("{entry} (listed)") } else { entry.to_owned() };
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(&label),
             layout: Some(&pipeline_layout),
@@ -92,7 +97,7 @@ impl Kernel {
         });
         match pollster::block_on(scope.pop()) {
             Some(error) => Err(Error::Shader(format!("{label}: {error}"))),
-            None => Ok(Kernel { label, pipeline, layout, bindings, threads_per_group }),
+            None => Ok(Kernel { label, pipeline, layout, bindings, threads_per_group, name: name.into() }),
         }
     }
 
@@ -122,7 +127,8 @@ impl Kernel {
             entries: &entries,
         });
         gpu.check()?;
-        Ok(Bound { pipeline: self.pipeline.clone(), group, threads_per_group: self.threads_per_group })
+        let (pipeline, name) = (self.pipeline.clone(), self.name.clone());
+        Ok(Bound { pipeline, group, threads_per_group: self.threads_per_group, name })
     }
 
     /// Compares the given names with the declared ones, both ways.

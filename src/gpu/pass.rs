@@ -18,10 +18,20 @@ pub struct Pass {
     clock: Option<Clock>,
 }
 
+/// What a stopwatch tells apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// Whole stages.
+    Stages,
+    /// Every kernel of a stage: more pauses between dispatches.
+    Kernels,
+}
+
 /// Timestamps of a timed pass: two per span.
 #[derive(Debug)]
 struct Clock {
     queries: wgpu::QuerySet,
+    detail: Detail,
     /// Stage of each span, in order.
     spans: Vec<String>,
 }
@@ -34,9 +44,9 @@ impl Pass {
         Pass { gpu: gpu.clone(), encoder, open: None, stage: label.to_owned(), in_group: false, clock: None }
     }
 
-    /// Starts recording with a stopwatch per stage; without one if the device has none ([`Gpu::timestamps`]).
+    /// Starts recording with a stopwatch per stage or kernel; without one if the device has none ([`Gpu::timestamps`]).
     #[must_use]
-    pub fn timed(gpu: &Gpu, label: &str) -> Pass {
+    pub fn timed(gpu: &Gpu, label: &str, detail: Detail) -> Pass {
         let mut pass = Pass::new(gpu, label);
         pass.clock = gpu.timestamps.then(|| Clock {
             queries: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
@@ -45,6 +55,7 @@ impl Pass {
                 count: wgpu::QUERY_SET_MAX_QUERIES,
             }),
             spans: Vec::new(),
+            detail,
         });
         pass
     }
@@ -61,7 +72,11 @@ impl Pass {
     /// Records one dispatch. Extents of no threads record nothing.
     pub fn dispatch(&mut self, bound: &Bound, extent: &Extent<'_>) {
         let limit = self.gpu.limits.max_compute_workgroups_per_dimension;
-        let pass = self.compute();
+        if self.clock.as_ref().is_some_and(|clock| clock.detail == Detail::Kernels) {
+            self.close_group();
+            self.open = None;
+        }
+        let pass = self.compute(&bound.name);
         pass.set_pipeline(&bound.pipeline);
         pass.set_bind_group(0, &bound.group, &[]);
         match extent {
@@ -112,7 +127,7 @@ impl Pass {
     /// As [`Pass::submit`]; [`Error::Gpu`] if there were more stages than timestamps.
     pub fn submit_timed(self) -> Result<Vec<(String, f64)>> {
         let Pass { gpu, mut encoder, clock, .. } = self.finish();
-        let Some(Clock { queries, spans }) = clock.filter(|clock| !clock.spans.is_empty()) else {
+        let Some(Clock { queries, spans, .. }) = clock.filter(|clock| !clock.spans.is_empty()) else {
             let submission = gpu.queue.submit([encoder.finish()]);
             return gpu.wait(Some(submission)).map(|()| Vec::new());
         };
@@ -143,10 +158,10 @@ impl Pass {
     }
 
     /// The open compute pass of the current stage.
-    fn compute(&mut self) -> &mut wgpu::ComputePass<'static> {
+    fn compute(&mut self, kernel: &str) -> &mut wgpu::ComputePass<'static> {
         let Pass { encoder, open, stage, in_group, clock, .. } = self;
         let pass = open.get_or_insert_with(|| {
-            let timestamp_writes = clock.as_mut().and_then(|clock| clock.span(stage));
+            let timestamp_writes = clock.as_mut().and_then(|clock| clock.span(stage, kernel));
             let descriptor = wgpu::ComputePassDescriptor { label: Some(stage), timestamp_writes };
             encoder.begin_compute_pass(&descriptor).forget_lifetime()
         });
@@ -178,9 +193,12 @@ const MAX_SPANS: usize = wgpu::QUERY_SET_MAX_QUERIES as usize / 2;
 
 impl Clock {
     /// Opens a span; none once the queries are used up, which [`Pass::submit_timed`] reports.
-    fn span(&mut self, stage: &str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+    fn span(&mut self, stage: &str, kernel: &str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
         let first = 2 * self.spans.len() as u32;
-        self.spans.push(stage.to_owned());
+        self.spans.push(match self.detail {
+            Detail::Stages => stage.to_owned(),
+            Detail::Kernels => format!("{stage}: {kernel}"),
+        });
         (self.spans.len() <= MAX_SPANS).then(|| wgpu::ComputePassTimestampWrites {
             query_set: &self.queries,
             beginning_of_pass_write_index: Some(first),

@@ -61,6 +61,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "solve_diagonal.wgsl",
     "solve_finish.wgsl",
     "solve_forces.wgsl",
+    "solve_interior.wgsl",
     "solve_operator.wgsl",
     "solve_setup.wgsl",
     "step_control.wgsl",

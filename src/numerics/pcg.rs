@@ -10,7 +10,8 @@ use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP,
 
 /// WGSL constants of this method.
 const SOURCE: &str = "const PCG_RUNNING = 0u;\nconst PCG_CONVERGED = 1u;\nconst PCG_STALLED = 2u;\n\
-                      const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\nconst PCG_LISTED = 3u;\n";
+                      const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\nconst PCG_LISTED = 3u;\n\
+                      const PCG_FRONTIER = 4u;\n";
 
 /// The vectors of one system.
 #[derive(Debug)]
@@ -69,6 +70,10 @@ pub struct PcgControl {
     pub listed_wide: u32,
     /// The same, y.
     pub listed_high: u32,
+    /// Groups of kernels over a second list, x.
+    pub frontier_wide: u32,
+    /// The same, y.
+    pub frontier_high: u32,
     /// Groups of the kernels with one thread per slot, x.
     pub groups_wide: u32,
     /// The same, y.
@@ -102,6 +107,8 @@ pub enum Width {
     Single,
     /// One thread per entry of the caller's list.
     Listed,
+    /// One thread per entry of the caller's second list.
+    Frontier,
 }
 
 impl Pcg {
@@ -132,7 +139,7 @@ impl Pcg {
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
-        let extents = Buffer::indirect(gpu, "pcg_extents", 16)?;
+        let extents = Buffer::indirect(gpu, "pcg_extents", 20)?;
         let named = [
             ("pcg", control.raw()),
             ("solution", vectors.solution.raw()),

@@ -18,13 +18,44 @@ pub struct CoupledSolve {
     masses: [Bound; 2],
     forces_of_pressure: [Bound; 2],
     velocities: [Bound; 2],
-    residual: [Bound; 2],
-    diagonal: [Bound; 2],
+    vertices: Vertices,
     reference: Bound,
     forces: [Bound; 2],
-    operator: [Bound; 2],
     add: Bound,
     kick: Option<[Bound; 2]>,
+}
+
+/// Kernels over the vertices: right-hand side and diagonal, operator.
+#[derive(Debug)]
+struct Vertices {
+    setup: Vec<(Bound, Entry)>,
+    /// The plain and the listed form.
+    operator: [Bound; 2],
+    /// Nodes whose velocities the plain forms compute: all for B2B1; for B1B0, whose operator deep inside the gas stores none,
+    /// those that listed vertices rest on.
+    nodes: (Entry, Width),
+}
+
+impl Vertices {
+    fn new(parts: Parts<'_>) -> Result<Self> {
+        let state = parts.state;
+        let direction = [("x", state.pcg.direction.raw()), ("y", state.pcg.product.raw())];
+        let [residual, listed_residual] = parts.both("solve_setup.wgsl", "solve_residual", &[], &[])?;
+        let [diagonal, listed_diagonal] = parts.both("solve_diagonal.wgsl", "solve_diagonal", &[], &[])?;
+        let [operator, listed_operator] = parts.both("solve_operator.wgsl", "solve_operator", &direction, &[])?;
+        let listed = [(listed_residual, Entry::Listed), (listed_diagonal, Entry::Listed)];
+        if state.is_quadratic() {
+            let setup = [(residual, Entry::Slots), (diagonal, Entry::Slots)].into_iter().chain(listed).collect();
+            return Ok(Self { setup, operator: [operator, listed_operator], nodes: (Entry::Slots, Width::Slots) });
+        }
+        let interior = |entry: &str, vectors: &[(&str, &wgpu::Buffer)]| {
+            state.bind(parts.gpu, "solve_interior.wgsl", entry, vectors, &[])
+        };
+        let right = [("x", state.pressure.raw()), ("y", state.pcg.residual.raw())];
+        let setup = [(interior("interior_setup", &right)?, Entry::Slots)].into_iter().chain(listed).collect();
+        let operator = [interior("interior_operator", &direction)?, listed_operator];
+        Ok(Self { setup, operator, nodes: (Entry::Frontier, Width::Frontier) })
+    }
 }
 
 impl CoupledSolve {
@@ -38,7 +69,6 @@ impl CoupledSolve {
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), state.params.groups, limits)?;
         let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
         let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
-        let direction = [("x", state.pcg.direction.raw()), ("y", state.pcg.product.raw())];
         let optional = |shader: &str, entry: &str| -> Result<Option<Bound>> {
             if state.has_solids() { state.bind(gpu, shader, entry, &[], &[]).map(Some) } else { Ok(None) }
         };
@@ -48,11 +78,9 @@ impl CoupledSolve {
             masses: setup("solve_masses")?,
             forces_of_pressure: forces(state.pressure.raw())?,
             velocities: setup("solve_velocities")?,
-            residual: setup("solve_residual")?,
-            diagonal: parts.both("solve_diagonal.wgsl", "solve_diagonal", &[], &[])?,
+            vertices: Vertices::new(parts)?,
             reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
-            operator: parts.both("solve_operator.wgsl", "solve_operator", &direction, &[])?,
             add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[], &[])?,
             kick: optional("solid_kick.wgsl", "solid_kick")?
                 .zip(optional("solid_kick.wgsl", "solid_kick_spread")?)
@@ -66,8 +94,13 @@ impl CoupledSolve {
         if let Some(predictor) = &self.predictor {
             pass.dispatch(predictor, &slots(state, "BEGIN"));
         }
-        for kernels in [&self.masses, &self.forces_of_pressure, &self.velocities, &self.residual, &self.diagonal] {
-            record_both(pass, state, "BEGIN", kernels);
+        record_both(pass, state, "BEGIN", &self.masses);
+        for [plain, listed] in [&self.forces_of_pressure, &self.velocities] {
+            pass.dispatch(plain, &extent(state, "BEGIN", self.vertices.nodes.0));
+            pass.dispatch(listed, &extent(state, "BEGIN", Entry::Listed));
+        }
+        for (kernel, entry) in &self.vertices.setup {
+            pass.dispatch(kernel, &extent(state, "BEGIN", *entry));
         }
         pass.dispatch(&self.reference, &extent(state, "BEGIN", Entry::Reduce));
         self.pcg.begin(pass, &extent(state, "BEGIN", Entry::Reduce), &extent(state, "BEGIN", Entry::Single));
@@ -76,20 +109,28 @@ impl CoupledSolve {
     /// Iterations; those after convergence do nothing.
     pub fn record_iterations(&self, pass: &mut Pass, count: u32) {
         pass.stage("coupled_solve");
+        let [forces, listed_forces] = &self.forces;
+        let [operator, listed_operator] = &self.vertices.operator;
         for _ in 0..count {
-            let [forces, listed_forces] = &self.forces;
-            let [operator, listed_operator] = &self.operator;
-            let forces = [(forces, Width::Slots), (listed_forces, Width::Listed)];
-            // The listed form leaves its partial sums first, the plain form adds to them.
-            let operator = [(listed_operator, Width::Partial), (operator, Width::Partial)];
-            self.pcg.iterate(pass, &[forces, operator].concat());
+            self.pcg.iterate(
+                pass,
+                &[
+                    (forces, self.vertices.nodes.1),
+                    (listed_forces, Width::Listed),
+                    // The listed form leaves its partial sums first, the plain form adds to them.
+                    (listed_operator, Width::Partial),
+                    (operator, Width::Partial),
+                ],
+            );
         }
     }
 
-    /// X = X* + D and the forces that belong to it.
+    /// X = X* + D, and with bodies the forces that belong to it.
     pub fn record_solution(&self, pass: &mut Pass, state: &State) {
         pass.dispatch(&self.add, &extent(state, "UPDATE", Entry::Reduce));
-        record_both(pass, state, "UPDATE", &self.forces_of_pressure);
+        if state.has_solids() {
+            pass.dispatch(&self.forces_of_pressure[1], &extent(state, "UPDATE", Entry::Listed));
+        }
     }
 
     /// Pressure kick of the solid nodes, change of the ghost pressure.

@@ -12,6 +12,7 @@ use crate::state::State;
 #[derive(Debug)]
 pub struct InterfaceStage {
     flags: Bound,
+    edge: Bound,
     list_scan: Scan,
     list: Bound,
     solids: Option<Solids>,
@@ -56,6 +57,7 @@ impl InterfaceStage {
         };
         Ok(Self {
             flags: mark("interface_flags")?,
+            edge: mark("interface_edge")?,
             list_scan: Scan::over(gpu, edge, edge_place, state.params.slots, state.params.slots + 1)?,
             list: mark("interface_list")?,
             solids,
@@ -75,6 +77,7 @@ impl InterfaceStage {
     /// Flags and the list that follow from the kinds.
     fn record_flags(&self, pass: &mut Pass, state: &State) {
         pass.dispatch(&self.flags, &slots(state, "BEGIN"));
+        pass.dispatch(&self.edge, &slots(state, "BEGIN"));
         self.list_scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
         pass.dispatch(&self.list, &slots(state, "BEGIN"));
     }

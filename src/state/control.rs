@@ -40,4 +40,6 @@ pub struct Control {
     pub residual: f32,
     /// Slots that are not INTERIOR.
     pub listed: u32,
+    /// INTERIOR slots whose nodes listed vertices rest on.
+    pub frontier: u32,
 }

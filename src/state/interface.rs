@@ -13,7 +13,7 @@ pub struct Interface {
     /// Vertex ghost pressure before the solve; its change after.
     pub ghost: Buffer<f32>,
     /// Place of a vertex in the list of those that carry P, h and Q apart; then the list of slots that are not deep inside the
-    /// gas, and its length.
+    /// gas and, from the end, that of the frontier around them; then the lengths of both.
     pub extra: Buffer<u32>,
 }
 
@@ -28,7 +28,7 @@ impl Interface {
             cells: Buffer::new(gpu, "cells", slots)?,
             fill: Buffer::new(gpu, "fill", slots)?,
             ghost: Buffer::new(gpu, "ghost", solid_slots)?,
-            extra: Buffer::new(gpu, "extra", 2 * slots + 1)?,
+            extra: Buffer::new(gpu, "extra", 2 * slots + 2)?,
         })
     }
 }

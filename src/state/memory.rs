@@ -52,7 +52,7 @@ impl MemoryPlan {
         plan.add("gas", &[("owed_flow", slots, 16), ("owed_energy", slots, 4)]);
         plan.add(
             "interface",
-            &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", 2 * slots + 1, 4)],
+            &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", 2 * slots + 2, 4)],
         );
         plan.add("pressure", &[("pressure", unknowns, 4), ("stiffness", unknowns, 4), ("solution", unknowns, 4)]);
         plan.add("pressure", &[("residual", unknowns, 4), ("direction", unknowns, 4), ("product", unknowns, 4)]);
@@ -78,7 +78,7 @@ impl MemoryPlan {
         self.add("fixed", &[("partials", 9 * u64::from(constants::PARTIALS) + 1, 16)]);
         self.add("fixed", &[("history", history * u64::from(constants::HISTORY_WIDTH), 16)]);
         self.add("fixed", &[("probe_cells", probes, 4), ("probe_history", 2 * history * probes, 16)]);
-        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 16, 4)]);
+        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 20, 4)]);
     }
 
     /// Adds buffers: label, elements, bytes of an element. An empty buffer takes the room of one element.

@@ -21,7 +21,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel};
 use crate::numerics::PcgVectors;
 use crate::scene::Scene;
-use params::SolidLimits;
+use params::{DeviceLimits, SolidLimits};
 
 /// Materials that one scene may use.
 pub const MAX_MATERIALS: usize = 64;
@@ -95,7 +95,7 @@ impl State {
             per_cell: per_cell.fold(0.0, f64::max),
         };
         let capacity = extra_capacity(slots, start.len(), domain.dimension);
-        let params = Params::new(scene, &grid, &limits, capacity as u32);
+        let params = Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity));
         let unknowns = slots + 2 * capacity;
         let state = State {
             grid,
@@ -164,6 +164,12 @@ impl State {
     #[must_use]
     pub fn has_solids(&self) -> bool {
         self.particles.count > 0
+    }
+
+    /// Whether the gas element pair is B2B1.
+    #[must_use]
+    pub fn is_quadratic(&self) -> bool {
+        self.overrides.contains(&("QUADRATIC", 1.0))
     }
 
     /// Compiles an entry point with this scene's switches and binds the buffers that it names. `renamed` adds names, or gives

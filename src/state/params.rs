@@ -97,10 +97,31 @@ const CROWDING: f64 = 16.0;
 /// Steps that the history ring holds; the host reads it before it wraps.
 pub const HISTORY: u32 = 256;
 
+/// What the device decides about sizes.
+#[derive(Clone, Copy, Debug)]
+pub struct DeviceLimits {
+    /// Vertices that may carry P, h and Q apart.
+    pub extra_capacity: u32,
+    /// Groups, at most, that leave partial results.
+    pub groups: u32,
+}
+
+impl DeviceLimits {
+    /// Limits for a number of extra vertices. On a CPU every barrier of a reduction costs more than the work it shares out.
+    #[must_use]
+    pub fn new(software: bool, extra_capacity: usize) -> Self {
+        let groups = if software { SOFTWARE_GROUPS } else { constants::PARTIALS };
+        Self { extra_capacity: extra_capacity as u32, groups }
+    }
+}
+
+/// Groups that leave partial results on a software driver (measured: 1024 cost 10 ms more per reduction at 512 x 512).
+const SOFTWARE_GROUPS: u32 = 64;
+
 impl Params {
     /// Parameters of a scene on its grid.
     #[must_use]
-    pub fn new(scene: &Scene, grid: &Grid, solids: &SolidLimits, extra_capacity: u32) -> Params {
+    pub fn new(scene: &Scene, grid: &Grid, solids: &SolidLimits, limits: &DeviceLimits) -> Params {
         let (time, numerics) = (&scene.time, &scene.numerics);
         let cell_volume = scene.domain.cell_volume();
         let mut params = Params {
@@ -123,14 +144,14 @@ impl Params {
             solid_threshold: numerics.solid_threshold as f32,
             mass_floor: (MASS_FLOOR * solids.max_density * cell_volume) as f32,
             tolerance: numerics.tolerance as f32,
-            extra_capacity,
+            extra_capacity: limits.extra_capacity,
             max_iterations: numerics.max_iterations,
             probes: scene.probes.len() as u32,
             crowd: (CROWDING * solids.per_cell.max(1.0)) as f32,
             history: HISTORY,
             bodies: scene.bodies.len() as u32,
             max_substeps: numerics.max_substeps,
-            groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, constants::PARTIALS),
+            groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, limits.groups),
             unused: 0,
             side: [0; 8],
             inlet_flow: [[0.0; 4]; 6],

@@ -2,7 +2,7 @@
 
 use brisance::Error;
 use brisance::gpu::{
-    Access, Buffer, Constants, Extent, Folder, Gpu, GpuOptions, Kernel, Pass, Shader, group_counts, readback,
+    Access, Buffer, Constants, Detail, Extent, Folder, Gpu, GpuOptions, Kernel, Pass, Shader, group_counts, readback,
 };
 
 use crate::common::{gpu_or_skip, with_shaders};
@@ -60,7 +60,7 @@ fn a_dispatch_of_more_than_65535_workgroups_reaches_every_element() {
     let names: Vec<_> = kernel.bindings().iter().map(|binding| (binding.name.as_str(), binding.access)).collect();
     assert_eq!(names, [("numbers", Access::ReadWrite), ("params", Access::Uniform)], "only what the entry point uses");
     let bound = kernel.bind(&gpu, &[("params", params.raw()), ("numbers", numbers.raw())]).unwrap();
-    let mut pass = Pass::timed(&gpu, "number");
+    let mut pass = Pass::timed(&gpu, "number", Detail::Stages);
     pass.stage("first");
     pass.dispatch(&bound, &Extent::Threads(count as u64));
     pass.stage("nothing");

@@ -97,6 +97,7 @@ fn control() {
             iterations,
             residual,
             listed,
+            frontier,
         ]
     );
 }
@@ -129,6 +130,8 @@ fn conjugate_gradients() {
             length,
             listed_wide,
             listed_high,
+            frontier_wide,
+            frontier_high,
             groups_wide,
             groups_high,
             groups_partial,

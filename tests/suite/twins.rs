@@ -1,6 +1,6 @@
 //! A simulation on the device and its CPU twin: same start, same steps, compared field by field.
 
-use brisance::gpu::{Buffer, Gpu, readback};
+use brisance::gpu::{Buffer, Detail, Gpu, readback};
 use brisance::scene::{Boundary, Film, InterfacePressure, Pair, Power, Scene};
 use brisance::simulation::Simulation;
 use glam::{DMat3, DVec3};
@@ -118,7 +118,7 @@ impl Twins {
     pub(crate) fn step(&mut self) -> (Report, Trace) {
         let mut records = Vec::new();
         while records.is_empty() {
-            self.simulation.advance_timed(&mut records).unwrap_or_else(|error| panic!("{error}"));
+            self.simulation.advance_timed(&mut records, Detail::Stages).unwrap_or_else(|error| panic!("{error}"));
         }
         let dt = f64::from(records[0].dt);
         if self.simulation.state.params.fixed_step == 0.0 {
