@@ -40,8 +40,6 @@ fn open_gas(c: vec3i) -> Gas {
     return source(slot_of(nearest_inside(c)));
 }
 
-struct Fluxes { high: Gas, low: Gas }
-
 // Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
 fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     let far = select(near - axis(n), near + axis(n), up);
@@ -61,13 +59,7 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     var first = here;
     if is_open(cells[slot_of(behind)]) { first = open_gas(behind); }
     var out: Fluxes;
-    if up {
-        out.high = flux_weno(n, first, here, next, last);
-        if LIMITER { out.low = flux_first_order(n, first, here, next, last); }
-    } else {
-        out.high = flux_weno(n, last, next, here, first);
-        if LIMITER { out.low = flux_first_order(n, last, next, here, first); }
-    }
+    if up { out = face_fluxes_of(n, first, here, next, last); } else { out = face_fluxes_of(n, last, next, here, first); }
     if open { return out; }
     // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
     var blocked = 1.0;
@@ -119,27 +111,13 @@ fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
     return change;
 }
 
-// The same far from walls, bodies and open sides, where nothing has to be asked.
-fn change_of_interior(slot: u32, here: Gas) -> Change {
-    var change: Change;
-    for (var n = 0u; n < DIM; n++) {
-        let s = step_of(n);
-        let a = source(slot - 2u * s);
-        let b = source(slot - s);
-        let c = source(slot + s);
-        let d = source(slot + 2u * s);
-        var low: Fluxes;
-        var high: Fluxes;
-        low.high = flux_weno(n, a, b, here, c);
-        high.high = flux_weno(n, b, here, c, d);
-        if LIMITER {
-            low.low = flux_first_order(n, a, b, here, c);
-            high.low = flux_first_order(n, b, here, c, d);
-        }
-        add_face(&change, low, 1.0, 1.0);
-        add_face(&change, high, 1.0, -1.0);
-    }
-    return change;
+// The same through both faces across one axis, far from walls, bodies and open sides, where nothing has to be asked.
+fn add_axis(change: ptr<function, Change>, slot: u32, n: u32, here: Gas) {
+    let s = step_of(n);
+    let b = source(slot - s);
+    let c = source(slot + s);
+    add_face(change, face_fluxes_of(n, source(slot - 2u * s), b, here, c), 1.0, 1.0);
+    add_face(change, face_fluxes_of(n, b, here, c, source(slot + 2u * s)), 1.0, -1.0);
 }
 
 fn drained_share(before: Gas, change: Change) -> f32 {
@@ -183,14 +161,7 @@ fn write_result(slot: u32, before: Gas, change: Gas) {
     }
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn advect_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
-    if slot >= params.slots || (!LISTED && !has(cells[slot], INTERIOR)) { return; }
-    let before = source(slot);
-    var change: Change;
-    if LISTED { change = change_of(cell_of(slot), slot, false); } else { change = change_of_interior(slot, before); }
+fn finish(slot: u32, before: Gas, change: Change) {
     if LIMITER {
         var share = 1.0;
         if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
@@ -198,6 +169,49 @@ fn advect_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         if share < 1.0 { atomicAdd(&control.limited, 1u); }
     }
     write_result(slot, before, change.high);
+}
+
+// One slot of the list.
+@compute @workgroup_size(WORKGROUP)
+fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, groups, lane));
+    if slot >= params.slots { return; }
+    finish(slot, source(slot), change_of(cell_of(slot), slot, false));
+}
+
+// A column of params.march slots along the last axis: each state there is read once, each face computed once.
+@compute @workgroup_size(WORKGROUP)
+fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let n = DIM - 1u;
+    let s = step_of(n);
+    let thread = thread_index(group, groups, lane);
+    let first = (thread / s) * params.march * s + thread % s;
+    let last = params.slots - 1u;
+    if first > last { return; }
+    var a = source(max(first, 2u * s) - 2u * s);
+    var b = source(max(first, s) - s);
+    var here = source(first);
+    var c = source(min(first + s, last));
+    var low = face_fluxes_of(n, a, b, here, c);
+    for (var k = 0u; k < params.march; k++) {
+        let slot = first + k * s;
+        if slot > last { break; }
+        let d = source(min(slot + 2u * s, last));
+        let high = face_fluxes_of(n, b, here, c, d);
+        if has(cells[slot], INTERIOR) {
+            var change: Change;
+            add_face(&change, low, 1.0, 1.0);
+            add_face(&change, high, 1.0, -1.0);
+            for (var m = 0u; m < n; m++) { add_axis(&change, slot, m, here); }
+            finish(slot, here, change);
+        }
+        low = high;
+        b = here;
+        here = c;
+        c = d;
+    }
 }
 
 // Only where the limiter acted somewhere: the slots whose faces carry less than the full flux once more.

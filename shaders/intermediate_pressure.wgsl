@@ -3,6 +3,7 @@
 // predictor, the vertex pressures X* and the vertex stiffness S^-1. On return every gas cell has positive density and
 // pressure, or the step is flagged. [Cao et al. 2022, eqs. 9, 17, 22, 24]
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -15,6 +16,7 @@
 @group(0) @binding(5) var<storage, read_write> energy: array<f32>;  // thirds: now, pressure of the predictor, U*
 @group(0) @binding(6) var<storage, read_write> fill: array<vec2f>;  // y of gas cells: 1 / (gamma p*)
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
+@group(0) @binding(8) var<storage, read> extra: array<u32>;
 
 fn advected(slot: u32) -> Gas { return Gas(work[params.slots + slot], energy[2u * params.slots + slot]); }
 
@@ -47,24 +49,38 @@ fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
 const COMPRESSION_SWITCH = 30.0;
 const LEAST_PREDICTED = 0.1;
 
-fn predicted(c: vec3i, here: Gas, pressure: f32) -> f32 {
-    if !PREDICTOR { return pressure; }
-    var divergence = 0.0;
+// Velocity difference of the faces of a cell, summed over the axes.
+fn divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
+    var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
-        divergence += face_velocity(c, n, true, here) - face_velocity(c, n, false, here);
+        if LISTED {
+            sum += face_velocity(c, n, true, here) - face_velocity(c, n, false, here);
+            continue;
+        }
+        let low = work[params.slots + slot - step_of(n)];
+        let high = work[params.slots + slot + step_of(n)];
+        sum += (here.flow[n + 1u] + high[n + 1u]) / (here.flow.x + high.x)
+            - (low[n + 1u] + here.flow[n + 1u]) / (low.x + here.flow.x);
     }
-    divergence *= control.dt / params.spacing;
-    let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(divergence)), 1.0, divergence >= 0.0);
-    return pressure * max(LEAST_PREDICTED, 1.0 + smooth_share * divergence);
+    return sum;
+}
+
+fn predicted(c: vec3i, slot: u32, here: Gas, pressure: f32) -> f32 {
+    if !PREDICTOR { return pressure; }
+    let change = divergence(c, slot, here) * control.dt / params.spacing;
+    let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(change)), 1.0, change >= 0.0);
+    return pressure * max(LEAST_PREDICTED, 1.0 + smooth_share * change);
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
+    let word = cells[slot];
+    if !LISTED && !has(word, INTERIOR) { return; }
     let here = advected(slot);
-    if kind_of(cells[slot]) != GAS {
+    if kind_of(word) != GAS {
         conserved[slot] = here.flow;
         energy[slot] = here.energy;
         return;
@@ -74,7 +90,7 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         atomicMin(&control.fault, (STAGE_GAS_ADVECTION << 27u) | slot);
     }
     fill[slot].y = 1.0 / (params.gamma * pressure);
-    energy[params.slots + slot] = predicted(cell_of(slot), here, pressure);
+    energy[params.slots + slot] = predicted(cell_of(slot), slot, here, pressure);
     // Gravity: the work of the mean momentum.
     let pull = control.dt * here.flow.x * params.gravity;
     conserved[slot] = here.flow + vec4f(0.0, pull);

@@ -87,10 +87,11 @@ fn pcg_alpha(@builtin(local_invocation_index) lane: u32) {
 @compute @workgroup_size(WORKGROUP)
 fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
+    let alpha = pcg.alpha;
     var sum = vec4f(0.0);
     for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
-        solution[i] += pcg.alpha * direction[i];
-        let r = residual[i] - pcg.alpha * product[i];
+        solution[i] += alpha * direction[i];
+        let r = residual[i] - alpha * product[i];
         residual[i] = r;
         sum.x += r * r * inverse_diagonal[i];
     }
@@ -112,7 +113,8 @@ fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
 @compute @workgroup_size(WORKGROUP)
 fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
+    let beta = pcg.beta;
     for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
-        direction[i] = inverse_diagonal[i] * residual[i] + pcg.beta * direction[i];
+        direction[i] = inverse_diagonal[i] * residual[i] + beta * direction[i];
     }
 }

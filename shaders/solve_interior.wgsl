@@ -32,13 +32,6 @@ fn masses(at: u32) -> vec4f {
     return vec4f(inverse_mass(at - 1u - y), inverse_mass(at - y), inverse_mass(at - 1u), inverse_mass(at));
 }
 
-// Inverse masses of all nodes around a vertex.
-fn mass_sum(at: u32) -> f32 {
-    if DIM == 1u { return inverse_mass(at - 1u) + inverse_mass(at); }
-    if DIM == 2u { return dot(masses(at), vec4f(1.0)); }
-    return dot(masses(at - params.stride.x * params.stride.y) + masses(at), vec4f(1.0));
-}
-
 // Values along x and y around `at` that a corner shares an edge with, summed per diagonal direction.
 fn edges(at: u32) -> vec4f {
     let y = params.stride.x;
@@ -46,16 +39,21 @@ fn edges(at: u32) -> vec4f {
         + x[at - 1u] * vec4f(1.0, 0.0, 1.0, 0.0) + x[at + 1u] * vec4f(0.0, 1.0, 0.0, 1.0);
 }
 
-// C^T M^-1 C x at a vertex, in units of face_area()^2.
-fn operator_at(at: u32) -> f32 {
-    let own = x[at];
-    if DIM == 1u { return inverse_mass(at - 1u) * (own - x[at - 1u]) + inverse_mass(at) * (own - x[at + 1u]); }
-    if DIM == 2u { return 0.5 * dot(masses(at), own - diagonals(at)); }
+// C^T M^-1 C x at a vertex with value `own`, in units of face_area()^2, and the sum of the inverse masses around it.
+fn operator_at(at: u32, own: f32) -> vec2f {
+    if DIM == 1u {
+        let low = inverse_mass(at - 1u);
+        let high = inverse_mass(at);
+        return vec2f(low * (own - x[at - 1u]) + high * (own - x[at + 1u]), low + high);
+    }
+    let above = masses(at);
+    if DIM == 2u { return vec2f(0.5 * dot(above, own - diagonals(at)), dot(above, vec4f(1.0))); }
     let z = params.stride.x * params.stride.y;
+    let below = masses(at - z);
     let middle = 3.0 * own + edges(at) - diagonals(at);
     let low = middle + x[at - z] - edges(at - z) - 3.0 * diagonals(at - z);
     let high = middle + x[at + z] - edges(at + z) - 3.0 * diagonals(at + z);
-    return 0.0625 * (dot(masses(at - z), low) + dot(masses(at), high));
+    return vec2f(0.0625 * (dot(below, low) + dot(above, high)), dot(below + above, vec4f(1.0)));
 }
 
 // C^T V at a vertex in units of face_area(), V the velocities of the gas cells.
@@ -78,9 +76,10 @@ fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots || !has(cells[slot], INTERIOR) { return; }
     let scale = control.dt * face_area();
-    y[slot] = scale * (divergence(slot) - scale * operator_at(slot));
+    let of_pressure = operator_at(slot, x[slot]);
+    y[slot] = scale * (divergence(slot) - scale * of_pressure.x);
     let square = f32(DIM) / f32(1u << (2u * (DIM - 1u)));
-    inverse_diagonal[slot] = 1.0 / (stiffness[slot] + scale * scale * square * mass_sum(slot));
+    inverse_diagonal[slot] = 1.0 / (stiffness[slot] + scale * scale * square * of_pressure.y);
 }
 
 // y = S^-1 x + dt^2 C^T M^-1 C x; adds to the partial sums of x . y that the listed form has left.
@@ -91,9 +90,10 @@ fn interior_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroup
     var product = 0.0;
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
         if !has(cells[slot], INTERIOR) { continue; }
-        let value = stiffness[slot] * x[slot] + scale * scale * operator_at(slot);
+        let own = x[slot];
+        let value = stiffness[slot] * own + scale * scale * operator_at(slot, own).x;
         y[slot] = value;
-        product += x[slot] * value;
+        product += own * value;
     }
     let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
     if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }

@@ -1,6 +1,7 @@
 // intermediate_pressure, second half: cell values to vertices. X*_v = mean of the adjacent gas cells' predicted pressure,
 // S^-1_v = sum of (cell volume / 2^DIM) / (stiffness of the cell). Where gas and solid share a pressure both add.
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
@@ -26,12 +27,29 @@ fn vertex_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     }
 }
 
+// A vertex with only gas around it.
+fn interior_vertex(slot: u32) {
+    var sum = vec2f(0.0);
+    for (var k = 0u; k < corner_count(); k++) {
+        let o = vec3u(corner_offset(k));
+        let at = slot - o.x - params.stride.x * (o.y + params.stride.y * o.z);
+        sum += vec2f(energy[params.slots + at], fill[at].y);
+    }
+    let mean = sum / f32(corner_count());
+    pressure[slot] = mean.x;
+    stiffness[slot] = mean.y * cell_volume();
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
+    if !LISTED {
+        if has(word, INTERIOR) { interior_vertex(slot); }
+        return;
+    }
     var gas = vec3f(0.0);   // count, pressure sum, compliance sum
     var solid = 0.0;
     if has(word, VERTEX_GAS | VERTEX_SOLID) {

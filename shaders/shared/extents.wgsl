@@ -8,6 +8,12 @@ fn groups_for(threads: u32) -> vec4u {
     return vec4u(x, (groups + MAX_GROUPS - 1u) / MAX_GROUPS, 1u, 0u);
 }
 
+// Threads that march along the last axis.
+fn marches() -> u32 {
+    let rows = params.stride[DIM - 1u];
+    return params.slots / rows * ((rows + params.march - 1u) / params.march);
+}
+
 // Switches the dispatches of one phase on or off. Needs the binding control.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
@@ -16,6 +22,7 @@ fn open_phase(first: u32, on: bool) {
     extents[first + EXTENT_REDUCE] = vec4u(params.groups, 1u, 1u, 0u) * keep;
     extents[first + EXTENT_LISTED] = groups_for(control.listed) * keep;
     extents[first + EXTENT_FRONTIER] = groups_for(control.frontier) * keep;
+    extents[first + EXTENT_MARCHED] = groups_for(marches()) * keep;
     extents[first + EXTENT_SINGLE] = vec4u(keep);
     for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
 }

@@ -1,26 +1,38 @@
-// Advective fluxes f = u_n U through a face between cells b and c, with a and d one cell further out.
+// Advective fluxes f = u_n U through a face between cells b and c, with a and d one cell further out: third order, and first
+// order with the same splitting, which the limiter falls back to.
 // Local Lax-Friedrichs splitting f+- = (u_n +- alpha) U / 2, alpha the largest |u_n| of the stencil: the pressure part of the
 // Euler flux is the solve's, so sound needs no dissipation here. [Cao et al. 2022, section 2.3; Shu & Osher 1988]
+// Without a z axis the energy travels in the place of the z momentum, which is zero.
 
-fn flux_weno(n: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Gas {
+struct Fluxes { high: Gas, low: Gas }
+
+fn packed(gas: Gas) -> vec4f { return select(gas.flow, vec4f(gas.flow.xyz, gas.energy), vec4<bool>(DIM < 3u)); }
+
+fn unpacked(flux: vec4f, energy: f32) -> Gas {
+    if DIM < 3u { return Gas(vec4f(flux.xyz, 0.0), flux.w); }
+    return Gas(flux, energy);
+}
+
+fn face_fluxes_of(n: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxes {
     let ua = a.flow[n + 1u] / a.flow.x;
     let ub = b.flow[n + 1u] / b.flow.x;
     let uc = c.flow[n + 1u] / c.flow.x;
     let ud = d.flow[n + 1u] / d.flow.x;
     let alpha = max(max(abs(ua), abs(ub)), max(abs(uc), abs(ud)));
-    if alpha == 0.0 { return Gas(vec4f(0.0), 0.0); }
-    let flow = weno3_vector((ua + alpha) * a.flow, (ub + alpha) * b.flow, (uc + alpha) * c.flow)
-        + weno3_vector((ud - alpha) * d.flow, (uc - alpha) * c.flow, (ub - alpha) * b.flow);
+    let b_up = (ub + alpha) * packed(b);
+    let b_down = (ub - alpha) * packed(b);
+    let c_up = (uc + alpha) * packed(c);
+    let c_down = (uc - alpha) * packed(c);
+    let flow = weno3_vector((ua + alpha) * packed(a), b_up, c_up) + weno3_vector((ud - alpha) * packed(d), c_down, b_down);
+    var out: Fluxes;
+    if DIM < 3u {
+        out.high = unpacked(0.5 * flow, 0.0);
+        if LIMITER { out.low = unpacked(0.5 * (b_up + c_down), 0.0); }
+        return out;
+    }
     let energy = weno3((ua + alpha) * a.energy, (ub + alpha) * b.energy, (uc + alpha) * c.energy)
         + weno3((ud - alpha) * d.energy, (uc - alpha) * c.energy, (ub - alpha) * b.energy);
-    return Gas(0.5 * flow, 0.5 * energy);
-}
-
-// First-order form of the same splitting: what the limiter falls back to.
-fn flux_first_order(n: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Gas {
-    let ub = b.flow[n + 1u] / b.flow.x;
-    let uc = c.flow[n + 1u] / c.flow.x;
-    let alpha = max(max(abs(a.flow[n + 1u] / a.flow.x), abs(ub)), max(abs(uc), abs(d.flow[n + 1u] / d.flow.x)));
-    return Gas(0.5 * ((ub + alpha) * b.flow + (uc - alpha) * c.flow),
-        0.5 * ((ub + alpha) * b.energy + (uc - alpha) * c.energy));
+    out.high = Gas(0.5 * flow, 0.5 * energy);
+    if LIMITER { out.low = Gas(0.5 * (b_up + c_down), 0.5 * ((ub + alpha) * b.energy + (uc - alpha) * c.energy)); }
+    return out;
 }

@@ -40,6 +40,7 @@ struct Params {
     bodies: u32,
     max_substeps: u32,
     groups: u32,                // groups that leave partial results
+    march: u32,                 // slots that one thread of a marching kernel takes, along the last axis
     side: array<vec4u, 2>,      // SIDE_WALL, SIDE_INLET, SIDE_OUTLET for x-, x+, y-, y+, z-, z+
     inlet_flow: array<vec4f, 6>,    // density, momentum per volume
     inlet_energy: array<vec4f, 6>,  // total energy per volume in x

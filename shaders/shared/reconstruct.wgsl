@@ -5,9 +5,9 @@
 const WENO_EPSILON = 1e-6;
 
 fn weno3_vector(a: vec4f, b: vec4f, c: vec4f) -> vec4f {
-    let scale = max(max(abs(a), abs(b)), max(abs(c), vec4f(1e-30)));
-    let left = (b - a) / scale;
-    let right = (c - b) / scale;
+    let scale = 1.0 / max(max(abs(a), abs(b)), max(abs(c), vec4f(1e-30)));
+    let left = (b - a) * scale;
+    let right = (c - b) * scale;
     let rough_left = left * left + WENO_EPSILON;
     let rough_right = right * right + WENO_EPSILON;
     let weight_left = rough_right * rough_right;
@@ -16,9 +16,9 @@ fn weno3_vector(a: vec4f, b: vec4f, c: vec4f) -> vec4f {
 }
 
 fn weno3(a: f32, b: f32, c: f32) -> f32 {
-    let scale = max(max(abs(a), abs(b)), max(abs(c), 1e-30));
-    let left = (b - a) / scale;
-    let right = (c - b) / scale;
+    let scale = 1.0 / max(max(abs(a), abs(b)), max(abs(c), 1e-30));
+    let left = (b - a) * scale;
+    let right = (c - b) * scale;
     let rough_left = left * left + WENO_EPSILON;
     let rough_right = right * right + WENO_EPSILON;
     let weight_left = rough_right * rough_right;

@@ -1,8 +1,7 @@
 //! `intermediate_pressure`: which pressure does the advected gas have, and how stiff is what it meets?
 //! [Cao et al. 2022, eqs. 9, 17, 22, 24]
 
-use super::time_step::slots;
-use super::{Parts, extent};
+use super::{Parts, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
@@ -11,9 +10,9 @@ use crate::state::constants::Entry;
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct IntermediatePressure {
-    cells: Bound,
+    cells: [Bound; 2],
     clear: Bound,
-    vertices: Bound,
+    vertices: [Bound; 2],
 }
 
 impl IntermediatePressure {
@@ -24,17 +23,17 @@ impl IntermediatePressure {
     pub fn new(parts: Parts<'_>) -> Result<Self> {
         let Parts { gpu, state } = parts;
         Ok(Self {
-            cells: state.bind(gpu, "intermediate_pressure.wgsl", "pressure_star", &[], &[])?,
-            clear: state.bind(gpu, "vertex_pressure.wgsl", "vertex_clear", &[], &[])?,
-            vertices: state.bind(gpu, "vertex_pressure.wgsl", "vertex_pressure", &[], &[])?,
+            cells: parts.both("intermediate_pressure.wgsl", "pressure_star", &[], &[])?,
+            clear: state.bind(gpu, "vertex_pressure.wgsl", "vertex_clear", &[], &[("LISTED", 0.0)])?,
+            vertices: parts.both("vertex_pressure.wgsl", "vertex_pressure", &[], &[])?,
         })
     }
 
     /// Cell pressures, then vertex pressures and stiffness.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("intermediate_pressure");
-        pass.dispatch(&self.cells, &slots(state, "BEGIN"));
+        record_both(pass, state, "BEGIN", &self.cells);
         pass.dispatch(&self.clear, &extent(state, "BEGIN", Entry::Reduce));
-        pass.dispatch(&self.vertices, &slots(state, "BEGIN"));
+        record_both(pass, state, "BEGIN", &self.vertices);
     }
 }

@@ -36,7 +36,7 @@ pub const NO_FAULT: u32 = u32::MAX;
 /// Dispatches of the longest prefix sum that a step runs.
 pub const SCAN_DISPATCHES: usize = 6;
 /// Entries of a phase in the table of extents.
-pub const PHASE_WIDTH: usize = 6 + SCAN_DISPATCHES;
+pub const PHASE_WIDTH: usize = 7 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
 pub const PHASES: [&str; 7] = ["BEGIN", "LIMIT", "UPDATE", "SUBSTEP", "AGAIN", "FIRST", "END"];
 
@@ -56,8 +56,10 @@ pub enum Entry {
     Listed = 4,
     /// One thread per INTERIOR slot whose node listed vertices rest on.
     Frontier = 5,
+    /// One thread per march of [`super::Params::march`] slots.
+    Marched = 6,
     /// First dispatch of a prefix sum.
-    Scan = 6,
+    Scan = 7,
 }
 
 /// Byte offset of an entry of a phase in the table of extents.
@@ -108,7 +110,9 @@ pub fn source() -> String {
     for (value, name) in PHASES.iter().enumerate() {
         put(&format!("PHASE_{name}_EXTENTS"), (PHASE_WIDTH * value) as u32);
     }
-    for (value, name) in ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "SCAN"].iter().enumerate() {
+    for (value, name) in
+        ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "SCAN"].iter().enumerate()
+    {
         put(&format!("EXTENT_{name}"), value as u32);
     }
     put("MAX_GROUPS", 65_535);

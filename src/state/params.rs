@@ -65,8 +65,8 @@ pub struct Params {
     pub max_substeps: u32,
     /// Groups that leave partial results.
     pub groups: u32,
-    /// Keeps `side` on a 16-byte boundary.
-    pub unused: u32,
+    /// Slots that one thread of a marching kernel takes one after the other, along the last axis.
+    pub march: u32,
     /// Kind of each side: x-, x+, y-, y+, z-, z+.
     pub side: [u32; 8],
     /// Density and momentum of each inlet.
@@ -104,19 +104,25 @@ pub struct DeviceLimits {
     pub extra_capacity: u32,
     /// Groups, at most, that leave partial results.
     pub groups: u32,
+    /// Slots that one thread of a marching kernel takes.
+    pub march: u32,
 }
 
 impl DeviceLimits {
     /// Limits for a number of extra vertices. On a CPU every barrier of a reduction costs more than the work it shares out.
     #[must_use]
     pub fn new(software: bool, extra_capacity: usize) -> Self {
-        let groups = if software { SOFTWARE_GROUPS } else { constants::PARTIALS };
-        Self { extra_capacity: extra_capacity as u32, groups }
+        let (groups, march) = if software { (SOFTWARE_GROUPS, SOFTWARE_MARCH) } else { (constants::PARTIALS, MARCH) };
+        Self { extra_capacity: extra_capacity as u32, groups, march }
     }
 }
 
 /// Groups that leave partial results on a software driver (measured: 1024 cost 10 ms more per reduction at 512 x 512).
 const SOFTWARE_GROUPS: u32 = 64;
+/// Length of a march on a CPU, where reading a neighbour again costs as much as the first time.
+const SOFTWARE_MARCH: u32 = 16;
+/// The same on a GPU, which needs the threads more (not measured on one).
+const MARCH: u32 = 4;
 
 impl Params {
     /// Parameters of a scene on its grid.
@@ -152,7 +158,7 @@ impl Params {
             bodies: scene.bodies.len() as u32,
             max_substeps: numerics.max_substeps,
             groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, limits.groups),
-            unused: 0,
+            march: limits.march,
             side: [0; 8],
             inlet_flow: [[0.0; 4]; 6],
             inlet_energy: [[0.0; 4]; 6],

@@ -65,6 +65,7 @@ fn params() {
             bodies,
             max_substeps,
             groups,
+            march,
             side,
             inlet_flow,
             inlet_energy,
