@@ -40,6 +40,10 @@ fn open_gas(c: vec3i) -> Gas {
     return source(slot_of(nearest_inside(c)));
 }
 
+fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
+    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first));
+}
+
 // Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
 fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     let far = select(near - axis(n), near + axis(n), up);
@@ -58,8 +62,7 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     }
     var first = here;
     if is_open(cells[slot_of(behind)]) { first = open_gas(behind); }
-    var out: Fluxes;
-    if up { out = face_fluxes_of(n, first, here, next, last); } else { out = face_fluxes_of(n, last, next, here, first); }
+    var out = face_fluxes_of(n, chosen(first, last, up), chosen(here, next, up), chosen(next, here, up), chosen(last, first, up));
     if open { return out; }
     // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
     var blocked = 1.0;
@@ -103,8 +106,7 @@ fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
             if !is_gas && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
             var part = 1.0;
             if limited { part = min(theta[slot], theta[slot_of(other)]); }
-            var f: Fluxes;
-            if is_gas { f = face_fluxes(c, n, up); } else { f = face_fluxes(other, n, !up); }
+            let f = face_fluxes(select(other, c, is_gas), n, up == is_gas);
             add_face(&change, f, part, select(1.0, -1.0, up));
         }
     }

@@ -61,10 +61,12 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     var around = 0u;
     var gas = 0u;
     var solid = 0u;
+    var closed = 0u;
     for (var k = 0u; k < block_size(); k++) {
         let near = c + block_offset(k);
-        if !inside(near) { continue; }
         let kind = kind_near(near);
+        closed += u32(kind == WALL || kind == GHOST);
+        if !inside(near) { continue; }
         around += 1u;
         gas += u32(kind == GAS);
         solid += u32(kind == SOLID);
@@ -73,6 +75,8 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if gas > 0u && gas == around { flags |= NODE_REGULAR; }
     if gas == block_size() { flags |= NODE_INTERIOR; }
     if solid > 0u { flags |= NODE_SOLID; }
+    if solid == block_size() { flags |= NODE_DEEP; }
+    if solid > 0u && closed > 0u { flags |= NODE_FILM; }
     if is_vertex(c) { flags |= vertex_flags(c, slot); }
     cells[slot] = (cells[slot] & 0xffff000fu) | flags;
 }
@@ -93,6 +97,7 @@ fn vertex_flags(v: vec3i, slot: u32) -> u32 {
     if gas > 0u { flags |= VERTEX_GAS; }
     if gas > 0u && gas == around { flags |= VERTEX_REGULAR; }
     if solid > 0u { flags |= VERTEX_SOLID; }
+    if solid == corner_count() { flags |= VERTEX_DEEP; }
     if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }
     return flags;
 }

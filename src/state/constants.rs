@@ -87,9 +87,12 @@ pub fn source() -> String {
         "NODE_REGULAR",
         "NODE_INTERIOR",
         "NODE_SOLID",
+        "NODE_DEEP",
+        "NODE_FILM",
         "VERTEX_GAS",
         "VERTEX_REGULAR",
         "VERTEX_SOLID",
+        "VERTEX_DEEP",
         "INTERIOR",
     ];
     for (bit, name) in flags.iter().enumerate() {

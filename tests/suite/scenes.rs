@@ -44,6 +44,7 @@ scenes! {
     bursting_shell_2d: "coupled/bursting_shell_2d.toml";
     #[ignore = "minutes on a software device"]
     bursting_shell_3d: "demos/bursting_shell_3d.toml";
+    ball_in_blast_3d: "demos/ball_in_blast_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
 }
 
 fn scene_files(folder: &Path, below: &str, found: &mut Vec<String>) {
