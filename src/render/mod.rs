@@ -19,6 +19,7 @@ use glam::Vec3;
 
 pub use frame::{Frame, Picture};
 pub use kernels::constants as shader_constants;
+pub(crate) use ticks::ticks;
 pub use view::View;
 
 use crate::Result;

@@ -23,6 +23,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
+
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
 pub use boundary::{Boundaries, Boundary};

@@ -37,6 +37,8 @@ scenes! {
     rarefactions: "gas/rarefactions.toml";
     blast: "gas/blast.toml";
     circular_shock: "gas/circular_shock.toml";
+    modified_sod: "validation/modified_sod.toml";
+    stationary_contact: "validation/stationary_contact.toml";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";
     shell_at_rest: "coupled/shell_at_rest.toml";
