@@ -50,6 +50,7 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
             bar.inc(1);
         }
     }
+    session.overview();
     let (rows, plots) = (session.rows, session.plots);
     if let Some(bar) = &bar {
         bar.finish_and_clear();

@@ -17,6 +17,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod vector;
+mod wave;
 
 use std::collections::BTreeMap;
 
@@ -34,6 +35,7 @@ pub use settings::{
     RenderSettings, Time, Transfer,
 };
 pub use shape::Shape;
+pub use wave::Wave;
 
 /// One experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,6 +117,9 @@ pub struct Gas {
     /// Regions with their own state; a later one covers an earlier one.
     #[serde(default)]
     pub regions: Vec<Region>,
+    /// Waves on top of that.
+    #[serde(default)]
+    pub waves: Vec<Wave>,
 }
 
 fn default_gamma() -> f64 {
@@ -303,6 +308,7 @@ impl Scene {
         let plain = self.domain.dimension == 1
             && self.bodies.is_empty()
             && self.obstacles.is_empty()
+            && self.gas.waves.is_empty()
             && self.gravity == [0.0; 3];
         let [region] = &self.gas.regions[..] else { return None };
         let inside = |x: f64| region.shape.distance([x, 0.0, 0.0]) < 0.0;

@@ -68,6 +68,8 @@ pub fn html(head: &Head, rows: &[Row], plots: &[(&'static str, Plot)]) -> String
         "<p>PCG: iterations of the pressure solve per step, mean and most. Courant: largest acoustic Courant number of the run, and \
          the iterations that suffice there. A gate marked good is that of a sharp method.</p>\n",
     );
+    let of = |id: &str| plots.iter().filter(|(own, _)| *own == id).map(|(_, plot)| plot.svg()).collect::<String>();
+    let _ = writeln!(page, "<div class=\"plots\">{}</div>", of(""));
     let mut group = "";
     for (case, own) in by_case(rows) {
         // Writing to a String cannot fail.
@@ -87,8 +89,7 @@ pub fn html(head: &Head, rows: &[Row], plots: &[(&'static str, Plot)]) -> String
             let cells: String = entries(row)[1..].iter().enumerate().map(cell).collect();
             let _ = writeln!(page, "<tr>{cells}</tr>");
         }
-        let own: String = plots.iter().filter(|(id, _)| *id == case.id).map(|(_, plot)| plot.svg()).collect();
-        let _ = writeln!(page, "</tbody></table>\n<div class=\"plots\">{own}</div>");
+        let _ = writeln!(page, "</tbody></table>\n<div class=\"plots\">{}</div>", of(case.id));
     }
     page + "</body></html>\n"
 }

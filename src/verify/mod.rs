@@ -15,6 +15,7 @@
 //! }
 //! ```
 
+mod blasts;
 mod document;
 pub mod muscl;
 mod plot;
@@ -24,6 +25,7 @@ mod session;
 mod table;
 mod tube_errors;
 mod tubes;
+mod waves;
 
 pub use document::{Head, html, json, markdown};
 pub use plot::{Plot, Style};
@@ -53,7 +55,7 @@ pub struct Case {
 
 /// All cases, in the order of the report.
 pub fn cases() -> impl Iterator<Item = &'static Case> {
-    [tubes::CASES].into_iter().flatten()
+    [tubes::CASES, blasts::CASES, waves::CASES].into_iter().flatten()
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.

@@ -84,26 +84,28 @@ impl Profile {
         squares / reference.state[DENSITY].iter().sum::<f64>().powi(2)
     }
 
-    /// Where a quantity last crosses `level`, seen from the high end, between cell centres; not a number if nowhere.
-    #[must_use]
-    pub fn last_crossing(&self, quantity: usize, level: f64) -> f64 {
+    /// Where a quantity crosses `level`, between cell centres, from the low end on.
+    pub fn crossings(&self, quantity: usize, level: f64) -> impl DoubleEndedIterator<Item = f64> {
         let values = &self.state[quantity];
-        let crosses =
-            |k: &usize| (values[*k] - level) * (values[*k + 1] - level) <= 0.0 && values[*k] != values[*k + 1];
-        (0..values.len() - 1).rev().find(crosses).map_or(f64::NAN, |k| self.between(values, k, level))
+        let crosses = move |k: &usize| (values[*k] < level) != (values[*k + 1] < level);
+        let cells = 0..values.len().saturating_sub(1);
+        cells
+            .filter(crosses)
+            .map(move |k| self.center(k) + self.spacing * (level - values[k]) / (values[k + 1] - values[k]))
     }
 
-    /// Where a quantity first crosses `level`, seen from the low end.
+    /// The crossing of `level` next to `place`.
     #[must_use]
-    pub fn first_crossing(&self, quantity: usize, level: f64) -> f64 {
-        let values = &self.state[quantity];
-        let crosses =
-            |k: &usize| (values[*k] - level) * (values[*k + 1] - level) <= 0.0 && values[*k] != values[*k + 1];
-        (0..values.len() - 1).find(crosses).map_or(f64::NAN, |k| self.between(values, k, level))
+    pub fn nearest_crossing(&self, quantity: usize, level: f64, place: f64) -> f64 {
+        let crossings = self.crossings(quantity, level);
+        crossings.min_by(|a, b| (a - place).abs().total_cmp(&(b - place).abs())).unwrap_or(f64::NAN)
     }
 
-    fn between(&self, values: &[f64], cell: usize, level: f64) -> f64 {
-        self.center(cell) + self.spacing * (level - values[cell]) / (values[cell + 1] - values[cell])
+    /// Least and largest value among cells whose centre lies in an interval.
+    #[must_use]
+    pub fn extremes(&self, quantity: usize, [low, high]: [f64; 2]) -> [f64; 2] {
+        let inside = (0..self.cells()).filter(|k| (low..=high).contains(&self.center(*k)));
+        inside.map(|k| self.state[quantity][k]).fold([f64::NAN; 2], |[a, b], value| [a.min(value), b.max(value)])
     }
 
     /// Largest |q - value| among cells whose centre lies in an interval; not a number if there is none.

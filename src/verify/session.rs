@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::plot::Plot;
+use super::plot::{Plot, Style};
 use super::profile::Profile;
 use super::row::{Limit, Row, Solver};
 use super::{Case, iteration_bound, muscl};
@@ -14,6 +14,9 @@ use crate::gpu::Gpu;
 use crate::scene::{Pair, Scene};
 use crate::simulation::Simulation;
 use crate::snapshot::Snapshot;
+
+/// Squared deviations below this are rounding, not error.
+const ROUNDING: f64 = 1e-12;
 
 /// How much to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,17 +109,28 @@ pub struct Session<'a> {
     case: &'static str,
     /// Runs of the case: label, lowest density, lowest pressure, share of the iteration bound.
     health: Vec<(Solver, [f64; 3])>,
+    /// Deviations of eq. (38) over the cells, by title.
+    curves: Vec<(String, Vec<[f64; 2]>)>,
     /// All lines.
     pub rows: Vec<Row>,
-    /// All plots, with the case they belong to.
+    /// All plots, with the case they belong to; an empty one stands for the whole.
     pub plots: Vec<(&'static str, Plot)>,
 }
 
 impl<'a> Session<'a> {
     /// An empty session.
     pub fn new(gpu: &'a Gpu, suite: Suite, notify: &'a mut dyn FnMut(&str) -> Result<()>) -> Self {
-        let (references, case) = (BTreeMap::new(), "");
-        Session { gpu, suite, notify, references, case, health: Vec::new(), rows: Vec::new(), plots: Vec::new() }
+        Session {
+            gpu,
+            suite,
+            notify,
+            references: BTreeMap::new(),
+            case: "",
+            health: Vec::new(),
+            curves: Vec::new(),
+            rows: Vec::new(),
+            plots: Vec::new(),
+        }
     }
 
     /// Runs a case to its end. A run that diverges is a failed row, not the end of the session.
@@ -193,6 +207,21 @@ impl<'a> Session<'a> {
     /// Adds a plot to the case.
     pub fn plot(&mut self, plot: Plot) {
         self.plots.push((self.case, plot));
+    }
+
+    /// Keeps errors over cells for [`Session::overview`]; those of mere rounding are left out.
+    pub(super) fn curve(&mut self, title: &str, points: Vec<[f64; 2]>) {
+        if points.iter().all(|point| point[1] > ROUNDING) {
+            self.curves.push((title.to_owned(), points));
+        }
+    }
+
+    /// Adds the plot of all errors over cells, as [Cao et al. 2022, fig. 16 left].
+    pub fn overview(&mut self) {
+        let empty = Plot::new("Squared density deviation, eq. (38), of the default method", "cells", "deviation");
+        let curves = std::mem::take(&mut self.curves).into_iter();
+        let plot = curves.fold(empty.logarithmic(), |plot, (title, points)| plot.with(title, Style::Both, points));
+        self.plots.insert(0, ("", plot));
     }
 
     /// End of a 1D scene by the independent solver of [`muscl`]; computed once per session.

@@ -46,6 +46,13 @@ pub(super) const RAREFACTIONS: Errors = [
     [0.0181, 0.0110, 0.0062, 0.00349, 0.00208],
 ];
 
+pub(super) const BLAST: Errors = [
+    [0.303, 0.220, 0.138, 0.0752, NONE],
+    [0.341, 0.250, 0.157, 0.0893, 0.0478],
+    [NONE; 5],
+    [0.348, 0.252, 0.157, 0.0891, 0.0477],
+];
+
 /// The error that a setting should have.
 pub(super) fn expected(errors: &Errors, setting: Setting) -> Option<f64> {
     let row = match (setting.pair, setting.integrator) {

@@ -88,11 +88,11 @@ pub(super) fn sweeps(suite: Suite) -> Vec<Sweep> {
 pub(super) type Point = (u32, f64, f64);
 
 /// Plots of the errors over the cells: L1, and the measure and axes of [Cao et al. 2022, fig. 16].
-pub(super) fn plot_errors(session: &mut Session<'_>, title: &str, measured: &[(String, Vec<Point>)]) {
+pub(super) fn plot_errors(session: &mut Session<'_>, title: &str, measured: Vec<(String, Vec<Point>)>) {
     let mut l1 = Plot::new(format!("{title}: L1 density error"), "cells", "L1 error").logarithmic();
     let mut squared =
         Plot::new(format!("{title}: squared density deviation, eq. (38)"), "cells", "deviation").logarithmic();
-    for (name, points) in measured {
+    for (name, points) in &measured {
         let series = |value: fn(&Point) -> f64| points.iter().map(|p| [f64::from(p.0), value(p)]).collect::<Vec<_>>();
         l1 = l1.with(name.as_str(), Style::Both, series(|p| p.1));
         squared = squared.with(name.as_str(), Style::Both, series(|p| p.2));
@@ -108,7 +108,12 @@ pub(super) fn plot_errors(session: &mut Session<'_>, title: &str, measured: &[(S
         squared = squared.with("order 2", Style::Guide, slope(2.0, first.2));
     }
     session.plot(l1);
-    session.plot(squared);
+    if measured.iter().flat_map(|(_, points)| points).all(|point| point.2 > 0.0) {
+        session.plot(squared);
+    }
+    if let Some((_, points)) = measured.into_iter().next() {
+        session.curve(title, points.into_iter().map(|point| [f64::from(point.0), point.2]).collect());
+    }
 }
 
 fn tube(session: &mut Session<'_>, tube: &Tube) -> Result<()> {
@@ -144,7 +149,7 @@ fn tube(session: &mut Session<'_>, tube: &Tube) -> Result<()> {
         }
         measured.push((sweep.name(), points));
     }
-    plot_errors(session, &title, &measured);
+    plot_errors(session, &title, measured);
     Ok(())
 }
 
@@ -154,23 +159,29 @@ fn exact(run: &Run) -> Result<(ExactRiemann, f64)> {
 
 /// L1 error against that of the method in double precision, and against well-known schemes.
 fn report_error(session: &mut Session<'_>, tube: &Tube, run: &Run, setting: Setting, error: f64) {
-    let expected = tube.errors.and_then(|errors| tube_errors::expected(errors, setting));
     let peers = [100, 400].iter().position(|cells| *cells == setting.cells);
     let peers = peers.filter(|_| setting.integrator == Integrator::Predictor).map(|k| tube.peers.map(|gate| gate[k]));
-    let row = session.check(run, "L1 density error", error);
-    match (expected, peers) {
-        (Some(expected), _) => {
-            row.reference(expected, "double precision x 1.05").pass(Limit::AtMost(MARGIN * expected));
-        }
-        (None, Some([pass, _])) => {
-            row.source(PEERS).pass(Limit::AtMost(pass));
-        }
-        (None, None) => {
-            row.source(EXACT);
-        }
+    let row = report_double(session, run, tube.errors, setting, error);
+    if let (None, Some([pass, _])) = (row.pass, peers) {
+        row.source(PEERS).pass(Limit::AtMost(pass));
     }
     if let Some([_, good]) = peers.filter(|[_, good]| good.is_finite()) {
         row.good(Limit::AtMost(good));
+    }
+}
+
+/// L1 density error against that of the method in double precision.
+pub(super) fn report_double<'s>(
+    session: &'s mut Session<'_>,
+    run: &Run,
+    errors: Option<&Errors>,
+    setting: Setting,
+    error: f64,
+) -> &'s mut Row {
+    let row = session.check(run, "L1 density error", error);
+    match errors.and_then(|errors| tube_errors::expected(errors, setting)) {
+        Some(expected) => row.reference(expected, "double precision x 1.05").pass(Limit::AtMost(MARGIN * expected)),
+        None => row.source("reference solution"),
     }
 }
 
@@ -204,8 +215,8 @@ fn report_waves(session: &mut Session<'_>, tube: &Tube, run: &Run, ours: &Profil
         let strength = (exact.star_pressure / ends[side] - 1.0).abs();
         if is_shock && strength > 1e-3 {
             let level = 0.5 * (exact.star_pressure + ends[side]);
-            let crossing = if side == 0 { Profile::first_crossing } else { Profile::last_crossing };
-            let off = (crossing(ours, PRESSURE, level) - place[4 * side]).abs() / ours.spacing;
+            let found = ours.nearest_crossing(PRESSURE, level, place[4 * side]);
+            let off = (found - place[4 * side]).abs() / ours.spacing;
             session.check(run, name, off).source(EXACT).pass(Limit::AtMost(SHOCK_CELLS));
         }
     }
@@ -254,8 +265,13 @@ const SOD: Tube = Tube {
     known_ratio: None,
     extra: nothing,
 };
-const LAX: Tube =
-    Tube { path: "gas/lax.toml", errors: Some(&tube_errors::LAX), peers: [[0.0338, 0.0134], [0.016, 0.00616]], ..SOD };
+const LAX: Tube = Tube {
+    path: "gas/lax.toml",
+    errors: Some(&tube_errors::LAX),
+    peers: [[0.0338, 0.0134], [0.016, 0.00616]],
+    known_ratio: Some((0.67, "the error at 200 cells is lower than its neighbours suggest")),
+    ..SOD
+};
 const STRONG: Tube = Tube {
     path: "gas/strong_shock_tube.toml",
     errors: Some(&tube_errors::STRONG),
