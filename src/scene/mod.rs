@@ -333,6 +333,16 @@ impl Scene {
         Some((ExactRiemann::new(self.gas.gamma, left, right), 0.5 * (low + high)))
     }
 
+    /// The exact solution and the place of its jump, while its waves are inside the domain: later the sides have their say.
+    #[must_use]
+    pub fn riemann_until_waves_leave(&self, time: f64) -> Option<(ExactRiemann, f64)> {
+        let (exact, jump) = self.riemann()?;
+        let ends = [self.domain.origin[0], self.domain.origin[0] + self.domain.size[0]];
+        let speeds = exact.wave_speeds();
+        let inside = jump + speeds[0] * time >= ends[0] && jump + speeds[4] * time <= ends[1];
+        inside.then_some((exact, jump))
+    }
+
     /// The JSON schema of scene files (draft 2020-12).
     #[must_use]
     pub fn schema() -> schemars::Schema {
