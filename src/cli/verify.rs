@@ -15,7 +15,7 @@ use crate::gpu::Gpu;
 use crate::verify::{self, Case, Head, Row, Session, Suite, Verdict};
 use crate::{Error, Result};
 
-/// Runs the suite and judges.
+/// Runs the suite and judges. What was found before an error or an interruption is written all the same.
 ///
 /// # Errors
 /// [`Error::Expectation`] if a gate does not hold, after everything was written; those of runs.
@@ -44,8 +44,12 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
         if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { Ok(()) }
     };
     let mut session = Session::new(&gpu, suite, &mut notify);
+    let mut outcome = Ok(());
     for case in cases {
-        session.perform(case)?;
+        outcome = session.perform(case);
+        if outcome.is_err() {
+            break;
+        }
         if let Some(bar) = &bar {
             bar.inc(1);
         }
@@ -66,6 +70,7 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
     } else {
         say!("{}", verify::table(&rows));
     }
+    outcome?;
     verdict(&rows, &options.out)
 }
 

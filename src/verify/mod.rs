@@ -15,6 +15,7 @@
 //! }
 //! ```
 
+mod blast_2d;
 mod blasts;
 mod document;
 pub mod muscl;
@@ -55,7 +56,7 @@ pub struct Case {
 
 /// All cases, in the order of the report.
 pub fn cases() -> impl Iterator<Item = &'static Case> {
-    [tubes::CASES, blasts::CASES, waves::CASES].into_iter().flatten()
+    [tubes::CASES, blasts::CASES, waves::CASES, blast_2d::CASES].into_iter().flatten()
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.

@@ -45,6 +45,7 @@ scenes! {
     sedov_planar: "validation/sedov_planar.toml";
     acoustic_wave: "validation/acoustic_wave.toml";
     density_wave: "validation/density_wave.toml";
+    sedov_cylindrical: "validation/sedov_cylindrical.toml";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";
     shell_at_rest: "coupled/shell_at_rest.toml";
