@@ -17,9 +17,9 @@ const MOST_SLOTS: u64 = i32::MAX as u64;
 const CUBE_TOLERANCE: f64 = 1e-6;
 
 /// Keys that hold one number per axis.
-const VECTORS: [&str; 15] = [
+const VECTORS: [&str; 16] = [
     "cells", "origin", "size", "velocity", "center", "axis", "from", "to", "point", "normal", "offset", "about",
-    "radii", "position", "gravity",
+    "radii", "position", "gravity", "vector",
 ];
 
 /// Numbers that are not finite and vectors of the wrong length, in the text itself.
@@ -180,6 +180,11 @@ impl Check<'_> {
             self.state(&format!("gas.regions[{index}]"), &region.state);
         }
         self.planar("gravity", self.scene.gravity);
+        for (index, wave) in gas.waves.iter().enumerate() {
+            self.planar(format!("gas.waves[{index}].vector"), wave.vector);
+            self.planar(format!("gas.waves[{index}].velocity"), wave.velocity);
+        }
+        self.findings.extend(super::wave::finding(gas));
     }
 
     fn boundary(&mut self) {
@@ -260,9 +265,11 @@ impl Check<'_> {
         let regions =
             scene.gas.regions.iter().enumerate().map(|(i, region)| (format!("gas.regions[{i}].shape"), &region.shape));
         let bodies = scene.bodies.iter().enumerate().map(|(i, body)| (format!("bodies[{i}].shape"), &body.shape));
+        let waves = scene.gas.waves.iter().enumerate();
+        let waves = waves.filter_map(|(i, wave)| Some((format!("gas.waves[{i}].shape"), wave.shape.as_ref()?)));
         let obstacles =
             scene.obstacles.iter().enumerate().map(|(i, obstacle)| (format!("obstacles[{i}].shape"), &obstacle.shape));
-        for (path, shape) in regions.chain(bodies).chain(obstacles) {
+        for (path, shape) in regions.chain(waves).chain(bodies).chain(obstacles) {
             check_shape::sizes(&path, shape, &mut self.findings);
         }
         for (index, probe) in scene.probes.iter().enumerate() {

@@ -17,11 +17,14 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod vector;
+mod wave;
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
@@ -32,6 +35,7 @@ pub use settings::{
     RenderSettings, Time, Transfer,
 };
 pub use shape::Shape;
+pub use wave::Wave;
 
 /// One experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -113,6 +117,9 @@ pub struct Gas {
     /// Regions with their own state; a later one covers an earlier one.
     #[serde(default)]
     pub regions: Vec<Region>,
+    /// Waves on top of that.
+    #[serde(default)]
+    pub waves: Vec<Wave>,
 }
 
 fn default_gamma() -> f64 {
@@ -301,6 +308,7 @@ impl Scene {
         let plain = self.domain.dimension == 1
             && self.bodies.is_empty()
             && self.obstacles.is_empty()
+            && self.gas.waves.is_empty()
             && self.gravity == [0.0; 3];
         let [region] = &self.gas.regions[..] else { return None };
         let inside = |x: f64| region.shape.distance([x, 0.0, 0.0]) < 0.0;
@@ -323,6 +331,16 @@ impl Scene {
             if inside(middle) == first { low = middle } else { high = middle }
         }
         Some((ExactRiemann::new(self.gas.gamma, left, right), 0.5 * (low + high)))
+    }
+
+    /// The exact solution and the place of its jump, while its waves are inside the domain: later the sides have their say.
+    #[must_use]
+    pub fn riemann_until_waves_leave(&self, time: f64) -> Option<(ExactRiemann, f64)> {
+        let (exact, jump) = self.riemann()?;
+        let ends = [self.domain.origin[0], self.domain.origin[0] + self.domain.size[0]];
+        let speeds = exact.wave_speeds();
+        let inside = jump + speeds[0] * time >= ends[0] && jump + speeds[4] * time <= ends[1];
+        inside.then_some((exact, jump))
     }
 
     /// The JSON schema of scene files (draft 2020-12).

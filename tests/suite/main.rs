@@ -19,3 +19,4 @@ mod render;
 mod scenes;
 mod shaders;
 mod twins;
+mod verify;

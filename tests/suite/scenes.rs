@@ -37,6 +37,15 @@ scenes! {
     rarefactions: "gas/rarefactions.toml";
     blast: "gas/blast.toml";
     circular_shock: "gas/circular_shock.toml";
+    modified_sod: "validation/modified_sod.toml";
+    stationary_contact: "validation/stationary_contact.toml";
+    shu_osher: "validation/shu_osher.toml";
+    shock_reflection: "validation/shock_reflection.toml";
+    noh_planar: "validation/noh_planar.toml";
+    sedov_planar: "validation/sedov_planar.toml";
+    acoustic_wave: "validation/acoustic_wave.toml";
+    density_wave: "validation/density_wave.toml";
+    sedov_cylindrical: "validation/sedov_cylindrical.toml";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";
     shell_at_rest: "coupled/shell_at_rest.toml";
