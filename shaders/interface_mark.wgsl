@@ -32,7 +32,7 @@ fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let c = cell_of(slot);
     let before = kind_of(cells[slot]);
     if !inside(c) || before == WALL {
-        cells[slot] = before | (before << 2u);
+        cells[slot] = (cells[slot] & 0xffff0000u) | before | (before << 2u);
         return;
     }
     var solid = is_full(slot);
@@ -56,6 +56,10 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
+    if is_alias(c) {
+        edge[slot] = 0u;
+        return;
+    }
     var flags = 0u;
     var around = 0u;
     var gas = 0u;
@@ -69,12 +73,12 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         solid += u32(kind == SOLID);
     }
     if gas > 0u { flags |= NODE_GAS; }
-    if gas > 0u && gas == around { flags |= NODE_REGULAR; }
+    if gas > 0u && gas == around && away_from_seam(c, -1, 2) { flags |= NODE_REGULAR; }
     if gas == block_size() { flags |= NODE_INTERIOR; }
     if solid > 0u { flags |= NODE_SOLID; }
     if is_vertex(c) { flags |= vertex_flags(c, slot); }
     if inside(c) {
-        var open = true;
+        var open = away_from_seam(c, -2, 2);
         for (var a = 0u; a < DIM; a++) {
             for (var d = -2; d <= 2; d++) {
                 let near = c + d * axis(a);
@@ -101,7 +105,7 @@ fn vertex_flags(v: vec3i, slot: u32) -> u32 {
     }
     var flags = 0u;
     if gas > 0u { flags |= VERTEX_GAS; }
-    if gas > 0u && gas == around { flags |= VERTEX_REGULAR; }
+    if gas > 0u && gas == around && away_from_seam(v, -2, 1) { flags |= VERTEX_REGULAR; }
     if gas == corner_count() { flags |= VERTEX_INTERIOR; }
     if solid > 0u { flags |= VERTEX_SOLID; }
     if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }

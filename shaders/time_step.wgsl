@@ -5,6 +5,7 @@
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
 #include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/extents.wgsl"
@@ -21,17 +22,23 @@ const PRESSURE_NOISE = 1e-6;
 
 fn gas_at(slot: u32) -> Gas { return Gas(conserved[slot], energy[slot]); }
 
-fn rate_of(slot: u32) -> vec2f {
+fn rate_of(slot: u32, c: vec3i) -> vec2f {
     let gas = gas_at(slot);
     let p = pressure_of(gas);
     var rate = 0.0;
     for (var a = 0u; a < DIM; a++) {
-        let speed = abs(gas.flow[a + 1u] / gas.flow.x) / params.spacing;
+        var speed = abs(gas.flow[a + 1u] / gas.flow.x) / params.spacing;
         var push = 0.0;
         for (var side = 0u; side < 2u; side++) {
-            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
-            if kind_of(cells[other]) != GAS { continue; }
-            let neighbour = gas_at(other);
+            let other = slot_of(select(c - axis(a), c + axis(a), side == 1u));
+            let kind = kind_of(cells[other]);
+            if kind != GAS && kind != GHOST { continue; }
+            var neighbour = gas_at(other);
+            if kind == GHOST {
+                // What flows in may be faster than all that is inside.
+                neighbour = gas_beyond(opening_of(cells[other]), a, select(-1.0, 1.0, side == 1u), gas);
+                speed = max(speed, abs(neighbour.flow[a + 1u] / neighbour.flow.x) / params.spacing);
+            }
             let difference = abs(pressure_of(neighbour) - p);
             if difference > PRESSURE_NOISE * p {
                 push = max(push, difference / (params.spacing * params.spacing * min(gas.flow.x, neighbour.flow.x)));
@@ -48,7 +55,8 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let total = groups.x * groups.y * WORKGROUP;
     var bound = vec2f(0.0);
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += total) {
-        if kind_of(cells[slot]) == GAS && inside(cell_of(slot)) { bound = max(bound, rate_of(slot)); }
+        let c = cell_of(slot);
+        if kind_of(cells[slot]) == GAS && inside(c) { bound = max(bound, rate_of(slot, c)); }
     }
     let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
     if lane == 0u { maxima[thread_index(group, groups, 0u) / WORKGROUP] = largest; }

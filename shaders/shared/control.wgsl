@@ -18,6 +18,8 @@ struct Control {
     iterations: u32,            // of the last solve
     residual: f32,              // of the last solve, relative
     listed: u32,                // slots that are not INTERIOR
+    time: f32,                  // [s] at the start of the step
+    time_error: f32,            // [s] what rounding has taken from it so far
 }
 
 // True for NaN and infinities; comparisons alone do not find a NaN on every driver.

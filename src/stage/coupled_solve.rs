@@ -16,6 +16,7 @@ pub struct CoupledSolve {
     pub pcg: Pcg,
     predictor: Option<Bound>,
     masses: [Bound; 2],
+    open: Bound,
     forces_of_pressure: [Bound; 2],
     velocities: [Bound; 2],
     residual: [Bound; 2],
@@ -46,6 +47,7 @@ impl CoupledSolve {
             pcg,
             predictor: optional("solid_predictor.wgsl", "solid_predictor")?,
             masses: setup("solve_masses")?,
+            open: state.bind(gpu, "solve_open.wgsl", "solve_open", &[], &[("LISTED", 1.0)])?,
             forces_of_pressure: forces(state.pressure.raw())?,
             velocities: setup("solve_velocities")?,
             residual: setup("solve_residual")?,
@@ -66,6 +68,7 @@ impl CoupledSolve {
         if let Some(predictor) = &self.predictor {
             pass.dispatch(predictor, &slots(state, "BEGIN"));
         }
+        pass.dispatch(&self.open, &extent(state, "BEGIN", Entry::Listed));
         for kernels in [&self.masses, &self.forces_of_pressure, &self.velocities, &self.residual, &self.diagonal] {
             record_both(pass, state, "BEGIN", kernels);
         }

@@ -12,6 +12,7 @@ pub struct TimeStep {
     gas: Bound,
     particles: Bound,
     choose: Bound,
+    openings: Option<Bound>,
     start: Bound,
     listed: Bound,
     limiter: Bound,
@@ -34,6 +35,11 @@ impl TimeStep {
             gas: time("time_step_gas")?,
             particles: time("time_step_particles")?,
             choose: time("time_step_choose")?,
+            openings: if state.knots.is_empty() {
+                None
+            } else {
+                Some(state.bind(gpu, "openings.wgsl", "openings_now", &[], &[])?)
+            },
             start: control("control_start")?,
             listed: control("control_listed")?,
             limiter: control("control_limiter")?,
@@ -51,6 +57,9 @@ impl TimeStep {
             pass.dispatch(&self.particles, &Extent::Groups([state.params.groups, 1, 1]));
         }
         pass.dispatch(&self.choose, &Extent::Groups([1, 1, 1]));
+        if let Some(openings) = &self.openings {
+            pass.dispatch(openings, &extent(state, "BEGIN", Entry::Single));
+        }
     }
 
     /// Opens the marks of the start.

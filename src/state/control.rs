@@ -40,4 +40,8 @@ pub struct Control {
     pub residual: f32,
     /// Slots that are not INTERIOR.
     pub listed: u32,
+    /// Simulated time at the start of the step \[s\].
+    pub time: f32,
+    /// What rounding has taken from it so far \[s\].
+    pub time_error: f32,
 }

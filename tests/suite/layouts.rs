@@ -65,9 +65,7 @@ fn params() {
             bodies,
             max_substeps,
             groups,
-            side,
-            inlet_flow,
-            inlet_energy,
+            wall_sides,
             scan,
         ]
     );
@@ -97,6 +95,8 @@ fn control() {
             iterations,
             residual,
             listed,
+            time,
+            time_error,
         ]
     );
 }
