@@ -106,9 +106,14 @@ impl Openings {
                     InletRule::Subsonic => "SUBSONIC",
                     InletRule::Total => "TOTAL",
                 };
-                let first = self.knots.len();
+                let first = self.knots.len() as u32;
                 self.knots.extend(inlet.table.iter().map(knot));
-                Opening { first: first as u32, knots: inlet.table.len() as u32, ..of_state(name, &still(1.0, 1.0)) }
+                let start = inlet.table.first().map_or(still(1.0, 1.0), |state| GasState {
+                    density: state.density,
+                    velocity: state.velocity,
+                    pressure: state.pressure,
+                });
+                Opening { first, knots: inlet.table.len() as u32, ..of_state(name, &start) }
             }
         };
         match rule {
