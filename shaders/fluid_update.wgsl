@@ -170,14 +170,11 @@ fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
         let other = conserved[slot_of(far)];
         return p * (here[n + 1u] + other[n + 1u]) / (here.x + other.x);
     }
-    let side = side_of(far);
-    if side < 6u && side_kind(side) == SIDE_INLET {
-        let inlet = bc_inlet(side);
-        return p * inlet.flow[n + 1u] / inlet.flow.x;
-    }
-    // Outlet: the velocity before the pressure step, which the solve prescribed there.
-    let gradient = (face_pressure(c, n, true) - face_pressure(c, n, false)) * control.dt / params.spacing;
-    return p * (here[n + 1u] + gradient) / here.x;
+    // Open: the velocity that the solve saw there.
+    let ring = slot_of(far);
+    let face = OpenFace(energy[2u * params.slots + ring], energy[params.slots + ring]);
+    let y = admittance_of(opening_of(cells[ring]), face, here.x, energy[params.slots + slot]);
+    return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -19,7 +19,7 @@
 // Distance that a particle keeps from a wall side, in cells.
 const WALL_GAP = 1e-3;
 
-fn side_is_wall(s: u32) -> bool { return params.side[s >> 2u][s & 3u] == SIDE_WALL; }
+fn side_is_wall(s: u32) -> bool { return ((params.wall_sides >> s) & 1u) == 1u; }
 
 fn ghost_change(x: vec3f) -> f32 {
     let place = (x - params.origin) / params.spacing;

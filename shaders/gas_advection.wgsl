@@ -33,11 +33,11 @@ fn source(slot: u32) -> Gas {
 
 fn is_open(word: u32) -> bool { return kind_of(word) == GAS || kind_of(word) == GHOST; }
 
-// State of an open slot; beyond an outlet the nearest cell.
-fn open_gas(c: vec3i) -> Gas {
-    let side = side_of(c);
-    if side < 6u && side_kind(side) == SIDE_INLET { return bc_inlet(side); }
-    return source(slot_of(nearest_inside(c)));
+// State of an open slot, reached along axis n.
+fn open_gas(c: vec3i, n: u32) -> Gas {
+    let here = source(slot_of(nearest_inside(c)));
+    if inside(c) { return here; }
+    return gas_beyond(opening_of(cells[slot_of(nearest_ring(c))]), n, select(1.0, -1.0, c[n] < 0), here);
 }
 
 fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
@@ -56,12 +56,12 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     var next = here;
     var last = here;
     if open {
-        next = open_gas(far);
+        next = open_gas(far, n);
         last = next;
-        if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond); }
+        if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond, n); }
     }
     var first = here;
-    if is_open(cells[slot_of(behind)]) { first = open_gas(behind); }
+    if is_open(cells[slot_of(behind)]) { first = open_gas(behind, n); }
     var out = face_fluxes_of(n, chosen(first, last, up), chosen(here, next, up), chosen(next, here, up), chosen(last, first, up));
     if open { return out; }
     // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
@@ -223,10 +223,11 @@ fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
+    if is_alias(c) { return; }
     var least = theta[slot];
     for (var n = 0u; n < DIM; n++) {
-        if in_ring(c - axis(n)) { least = min(least, theta[slot - step_of(n)]); }
-        if in_ring(c + axis(n)) { least = min(least, theta[slot + step_of(n)]); }
+        if in_ring(c - axis(n)) { least = min(least, theta[slot_of(c - axis(n))]); }
+        if in_ring(c + axis(n)) { least = min(least, theta[slot_of(c + axis(n))]); }
     }
     if least == 1.0 { return; }
     write_result(slot, source(slot), change_of(c, slot, true).high);

@@ -27,7 +27,7 @@ fn volume_of(p: u32) -> f32 {
 fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
-    if slot >= params.slots { return; }
+    if slot >= params.slots || !inside(cell_of(slot)) { return; } // the ring keeps what open faces know
     let first = cell_start[slot];
     let end = cell_start[slot + 1u];
     var volume = 0.0;

@@ -147,6 +147,7 @@ impl Simulation {
     pub fn set_target(&mut self, time: f64) -> Result<()> {
         let mut control = self.control()?;
         control.remaining = (time - self.time).max(0.0) as f32;
+        (control.time, control.time_error) = (self.time as f32, 0.0);
         self.state.control.write(&self.gpu, 0, &[control]);
         Ok(())
     }

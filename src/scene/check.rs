@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::check_shape;
 use super::source::{Finding, walk};
-use super::{Boundaries, Boundary, GasState, Scene};
+use super::{GasState, Scene};
 use crate::material::kind_names;
 
 /// Cells per active axis at least: the advection stencil needs this many.
@@ -76,17 +76,18 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     check.findings
 }
 
-struct Check<'s> {
-    scene: &'s Scene,
-    findings: Vec<Finding>,
+/// The scene and what has been found so far.
+pub(super) struct Check<'s> {
+    pub(super) scene: &'s Scene,
+    pub(super) findings: Vec<Finding>,
 }
 
 impl Check<'_> {
-    fn add(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
+    pub(super) fn add(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
         self.findings.push(Finding::new(path, message, help));
     }
 
-    fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
+    pub(super) fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
         if !(value > 0.0 && value.is_finite()) {
             self.add(path, format!("{value} is not positive"), format!("give a finite number above 0 {unit}"));
         }
@@ -106,7 +107,7 @@ impl Check<'_> {
     }
 
     /// A vector that must be finite and vanish along inactive axes.
-    fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
+    pub(super) fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
         let axes = self.scene.domain.axes().min(3);
         if vector.iter().any(|x| !x.is_finite()) {
             self.add(path, format!("{vector:?} is not finite"), "give finite numbers");
@@ -116,7 +117,7 @@ impl Check<'_> {
         }
     }
 
-    fn state(&mut self, path: &str, state: &GasState) {
+    pub(super) fn state(&mut self, path: &str, state: &GasState) {
         self.positive(format!("{path}.density"), state.density, "[kg m^-3]");
         self.positive(format!("{path}.pressure"), state.pressure, "[Pa]");
         self.planar(format!("{path}.velocity"), state.velocity);
@@ -185,29 +186,6 @@ impl Check<'_> {
             self.planar(format!("gas.waves[{index}].velocity"), wave.velocity);
         }
         self.findings.extend(super::wave::finding(gas));
-    }
-
-    fn boundary(&mut self) {
-        for (side, name) in self.scene.boundary.sides().iter().zip(Boundaries::NAMES) {
-            let index = Boundaries::NAMES.iter().position(|other| *other == name).unwrap_or(0);
-            let (axis, outward) = (index / 2, if index % 2 == 0 { -1.0 } else { 1.0 });
-            let path = format!("boundary.{name}");
-            if axis >= self.scene.domain.axes() && *side != Boundary::Wall {
-                let help = format!("the scene has {} axes; remove the key", self.scene.domain.dimension);
-                self.add(&path, "this side belongs to an inactive axis", help);
-            }
-            if let Boundary::Inlet(state) = side {
-                self.state(&format!("{path}.inlet"), state);
-                if state.velocity[axis] * outward > 0.0 {
-                    let message = format!("{:?} points out of the domain", state.velocity);
-                    self.add(
-                        format!("{path}.inlet.velocity"),
-                        message,
-                        "turn the velocity round, or make the side an \"outlet\"",
-                    );
-                }
-            }
-        }
     }
 
     fn materials(&mut self) {

@@ -7,6 +7,7 @@
 
 mod boundary;
 mod check;
+mod check_boundary;
 mod check_shape;
 mod distance;
 mod fill;
@@ -28,7 +29,11 @@ include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
-pub use boundary::{Boundaries, Boundary};
+pub use boundary::{
+    AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
+    TimedState,
+};
+pub use check_boundary::MAX_OPENINGS;
 pub use fill::Seed;
 pub use settings::{
     Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Output, Pair, Power, RenderMode,
@@ -262,6 +267,24 @@ impl Domain {
     pub fn cell_center(&self, cell: [u32; 3]) -> [f64; 3] {
         let center = |d: usize| self.origin[d] + (f64::from(cell[d]) + 0.5) * self.spacing();
         std::array::from_fn(|d| if d < self.axes() { center(d) } else { 0.0 })
+    }
+
+    /// Centre of the face of a side next to a cell `[m]`; the entry of `cell` along the side's axis does not matter. Sides are
+    /// numbered as in [`Boundaries::sides`].
+    #[must_use]
+    pub fn face_center(&self, side: usize, cell: [u32; 3]) -> [f64; 3] {
+        let mut center = self.cell_center(cell);
+        let axis = side / 2;
+        center[axis] = self.origin[axis] + if side.is_multiple_of(2) { 0.0 } else { self.size[axis] };
+        center
+    }
+
+    /// Centres of all faces of a side `[m]`.
+    pub fn side_faces(&self, side: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let mut count = self.cells;
+        count[side / 2] = 1;
+        let [nx, ny, nz] = count;
+        (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| self.face_center(side, [x, y, z]))))
     }
 }
 

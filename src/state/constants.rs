@@ -13,6 +13,11 @@ pub const WALL: u32 = 2;
 /// Outside of an inlet or outlet side.
 pub const GHOST: u32 = 3;
 
+/// What a rule prescribes beyond a side; the position is the number on the device.
+pub const RULES: [&str; 7] = ["FIXED", "SUBSONIC", "TOTAL", "FREE", "PRESSURE", "ATTENUATED", "FAR"];
+/// Lowest bit of the place of its rule in the word of a GHOST slot.
+pub const RULE_SHIFT: u32 = 16;
+
 /// Stage names in the order of a step; the position is the stage number in a fault.
 pub const STAGES: [&str; 10] = [
     "time_step",
@@ -62,6 +67,15 @@ pub enum Entry {
     Scan = 7,
 }
 
+/// Number of a rule on the device.
+///
+/// # Panics
+/// If the rule is not in [`RULES`]: a bug of the caller.
+#[must_use]
+pub fn rule(name: &str) -> u32 {
+    RULES.iter().position(|known| *known == name).expect("rule names are literals of this crate") as u32
+}
+
 /// Byte offset of an entry of a phase in the table of extents.
 ///
 /// # Panics
@@ -98,9 +112,11 @@ pub fn source() -> String {
     for (bit, name) in flags.iter().enumerate() {
         put(name, 1 << (4 + bit));
     }
-    for (value, name) in ["SIDE_WALL", "SIDE_INLET", "SIDE_OUTLET"].iter().enumerate() {
-        put(name, value as u32);
+    for (value, name) in RULES.iter().enumerate() {
+        put(&format!("RULE_{name}"), value as u32);
     }
+    put("RULE_SHIFT", RULE_SHIFT);
+    put("MAX_OPENINGS", super::MAX_OPENINGS as u32);
     for (value, name) in ["INTERFACE_RESOLVED", "INTERFACE_H", "INTERFACE_SINGLE"].iter().enumerate() {
         put(name, value as u32);
     }

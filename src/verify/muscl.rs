@@ -19,7 +19,7 @@ type Primitive = [f64; 3];
 #[must_use]
 pub fn solve(scene: &Scene) -> Profile {
     let start = scene.initial_gas().into_iter().map(|cell| [cell[0], cell[1], cell[4]]);
-    let walls = [scene.boundary.x_min, scene.boundary.x_max].map(|side| side == Boundary::Wall);
+    let walls = [&scene.boundary.x_min, &scene.boundary.x_max].map(|side| *side == Boundary::Wall);
     let mut tube = Tube { gamma: scene.gas.gamma, spacing: scene.domain.spacing(), walls, cells: start.collect() };
     let mut time = 0.0;
     while time < scene.time.until {

@@ -66,9 +66,7 @@ fn params() {
             max_substeps,
             groups,
             march,
-            side,
-            inlet_flow,
-            inlet_energy,
+            wall_sides,
             scan,
         ]
     );
@@ -99,6 +97,8 @@ fn control() {
             residual,
             listed,
             frontier,
+            time,
+            time_error,
         ]
     );
 }
