@@ -12,6 +12,7 @@ use crate::state::constants::Entry;
 #[derive(Debug)]
 pub struct IntermediatePressure {
     cells: Bound,
+    open: Bound,
     clear: Bound,
     vertices: Bound,
 }
@@ -25,6 +26,7 @@ impl IntermediatePressure {
         let Parts { gpu, state } = parts;
         Ok(Self {
             cells: state.bind(gpu, "intermediate_pressure.wgsl", "pressure_star", &[], &[])?,
+            open: state.bind(gpu, "solve_open.wgsl", "open_faces", &[], &[("LISTED", 1.0)])?,
             clear: state.bind(gpu, "vertex_pressure.wgsl", "vertex_clear", &[], &[])?,
             vertices: state.bind(gpu, "vertex_pressure.wgsl", "vertex_pressure", &[], &[])?,
         })
@@ -34,6 +36,7 @@ impl IntermediatePressure {
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("intermediate_pressure");
         pass.dispatch(&self.cells, &slots(state, "BEGIN"));
+        pass.dispatch(&self.open, &extent(state, "BEGIN", Entry::Listed));
         pass.dispatch(&self.clear, &extent(state, "BEGIN", Entry::Reduce));
         pass.dispatch(&self.vertices, &slots(state, "BEGIN"));
     }
