@@ -17,13 +17,6 @@
 @group(0) @binding(6) var<storage, read_write> fill: array<vec2f>;  // y of gas cells: 1 / (gamma p*)
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
-@group(0) @binding(9) var<storage, read> pressure: array<f32>;      // of the last solve
-
-// Gravity, with the work of the mean momentum.
-fn fallen(gas: Gas) -> Gas {
-    let pull = control.dt * gas.flow.x * params.gravity;
-    return Gas(gas.flow + vec4f(0.0, pull), gas.energy + control.dt * dot(gas.flow.yzw + 0.5 * pull, params.gravity));
-}
 
 fn advected(slot: u32) -> Gas { return Gas(work[params.slots + slot], energy[2u * params.slots + slot]); }
 
@@ -76,17 +69,6 @@ fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
     return p * max(LEAST_PREDICTED, 1.0 + smooth_share * change);
 }
 
-// Mean of the pressure that the last solve left at the face of a cell.
-fn last_face_pressure(near: vec3i, n: u32, up: bool) -> f32 {
-    let low = select(near, near + axis(n), up);
-    var sum = 0.0;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        if corner[n] == 0 { sum += pressure[slot_of(low + corner)]; }
-    }
-    return sum / f32(1u << (DIM - 1u));
-}
-
 @compute @workgroup_size(WORKGROUP)
 fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
@@ -106,39 +88,8 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     }
     fill[slot].y = 1.0 / (params.gamma * p);
     energy[params.slots + slot] = predicted(cell_of(slot), slot, here, p);
-    let after = fallen(here);
-    conserved[slot] = after.flow;
-    energy[slot] = after.energy;
-}
-
-// GHOST slots next to a gas cell keep what the pressure system is told about the face, in two thirds of the energy that they do
-// not use: p0 and u0; and in `fill` what a free outlet knows of itself.
-@compute @workgroup_size(WORKGROUP)
-fn open_faces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
-    if slot >= params.slots || kind_of(cells[slot]) != GHOST { return; }
-    let c = cell_of(slot);
-    let near = nearest_inside(c);
-    let away = c - near;
-    if dot(away, away) != 1 { return; }
-    if kind_of(cells[slot_of(near)]) != GAS {
-        fill[slot] = vec2f(0.0);
-        return;
-    }
-    let n = u32(away.y != 0) + 2u * u32(away.z != 0);
-    let outward = f32(away[n]);
-    let opening = opening_of(cells[slot]);
-    let here = fallen(advected(slot_of(near)));
-    let p = pressure_of(here);
-    let last = fill[slot];
-    var known = vec2f(here.flow[n + 1u] / here.flow.x, p);
-    if last.y > 0.0 {
-        known.y = last_face_pressure(near, n, away[n] > 0);
-        known.x = last.x + outward * (known.y - last.y) / (here.flow.x * sound_speed(here.flow.x, p));
-    }
-    let face = open_face(opening, n, outward, here, known, control.dt);
-    fill[slot] = vec2f(face.velocity, select(face.reference, p, face.reference < 0.0));
-    energy[params.slots + slot] = face.reference;
-    energy[2u * params.slots + slot] = face.velocity;
+    // Gravity: the work of the mean momentum.
+    let pull = control.dt * here.flow.x * params.gravity;
+    conserved[slot] = here.flow + vec4f(0.0, pull);
+    energy[slot] = here.energy + control.dt * dot(here.flow.yzw + 0.5 * pull, params.gravity);
 }

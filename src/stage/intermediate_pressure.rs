@@ -25,7 +25,7 @@ impl IntermediatePressure {
         let Parts { gpu, state } = parts;
         Ok(Self {
             cells: parts.both("intermediate_pressure.wgsl", "pressure_star", &[], &[])?,
-            open_faces: state.bind(gpu, "intermediate_pressure.wgsl", "open_faces", &[], &[("LISTED", 1.0)])?,
+            open_faces: state.bind(gpu, "solve_open.wgsl", "open_faces", &[], &[("LISTED", 1.0)])?,
             clear: state.bind(gpu, "vertex_pressure.wgsl", "vertex_clear", &[], &[("LISTED", 0.0)])?,
             vertices: parts.both("vertex_pressure.wgsl", "vertex_pressure", &[], &[])?,
         })
