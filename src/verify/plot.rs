@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use crate::render::ticks;
 
 /// Width and height of a plot, in its own units.
-const SIZE: [f64; 2] = [640.0, 400.0];
+const SIZE: [f64; 2] = [700.0, 400.0];
 /// Room beside the axes: left, top, right, bottom.
-const MARGIN: [f64; 4] = [70.0, 34.0, 170.0, 48.0];
+const MARGIN: [f64; 4] = [70.0, 34.0, 220.0, 48.0];
 /// Colours in turn; dark enough for paper. [Okabe and Ito 2008]
 const COLORS: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56b4e9", "#444444", "#7b3294"];
 
@@ -87,7 +87,7 @@ impl Plot {
         if !self.logarithmic {
             return ticks([low, high], wanted);
         }
-        let factors: &[f64] = if high - low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let factors: &[f64] = if high - low > 2.5 { &[1.0] } else { &[1.0, 2.0, 4.0, 8.0] };
         let decades = low.floor() as i32..=high.ceil() as i32;
         let values = decades.flat_map(|decade| factors.iter().map(move |factor| factor * 10_f64.powi(decade)));
         let label = |value: f64| {

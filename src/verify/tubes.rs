@@ -284,7 +284,7 @@ const MACH3: Tube = Tube {
     path: "gas/mach3.toml",
     errors: Some(&tube_errors::MACH3),
     peers: [[0.0439, 0.014], [0.0146, 0.00375]],
-    known_plateau: Some((0.016, "the start leaves an undershoot behind the fan, in double precision too")),
+    known_plateau: Some((0.016, "a disturbance stays between fan and shock")),
     extra: no_expansion_shock,
     ..SOD
 };
@@ -343,7 +343,7 @@ fn vacuum_heating(session: &mut Session<'_>, run: &Run, ours: &Profile) {
     let energy = |cell: usize| ours.state[PRESSURE][cell] / (0.4 * ours.state[DENSITY][cell]);
     let row = session.check(run, "internal energy in the middle", energy(middle).max(energy(middle - 1)));
     row.reference(0.216_669, EXACT).pass(Limit::AtMost(2.0 * 0.216_669));
-    row.known(Limit::AtMost(0.75), "the start heats the middle; nothing cools it later");
+    row.known(Limit::AtMost(0.75), "the middle heats up where the fans part");
 }
 
 macro_rules! tubes {
