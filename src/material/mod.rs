@@ -59,12 +59,13 @@ const YOUNG_MODULUS: Parameter = Parameter {
     summary: "Young's modulus: stress over strain of a thin rod.",
 };
 
-/// Poisson's ratio, shared by the elastic laws; at 0.5 lambda has no finite value.
+/// Poisson's ratio, shared by the elastic laws. At 0.5 lambda has no finite value; at 0 it vanishes, and with it the stiffness
+/// of the ghost pressure, which the pressure system divides by.
 const POISSON_RATIO: Parameter = Parameter {
     name: "poisson_ratio",
     unit: "1",
     default: None,
-    above: -1.0,
+    above: 0.0,
     below: 0.5,
     summary: "Poisson's ratio: lateral over axial strain of a thin rod.",
 };
