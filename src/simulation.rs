@@ -67,7 +67,7 @@ impl Simulation {
             coupled_solve,
             fluid_update: FluidUpdate::new(parts)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
-            g2p: solids.then(|| G2p::new(parts)).transpose()?,
+            g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
             totals: Totals::new(parts)?,
             gamma: scene.gas.gamma,
             time: 0.0,

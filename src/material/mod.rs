@@ -308,7 +308,8 @@ pub fn wgsl_includes() -> String {
 }
 
 /// WGSL functions that ask the material `kind` (its number in [`KINDS`]): `kirchhoff_stress`, `return_map`, `elastic_energy`, `wave_speed`.
-/// They need the files of [`wgsl_includes`].
+/// They need the files of [`wgsl_includes`]. Kinds whose bit is not in the override `MATERIALS_USED` are left out: lanes of a
+/// software device run every case of a switch.
 #[must_use]
 pub fn wgsl_switch() -> String {
     let mut text = String::new();
@@ -316,6 +317,7 @@ pub fn wgsl_switch() -> String {
         // writing to a String cannot fail
         let _ = writeln!(text, "const MATERIAL_{}: u32 = {index}u;", kind.name.to_uppercase());
     }
+    text.push_str("override MATERIALS_USED: u32 = 0xffffffffu; // bit k: the scene uses kind k\n");
     for question in &QUESTIONS {
         let _ = writeln!(text, "\n// {}", question.summary);
         let _ = writeln!(
@@ -325,13 +327,14 @@ pub fn wgsl_switch() -> String {
         );
         for kind in KINDS {
             let label = kind.name.to_uppercase();
+            let used = format!("(MATERIALS_USED & (1u << MATERIAL_{label})) != 0u");
             let _ = writeln!(
                 text,
-                "        case MATERIAL_{label}: {{ return {}_{}({}); }}",
+                "        case MATERIAL_{label}: {{ if {used} {{ return {}_{}({}); }} }}",
                 question.function, kind.name, question.arguments
             );
         }
-        let _ = writeln!(text, "        default: {{ return {}; }}\n    }}\n}}", question.otherwise);
+        let _ = writeln!(text, "        default: {{ }}\n    }}\n    return {};\n}}", question.otherwise);
     }
     text
 }

@@ -41,7 +41,7 @@ pub const NO_FAULT: u32 = u32::MAX;
 /// Dispatches of the longest prefix sum that a step runs.
 pub const SCAN_DISPATCHES: usize = 6;
 /// Entries of a phase in the table of extents.
-pub const PHASE_WIDTH: usize = 7 + SCAN_DISPATCHES;
+pub const PHASE_WIDTH: usize = 8 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
 pub const PHASES: [&str; 7] = ["BEGIN", "LIMIT", "UPDATE", "SUBSTEP", "AGAIN", "FIRST", "END"];
 
@@ -63,8 +63,10 @@ pub enum Entry {
     Frontier = 5,
     /// One thread per march of [`super::Params::march`] slots.
     Marched = 6,
+    /// One thread per march over a column of one color: every third column of cells along each axis but the last.
+    Color = 7,
     /// First dispatch of a prefix sum.
-    Scan = 7,
+    Scan = 8,
 }
 
 /// Number of a rule on the device.
@@ -130,7 +132,7 @@ pub fn source() -> String {
         put(&format!("PHASE_{name}_EXTENTS"), (PHASE_WIDTH * value) as u32);
     }
     for (value, name) in
-        ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "SCAN"].iter().enumerate()
+        ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "COLOR", "SCAN"].iter().enumerate()
     {
         put(&format!("EXTENT_{name}"), value as u32);
     }

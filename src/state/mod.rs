@@ -194,10 +194,25 @@ impl State {
         renamed: &[(&str, &wgpu::Buffer)],
         switches: &[(&str, f64)],
     ) -> Result<Bound> {
+        self.bind_kernel(gpu, &self.kernel(gpu, shader, entry, switches)?, renamed)
+    }
+
+    /// Compiles an entry point with this scene's switches and the given ones, for [`State::bind_kernel`].
+    ///
+    /// # Errors
+    /// If the shader is wrong.
+    pub fn kernel(&self, gpu: &Gpu, shader: &str, entry: &str, switches: &[(&str, f64)]) -> Result<Kernel> {
         let mut all: Vec<(&str, f64)> = self.overrides.clone();
         all.extend_from_slice(switches);
         let source = constants::source_for(shader);
-        let kernel = Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })?;
+        Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })
+    }
+
+    /// Binds the buffers that a kernel names: once compiled, it can run with several.
+    ///
+    /// # Errors
+    /// If the kernel uses a name that is not known here.
+    pub fn bind_kernel(&self, gpu: &Gpu, kernel: &Kernel, renamed: &[(&str, &wgpu::Buffer)]) -> Result<Bound> {
         let named = self.names();
         let buffer_of =
             |name: &str| renamed.iter().chain(&named).find(|(known, _)| *known == name).map(|(_, buffer)| *buffer);

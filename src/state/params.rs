@@ -176,6 +176,10 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
     vec![
         ("DIM", f64::from(scene.domain.dimension)),
         ("SOLIDS", flag(solids)),
+        (
+            "MATERIALS_USED",
+            f64::from(scene.materials.values().fold(0, |used, material| used | 1 << material.kind_index())),
+        ),
         ("QUADRATIC", flag(numerics.pair == Pair::B2b1)),
         ("PREDICTOR", flag(numerics.predictor)),
         ("LIMITER", flag(numerics.limiter)),
