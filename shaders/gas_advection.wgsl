@@ -99,7 +99,9 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
 fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
     var change: Change;
     let is_gas = kind_of(cells[slot]) == GAS;
-    for (var n = 0u; n < DIM; n++) {
+    // Slots without gas around them, as deep inside a body, have nothing to do.
+    let axes = select(0u, DIM, has(cells[slot], NODE_GAS));
+    for (var n = 0u; n < axes; n++) {
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
             let other = select(c - axis(n), c + axis(n), up);

@@ -54,7 +54,8 @@ fn node_of(v: vec3i, k: u32) -> vec3i { return v - deep_offset(k); }
 fn regular_square(v: vec3i, count: u32) -> f32 {
     var sum = 0.0;
     for (var k = 0u; k < count; k++) {
-        let j = node_of(v, k);
+        var j = v - corner_offset(k); // B1B0 reaches no further
+        if QUADRATIC { j = node_of(v, k); }
         if !in_ring(j) { continue; }
         let ex = axis_entry(0u, j.x, v.x);
         let ey = axis_entry(1u, j.y, v.y);
@@ -116,7 +117,7 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let apart = interface_index(slot) != slot;
     var squares: Squares;
     if LISTED { squares = mixed_squares(v, apart, select(deep_count(), 0u, regular || deep)); }
-    squares.own += regular_square(v, select(0u, deep_count(), regular));
+    squares.own += regular_square(v, select(0u, select(corner_count(), deep_count(), QUADRATIC), regular));
     if SOLIDS && LISTED { squares.own += deep_square(v, select(0u, deep_count(), deep)); }
     inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);
     if apart {
