@@ -1,6 +1,7 @@
 // gas_advection: where does the gas carry itself?
 // Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
 // TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
+// ARS: one stage before each of the two solves, see shared/ars.wgsl.
 // Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
 #include "shared/index.wgsl"
@@ -9,6 +10,7 @@
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/control.wgsl"
+#include "shared/ars.wgsl"
 #include "shared/reconstruct.wgsl"
 #include "shared/flux.wgsl"
 
@@ -17,8 +19,8 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // first half: U1, second half: U*
-@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // thirds: now, U1, U*
+@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // U1, U*; with ARS a third part: the kept state
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // now, U1, U*; with ARS the kept state
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
@@ -27,7 +29,7 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 const KEPT = 0.1;
 
 fn source(slot: u32) -> Gas {
-    if SECOND { return Gas(work[slot], energy[params.slots + slot]); }
+    if SECOND && !ARS { return Gas(work[slot], energy[params.slots + slot]); }
     return Gas(conserved[slot], energy[slot]);
 }
 
@@ -79,7 +81,7 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
 struct Change { high: Gas, low: Gas }
 
 fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
-    let scale = sign * control.dt / params.spacing;
+    let scale = sign * control.dt * select(1.0, ARS_SECOND, ARS && SECOND) / params.spacing;
     let blend = max(part, 0.0);
     let drain = 1.0 + min(part, 0.0);
     let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, part == 1.0);
@@ -137,7 +139,10 @@ fn drained_share(before: Gas, change: Change) -> f32 {
 // leaves KEPT of what is there.
 fn allowed_share(before: Gas, change: Change) -> f32 {
     let low = Gas(before.flow + change.low.flow, before.energy + change.low.energy);
-    if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) { return drained_share(before, change); }
+    if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) {
+        if ARS && SECOND { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
+        return drained_share(before, change);
+    }
     let density = before.flow.x + change.high.flow.x;
     var share = 1.0;
     if density < KEPT * low.flow.x { share = (1.0 - KEPT) * low.flow.x / max(low.flow.x - density, 1e-30); }
@@ -151,8 +156,21 @@ fn allowed_share(before: Gas, change: Change) -> f32 {
     return 0.0;
 }
 
+// The state that the change of this stage is added to.
+fn start_of(slot: u32, here: Gas) -> Gas {
+    if !ARS || !SECOND { return here; }
+    return Gas(here.flow + ARS_KEPT * (here.flow - work[2u * params.slots + slot]),
+        here.energy + ARS_KEPT * (here.energy - energy[3u * params.slots + slot]));
+}
+
 fn write_result(slot: u32, before: Gas, change: Gas) {
-    if SECOND {
+    if ARS {
+        work[params.slots + slot] = before.flow + change.flow;
+        energy[2u * params.slots + slot] = before.energy + change.energy;
+        if SECOND { return; }
+        work[2u * params.slots + slot] = before.flow + ARS_CHANGE * change.flow;
+        energy[3u * params.slots + slot] = before.energy + ARS_CHANGE * change.energy;
+    } else if SECOND {
         work[params.slots + slot] = 0.5 * (conserved[slot] + before.flow + change.flow);
         energy[2u * params.slots + slot] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
@@ -161,7 +179,8 @@ fn write_result(slot: u32, before: Gas, change: Gas) {
     }
 }
 
-fn finish(slot: u32, before: Gas, change: Change) {
+fn finish(slot: u32, here: Gas, change: Change) {
+    let before = start_of(slot, here);
     if LIMITER {
         var share = 1.0;
         if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
@@ -227,5 +246,5 @@ fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         if in_ring(c + axis(n)) { least = min(least, theta[slot + step_of(n)]); }
     }
     if least == 1.0 { return; }
-    write_result(slot, source(slot), change_of(c, slot, true).high);
+    write_result(slot, start_of(slot, source(slot)), change_of(c, slot, true).high);
 }

@@ -6,6 +6,7 @@
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/control.wgsl"
+#include "shared/ars.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/extents.wgsl"
 
@@ -94,7 +95,9 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     // Reach the asked time exactly, without a tiny last step.
     if dt >= control.remaining * (1.0 - 1e-5) { dt = control.remaining; }
     else if dt > 0.5 * control.remaining { dt = 0.5 * control.remaining; }
-    control.dt = dt;
+    control.duration = dt;
+    control.dt = select(dt, ARS_SHARE * dt, ARS);
+    control.stage = 0u;
     control.substeps = 0u;
     if SOLIDS { control.substeps = u32(ceil(max(1.0, dt / elastic_step - 1e-4))); }
     control.substep = 0u;

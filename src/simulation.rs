@@ -30,6 +30,8 @@ pub struct Simulation {
     g2p: Option<G2p>,
     totals: Totals,
     gamma: f64,
+    /// Pressure solves per step.
+    solves: u32,
     time: f64,
     step: u64,
     /// Iterations and sub-steps that are recorded per step; a step that needs more goes on in the next recording.
@@ -70,6 +72,7 @@ impl Simulation {
             g2p: solids.then(|| G2p::new(parts)).transpose()?,
             totals: Totals::new(parts)?,
             gamma: scene.gas.gamma,
+            solves: scene.solves(),
             time: 0.0,
             step: 0,
             recorded: (FIRST_ITERATIONS, 1),
@@ -99,18 +102,32 @@ impl Simulation {
         }
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
         self.time_step.record_listed(pass);
-        self.gas_advection.record(pass, state, &self.time_step); // (3) eqs. 10-12
-        self.intermediate_pressure.record(pass, state); // (4) eqs. 9 and 17
-        self.coupled_solve.record_setup(pass, state);
-        self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
-        self.time_step.record_solved(pass);
-        self.coupled_solve.record_solution(pass, state);
-        self.fluid_update.record(pass, state); // eqs. 14 and 3, local gradients
+        if self.solves == 1 {
+            self.gas_advection.record(pass, state, &self.time_step); // (3) eqs. 10-12
+            self.record_pressure(pass, "BEGIN");
+        } else {
+            self.gas_advection.record_part(pass, state, &self.time_step, 0, "BEGIN"); // [Ascher, Ruuth & Spiteri 1997]
+            self.record_pressure(pass, "BEGIN");
+            self.time_step.record_second(pass);
+            self.gas_advection.record_part(pass, state, &self.time_step, 1, "SECOND");
+            self.record_pressure(pass, "SECOND");
+        }
         self.coupled_solve.record_solid(pass, state); // eq. 36
         for substep in 0..self.recorded.1 {
             self.record_substep(pass, substep);
         }
         self.time_step.record_finish(pass);
+    }
+
+    /// The implicit part: solve and update of the gas.
+    fn record_pressure(&self, pass: &mut Pass, phase: &str) {
+        let state = &self.state;
+        self.intermediate_pressure.record(pass, state, phase); // (4) eqs. 9 and 17
+        self.coupled_solve.record_setup(pass, state, phase);
+        self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
+        self.time_step.record_solved(pass);
+        self.coupled_solve.record_solution(pass, state);
+        self.fluid_update.record(pass, state); // eqs. 14 and 3, local gradients
     }
 
     /// One elastic sub-step. The first recorded one may be the first of a step or the continuation of a long one.
@@ -196,7 +213,8 @@ impl Simulation {
         let most = newest.iter().map(|record| (record.iterations, record.substeps));
         let (iterations, substeps) = most.fold((1, 1), |a, b| (a.0.max(b.0), a.1.max(b.1)));
         let unfinished = if control.phase == 0 { (0, 0) } else { (self.recorded.0 * 2, self.recorded.1 * 2) };
-        let iterations = (iterations + 2).max(unfinished.0).min(self.state.params.max_iterations + 1);
+        let iterations =
+            (iterations.div_ceil(self.solves) + 2).max(unfinished.0).min(self.state.params.max_iterations + 1);
         let substeps = substeps.max(unfinished.1).min(self.state.params.max_substeps.max(1));
         self.recorded = (iterations, if self.state.has_solids() { substeps } else { 1 });
         Ok(control.remaining <= 0.0 && control.phase == 0)

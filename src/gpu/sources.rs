@@ -30,6 +30,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "points.wgsl",
     "reduce.wgsl",
     "scan.wgsl",
+    "shared/ars.wgsl",
     "shared/boundary.wgsl",
     "shared/bspline.wgsl",
     "shared/cell.wgsl",

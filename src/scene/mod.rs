@@ -10,6 +10,7 @@ mod check;
 mod check_shape;
 mod distance;
 mod fill;
+mod integrator;
 mod load;
 mod settings;
 mod shape;
@@ -27,6 +28,7 @@ pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
 pub use boundary::{Boundaries, Boundary};
 pub use fill::Seed;
+pub use integrator::Integrator;
 pub use settings::{
     Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Output, Pair, Power, RenderMode,
     RenderSettings, Time, Transfer,

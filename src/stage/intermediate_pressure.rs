@@ -29,11 +29,11 @@ impl IntermediatePressure {
         })
     }
 
-    /// Cell pressures, then vertex pressures and stiffness.
-    pub fn record(&self, pass: &mut Pass, state: &State) {
+    /// Cell pressures, then vertex pressures and stiffness, in a phase.
+    pub fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("intermediate_pressure");
-        record_both(pass, state, "BEGIN", &self.cells);
-        pass.dispatch(&self.clear, &extent(state, "BEGIN", Entry::Reduce));
-        record_both(pass, state, "BEGIN", &self.vertices);
+        record_both(pass, state, phase, &self.cells);
+        pass.dispatch(&self.clear, &extent(state, phase, Entry::Reduce));
+        record_both(pass, state, phase, &self.vertices);
     }
 }

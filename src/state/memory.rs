@@ -43,12 +43,16 @@ impl MemoryPlan {
         let solid = if particles == 0 { 1 } else { slots };
         let capacity = extra_capacity(slots as usize, particles, dimension) as u64;
         let unknowns = slots + 2 * capacity;
+        let kept = u64::from(scene.solves() == 2);
         let mut plan = Self {
             cells: scene.domain.cells.iter().map(|&n| u64::from(n)).product(),
             particles: count,
             buffers: Vec::new(),
         };
-        plan.add("gas", &[("conserved", slots, 16), ("energy", 3 * slots, 4), ("work", 2 * slots, 16)]);
+        plan.add(
+            "gas",
+            &[("conserved", slots, 16), ("energy", (3 + kept) * slots, 4), ("work", (2 + kept) * slots, 16)],
+        );
         plan.add("gas", &[("owed_flow", slots, 16), ("owed_energy", slots, 4)]);
         plan.add(
             "interface",

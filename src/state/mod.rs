@@ -104,7 +104,7 @@ impl State {
             control: Buffer::new(gpu, "control", 1)?,
             extents: Buffer::indirect(gpu, "extents", 4 * constants::PHASE_WIDTH * constants::PHASES.len())?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
-            gas: GasState::new(gpu, slots)?,
+            gas: GasState::new(gpu, slots, usize::from(scene.solves() == 2))?,
             interface: Interface::new(gpu, slots, !start.is_empty())?,
             particles: Particles::new(gpu, slots, &start)?,
             pressure: Buffer::new(gpu, "pressure", unknowns)?,

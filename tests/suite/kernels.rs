@@ -47,7 +47,13 @@ fn gas_with_open_sides_and_a_block_quadratic() {
 
 #[test]
 fn gas_without_predictor() {
-    channel(&["numerics.predictor=false"]);
+    channel(&["numerics.integrator=paper"]);
+}
+
+#[test]
+fn gas_with_two_solves() {
+    channel(&["numerics.integrator=ars222"]);
+    channel(&["numerics.integrator=auto", "numerics.pair=b2b1"]);
 }
 
 const BODY: &str = r#"

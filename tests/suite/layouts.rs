@@ -82,11 +82,13 @@ fn control() {
         Control,
         [
             dt,
+            duration,
             dt_previous,
             remaining,
             phase,
             substeps,
             substep,
+            stage,
             step,
             fault,
             limited,

@@ -1,7 +1,7 @@
 //! A simulation on the device and its CPU twin: same start, same steps, compared field by field.
 
 use brisance::gpu::{Buffer, Detail, Gpu, readback};
-use brisance::scene::{Boundary, Film, InterfacePressure, Pair, Power, Scene};
+use brisance::scene::{Boundary, Film, Integrator, InterfacePressure, Pair, Power, Scene};
 use brisance::simulation::Simulation;
 use glam::{DMat3, DVec3};
 
@@ -51,7 +51,8 @@ fn problem_of(scene: &Scene) -> Problem {
     problem.numerics.film_nearest = scene.numerics.film == Film::Nearest;
     problem.numerics.power_midpoint = scene.numerics.power == Power::Midpoint;
     problem.numerics.blending = scene.numerics.blending;
-    problem.numerics.predictor = scene.numerics.predictor;
+    problem.numerics.predictor = scene.integrator() != Integrator::Paper;
+    problem.numerics.two_solves = scene.solves() == 2;
     problem
 }
 

@@ -136,8 +136,8 @@ pub(crate) fn admissible(first: [f64; 5], weno: [f64; 5]) -> f64 {
     0.0
 }
 
-/// Fluxes after the limiter, and how many cells it touched.
-pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, dt: f64) -> (Fluxes, usize) {
+/// Fluxes of `gas` after the limiter, which looks at their change of `start`, and how many cells it touched.
+pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, start: &Gas, dt: f64) -> (Fluxes, usize) {
     let grid = &problem.grid;
     let (mut weno, first) = fluxes(problem, interface, gas);
     if !problem.numerics.limiter {
@@ -148,7 +148,7 @@ pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, dt: f
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] == GAS {
-            theta[slot] = admissible(updated(problem, gas, &first, c, dt), updated(problem, gas, &weno, c, dt));
+            theta[slot] = admissible(updated(problem, start, &first, c, dt), updated(problem, start, &weno, c, dt));
             touched += usize::from(theta[slot] < 1.0);
         }
     }
@@ -165,22 +165,22 @@ pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, dt: f
     (weno, touched)
 }
 
-/// One forward Euler stage; books what enters solid cells on the ledger with `share` of the step.
-fn stage(
+/// One forward Euler stage: adds what `gas` carries to `start`; books what enters solid cells on the ledger with `share` of the step.
+pub(crate) fn stage(
     problem: &Problem,
     interface: &Interface,
-    gas: &Gas,
+    [gas, start]: [&Gas; 2],
     dt: f64,
     share: f64,
     ledger: &mut [[f64; 5]],
 ) -> (Gas, usize) {
     let grid = &problem.grid;
-    let (through, touched) = limited(problem, interface, gas, dt);
-    let mut next = gas.clone();
+    let (through, touched) = limited(problem, interface, gas, start, dt);
+    let mut next = start.clone();
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] == GAS {
-            next.set(slot, updated(problem, gas, &through, c, dt));
+            next.set(slot, updated(problem, start, &through, c, dt));
         } else if interface.cells[slot] == SOLID {
             let scale = share * dt * grid.area();
             for (axis, through) in through.iter().enumerate().take(grid.dimension) {
@@ -211,9 +211,9 @@ pub(crate) fn advect(
     let grid = &problem.grid;
     let mut before = gas.clone();
     fill_ghosts(problem, &interface.cells, &mut before);
-    let (mut one, touched_one) = stage(problem, interface, &before, dt, 0.5, ledger);
+    let (mut one, touched_one) = stage(problem, interface, [&before, &before], dt, 0.5, ledger);
     fill_ghosts(problem, &interface.cells, &mut one);
-    let (two, touched_two) = stage(problem, interface, &one, dt, 0.5, ledger);
+    let (two, touched_two) = stage(problem, interface, [&one, &one], dt, 0.5, ledger);
     let mut after = two.clone();
     for slot in (0..grid.slots()).filter(|slot| interface.cells[*slot] == GAS) {
         let (a, b) = (before.get(slot), two.get(slot));

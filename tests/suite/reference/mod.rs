@@ -1,5 +1,6 @@
 //! CPU twins: one step as plain loops over slices in f64. Same stages, same index space as the GPU code.
 
+pub(crate) mod ars222;
 pub(crate) mod coupled_solve;
 pub(crate) mod element;
 pub(crate) mod fluid_update;
@@ -66,6 +67,8 @@ pub(crate) struct Numerics {
     pub(crate) tolerance: f64,
     pub(crate) max_iterations: usize,
     pub(crate) predictor: bool,
+    /// ARS(2,2,2): two solves per step; gas only.
+    pub(crate) two_solves: bool,
     pub(crate) shared: Shared,
     pub(crate) solid_threshold: f64,
     /// Film traction from the nearest gas vertex; otherwise from the solid's own ghost pressure.
@@ -91,6 +94,7 @@ impl Default for Numerics {
             tolerance: 1e-5,
             max_iterations: 500,
             predictor: true,
+            two_solves: false,
             shared: Shared::Resolved,
             solid_threshold: 0.5,
             film_nearest: true,

@@ -4,8 +4,8 @@ use super::coupled_solve::{Inputs, Solution, coupled_solve};
 use super::p2g::Nodes;
 use super::{Problem, State};
 use super::{
-    fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g, particle_sort,
-    time_step,
+    ars222, fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g,
+    particle_sort, time_step,
 };
 
 /// What a step did.
@@ -41,6 +41,14 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     ledger::change_kinds(problem, state, &kinds, &bins);
     let faces = interface::interface(problem, kinds, &bins, &nodes);
 
+    if problem.numerics.two_solves {
+        let outcome = ars222::two_solves(problem, &faces, (&bins, &nodes), state, dt);
+        state.time += dt;
+        let (limited, floored) = (outcome.limited, outcome.floored);
+        let (iterations, converged) = (outcome.solution.iterations, outcome.solution.converged);
+        let report = Report { dt, iterations, converged, limited, floored, substeps: 1 };
+        return (report, Trace { solution: outcome.solution, nodes, shared: faces.shared });
+    }
     let (advected, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
     let star = gas_advection::with_gravity(problem, &faces.cells, &advected, dt);
     let intermediate = intermediate_pressure::intermediate(problem, &faces, &advected, &star, dt);
