@@ -13,6 +13,7 @@
 #include "shared/ars.wgsl"
 #include "shared/reconstruct.wgsl"
 #include "shared/flux.wgsl"
+#include "shared/carrier.wgsl"
 
 override SECOND: bool;  // stage of the Runge-Kutta scheme
 
@@ -42,11 +43,48 @@ fn open_gas(c: vec3i) -> Gas {
     return source(slot_of(nearest_inside(c)));
 }
 
+// Carrier of an open slot; beyond an outlet that of the nearest cell.
+fn open_carrier(c: vec3i) -> vec4f {
+    let side = side_of(c);
+    if side < 6u && side_kind(side) == SIDE_INLET { return vec4f(velocity_of(bc_inlet(side).flow), 0.0); }
+    return node[slot_of(nearest_inside(c))];
+}
+
+// Fluxes by the carrier through the face between `near` and `far`. Without bodies only open faces pass anything.
+fn carried_face(near: vec3i, far: vec3i, behind: vec3i, beyond: vec3i, n: u32, up: bool) -> Fluxes {
+    var out: Fluxes;
+    let far_word = cells[slot_of(far)];
+    if !is_open(far_word) { return out; }
+    let here = source(slot_of(near));
+    let own = node[slot_of(near)];
+    let next = open_gas(far);
+    let other = open_carrier(far);
+    var last = next;
+    var first = here;
+    var alpha = max(abs(own[n]), abs(other[n]));
+    if is_open(cells[slot_of(nearest_ring(beyond))]) {
+        last = open_gas(beyond);
+        alpha = max(alpha, abs(open_carrier(beyond)[n]));
+    }
+    if is_open(cells[slot_of(behind)]) {
+        first = open_gas(behind);
+        alpha = max(alpha, abs(open_carrier(behind)[n]));
+    }
+    var carried = other[n];
+    if kind_of(far_word) == GAS {
+        if up { carried = carried_velocity(n, own, here.flow.x, other, next.flow.x); }
+        else { carried = carried_velocity(n, other, next.flow.x, own, here.flow.x); }
+    }
+    if up { return carried_fluxes(first, here, next, last, carried, alpha); }
+    return carried_fluxes(last, next, here, first, carried, alpha);
+}
+
 // Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
 fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     let far = select(near - axis(n), near + axis(n), up);
     let behind = select(near + axis(n), near - axis(n), up);
     let beyond = select(near - 2 * axis(n), near + 2 * axis(n), up);
+    if CONSISTENT { return carried_face(near, far, behind, beyond, n, up); }
     let near_slot = slot_of(near);
     let here = source(near_slot);
     let far_word = cells[slot_of(far)];
@@ -113,13 +151,23 @@ fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
     return change;
 }
 
+// Fluxes deep inside the gas, through the face above slot b.
+fn interior_fluxes(n: u32, b_slot: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxes {
+    if !CONSISTENT { return face_fluxes_of(n, a, b, c, d); }
+    let s = step_of(n);
+    let low = node[b_slot];
+    let high = node[b_slot + s];
+    let alpha = max(max(abs(node[b_slot - s][n]), abs(low[n])), max(abs(high[n]), abs(node[b_slot + 2u * s][n])));
+    return carried_fluxes(a, b, c, d, carried_velocity(n, low, b.flow.x, high, c.flow.x), alpha);
+}
+
 // The same through both faces across one axis, far from walls, bodies and open sides, where nothing has to be asked.
 fn add_axis(change: ptr<function, Change>, slot: u32, n: u32, here: Gas) {
     let s = step_of(n);
     let b = source(slot - s);
     let c = source(slot + s);
-    add_face(change, face_fluxes_of(n, source(slot - 2u * s), b, here, c), 1.0, 1.0);
-    add_face(change, face_fluxes_of(n, b, here, c, source(slot + 2u * s)), 1.0, -1.0);
+    add_face(change, interior_fluxes(n, slot - s, source(slot - 2u * s), b, here, c), 1.0, 1.0);
+    add_face(change, interior_fluxes(n, slot, b, here, c, source(slot + 2u * s)), 1.0, -1.0);
 }
 
 fn drained_share(before: Gas, change: Change) -> f32 {
@@ -213,12 +261,12 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     var b = source(max(first, s) - s);
     var here = source(first);
     var c = source(min(first + s, last));
-    var low = face_fluxes_of(n, a, b, here, c);
+    var low = interior_fluxes(n, max(first, s) - s, a, b, here, c);
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
         if slot > last { break; }
         let d = source(min(slot + 2u * s, last));
-        let high = face_fluxes_of(n, b, here, c, d);
+        let high = interior_fluxes(n, slot, b, here, c, d);
         if has(cells[slot], INTERIOR) {
             var change: Change;
             add_face(&change, low, 1.0, 1.0);

@@ -91,11 +91,11 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
         dt = min(dt, params.cfl * params.spacing / max(largest.z, 1e-30));
         dt = min(dt, f32(params.max_substeps) * elastic_step);
     }
-    control.dt_previous = dt;
     // Reach the asked time exactly, without a tiny last step.
     if dt >= control.remaining * (1.0 - 1e-5) { dt = control.remaining; }
     else if dt > 0.5 * control.remaining { dt = 0.5 * control.remaining; }
     control.duration = dt;
+    control.dt_previous = dt; // growth counts from the step as taken: steps that alternate between short and long blow up
     control.dt = select(dt, ARS_SHARE * dt, ARS);
     control.stage = 0u;
     control.substeps = 0u;

@@ -3,7 +3,7 @@
 struct Control {
     dt: f32,                    // [s] what one solve spans
     duration: f32,              // [s] current step: dt, or with ARS the span of both its solves
-    dt_previous: f32,           // [s] what the bounds allowed last, before it was shortened to meet a time
+    dt_previous: f32,           // [s] the step before
     remaining: f32,             // [s] to the time the host asked for
     phase: u32,                 // PHASE_IDLE, PHASE_SOLVE, PHASE_BETWEEN, PHASE_SUBSTEP
     substeps: u32,              // elastic sub-steps of this step

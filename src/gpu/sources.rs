@@ -10,6 +10,7 @@ macro_rules! sources {
 /// All embedded shaders: path below `shaders/`, text.
 #[rustfmt::skip]
 pub const SOURCES: &[(&str, &str)] = sources![
+    "carrier.wgsl",
     "diagnostics.wgsl",
     "field.wgsl",
     "fluid_floor.wgsl",
@@ -24,6 +25,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "materials/neo_hookean.wgsl",
     "materials/von_mises.wgsl",
     "mpm_grid_update.wgsl",
+    "odd_even.wgsl",
     "p2g.wgsl",
     "p2g_scatter.wgsl",
     "particle_sort.wgsl",
@@ -33,6 +35,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/ars.wgsl",
     "shared/boundary.wgsl",
     "shared/bspline.wgsl",
+    "shared/carrier.wgsl",
     "shared/cell.wgsl",
     "shared/color.wgsl",
     "shared/control.wgsl",

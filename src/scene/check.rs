@@ -300,9 +300,16 @@ impl Check<'_> {
                 "give a number above 0 and below 1; single precision reaches about 1e-6",
             );
         }
+        if !(0.0..=1.0).contains(&numerics.filter) {
+            self.add("numerics.filter", format!("{} is out of range", numerics.filter), "give a number from 0 to 1");
+        }
         self.count("numerics.max_iterations", numerics.max_iterations, 1, 100_000);
         self.fraction("numerics.solid_threshold", numerics.solid_threshold, 1.0);
         self.fraction("numerics.elastic_cfl", numerics.elastic_cfl, 1.0);
+        if self.scene.consistent() && !self.scene.bodies.is_empty() {
+            let help = "give \"cell\", or \"auto\", which chooses for the scene";
+            self.add("numerics.face_velocity", "\"consistent\" carries gas only, and this scene has bodies", help);
+        }
         if self.scene.solves() == 2 {
             self.ars222();
         }

@@ -1,4 +1,4 @@
-//! How the gas is integrated in time.
+//! How the gas is integrated in time, and what carries it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,19 @@ pub enum Integrator {
     /// Two such solves per step, of second order in smooth flow: ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6].
     Ars222,
     /// `ars222` in scenes whose time step allows it, else `predictor`.
+    Auto,
+}
+
+/// Velocity that carries the gas through its faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FaceVelocity {
+    /// That of the two cells, as in the paper: motion that the pressure solve cannot see compresses the gas.
+    Cell,
+    /// What the pressure solve sees of it: gas at rest stays quiet. Gas only.
+    Consistent,
+    /// `consistent` in scenes of gas alone, else `cell`.
+    #[default]
     Auto,
 }
 
@@ -42,6 +55,16 @@ impl Scene {
             Integrator::Auto if slow => Integrator::Ars222,
             Integrator::Auto => Integrator::Predictor,
             chosen => chosen,
+        }
+    }
+
+    /// Whether the gas is carried by what the pressure solve sees of its velocity.
+    #[must_use]
+    pub fn consistent(&self) -> bool {
+        match self.numerics.face_velocity {
+            FaceVelocity::Cell => false,
+            FaceVelocity::Consistent => true,
+            FaceVelocity::Auto => self.bodies.is_empty(),
         }
     }
 

@@ -28,7 +28,7 @@ pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
 pub use boundary::{Boundaries, Boundary};
 pub use fill::Seed;
-pub use integrator::Integrator;
+pub use integrator::{FaceVelocity, Integrator};
 pub use settings::{
     Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Output, Pair, Power, RenderMode,
     RenderSettings, Time, Transfer,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Integrator, vector};
+use super::{FaceVelocity, Integrator, vector};
 
 /// How long, and how finely in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -55,6 +55,10 @@ pub struct Numerics {
     pub max_iterations: u32,
     /// Time integration of the gas.
     pub integrator: Integrator,
+    /// Velocity that carries the gas through its faces.
+    pub face_velocity: FaceVelocity,
+    /// Share of the mode alternating from cell to cell that a conservative filter removes per step, 0 to 1.
+    pub filter: f64,
     /// Pressure unknowns where gas and solid meet.
     pub interface: InterfacePressure,
     /// A cell is solid when bodies fill more than this fraction of it, above 0 and at most 1.
@@ -84,6 +88,8 @@ impl Default for Numerics {
             tolerance: 1e-5,
             max_iterations: 500,
             integrator: Integrator::default(),
+            face_velocity: FaceVelocity::default(),
+            filter: 0.0,
             interface: InterfacePressure::default(),
             solid_threshold: 0.5,
             film: Film::default(),

@@ -46,21 +46,8 @@ impl GasAdvection {
         Ok(Self { stages: [stage(0.0)?, stage(1.0)?] })
     }
 
-    /// Advances the conserved variables by their own motion.
-    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep) {
-        pass.stage("gas_advection");
-        for stage in 0..2 {
-            self.record_stage(pass, state, control, stage, "BEGIN");
-        }
-    }
-
-    /// The advection before the first (0) or second (1) of two solves.
-    pub fn record_part(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: &str) {
-        pass.stage("gas_advection");
-        self.record_stage(pass, state, control, stage, phase);
-    }
-
-    fn record_stage(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: &str) {
+    /// One of the two stages, 0 or 1, in a phase: both belong to one advection, or with two solves one to each.
+    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: &str) {
         let kernels = &self.stages[stage];
         pass.dispatch(&kernels.interior, &extent(state, phase, Entry::Marched));
         pass.dispatch(&kernels.listed, &extent(state, phase, Entry::Listed));

@@ -10,7 +10,7 @@ pub struct Control {
     pub dt: f32,
     /// Current step: `dt`, or with two solves the span of both \[s\].
     pub duration: f32,
-    /// What the bounds allowed last, before it was shortened to meet a time \[s\].
+    /// The step before \[s\].
     pub dt_previous: f32,
     /// Time left to the target \[s\].
     pub remaining: f32,

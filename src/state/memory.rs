@@ -63,7 +63,10 @@ impl MemoryPlan {
         plan.add("pressure", &[("inverse_diagonal", unknowns, 4)]);
         plan.add("particles", &[("position", count, 16), ("velocity", count, 16), ("affine", 3 * count, 16)]);
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);
-        plan.add("nodes", &[("node", solid, 16), ("cell_start", solid + 1, 4)]);
+        plan.add(
+            "nodes",
+            &[("node", if scene.consistent() { slots } else { solid }, 16), ("cell_start", solid + 1, 4)],
+        );
         let scan = Scan::planned_bytes(slots as u32 + 1);
         plan.add("interface", &[("list scan", scan, 1)]);
         if particles > 0 {

@@ -106,7 +106,7 @@ impl State {
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
             gas: GasState::new(gpu, slots, usize::from(scene.solves() == 2))?,
             interface: Interface::new(gpu, slots, !start.is_empty())?,
-            particles: Particles::new(gpu, slots, &start)?,
+            particles: Particles::new(gpu, slots, &start, scene.consistent())?,
             pressure: Buffer::new(gpu, "pressure", unknowns)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
             pcg: PcgVectors::new(gpu, unknowns)?,

@@ -193,6 +193,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("SOLIDS", flag(solids)),
         ("QUADRATIC", flag(numerics.pair == Pair::B2b1)),
         ("PREDICTOR", flag(scene.integrator() != Integrator::Paper)),
+        ("CONSISTENT", flag(scene.consistent())),
         ("ARS", flag(scene.solves() == 2)),
         ("LIMITER", flag(numerics.limiter)),
         ("BLENDING", flag(numerics.blending)),

@@ -1,5 +1,6 @@
 //! Momentum and energy of the gas from the solved pressures; internal-energy floor, kinetic energy first.
 
+use super::carrier::Carrier;
 use super::coupled_solve::{H, P, Solution};
 use super::element;
 use super::grid::{add, shift};
@@ -108,6 +109,7 @@ pub(crate) fn fluid_update(
         solution.solid_velocity.clone()
     };
     let mut work = pressure.clone();
+    let carrier = Carrier::new(problem, &interface.cells, &next);
     for axis in 0..grid.dimension {
         for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
             let slot = grid.slot(low);
@@ -115,7 +117,14 @@ pub(crate) fn fluid_update(
             work[axis][slot] = if closed {
                 solid_power(problem, solution, &solid, axis, low) / grid.area()
             } else {
-                pressure[axis][slot] * face_velocity(problem, interface, &next, star, axis, low)
+                let high = grid.slot(shift(low, axis, 1));
+                let velocity = match &carrier {
+                    Some(carrier) if interface.cells[slot] == GAS && interface.cells[high] == GAS => {
+                        carrier.between(&next, axis, slot, high)
+                    }
+                    _ => face_velocity(problem, interface, &next, star, axis, low),
+                };
+                pressure[axis][slot] * velocity
             };
         }
         for c in &gas_slots {

@@ -1,5 +1,6 @@
 //! Gas advection: WENO with two-point sub-stencils, local Lax-Friedrichs split by |u|, TVD-RK2, positivity limiter.
 
+use super::carrier::Carrier;
 use super::grid::shift;
 use super::interface::Interface;
 use super::{GAS, GHOST, Gas, Problem, SOLID, Side};
@@ -58,11 +59,24 @@ pub(crate) fn split_flux(stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f6
     (weno, first)
 }
 
+/// The same with one velocity of the face: a value from each side of the state itself.
+fn carried_flux(stencil: &[[f64; 5]; 4], carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
+    let (mut weno, mut first) = ([0.0; 5], [0.0; 5]);
+    let (up, down) = (0.5 * (carried + alpha), 0.5 * (carried - alpha));
+    for k in 0..5 {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|i| stencil[i][k]);
+        weno[k] = up * reconstruct(a, b, c) + down * reconstruct(d, c, b);
+        first[k] = up * b + down * c;
+    }
+    (weno, first)
+}
+
 /// Both fluxes of one face, None where no gas touches it.
 pub(crate) fn face_flux(
     problem: &Problem,
     interface: &Interface,
     gas: &Gas,
+    carrier: Option<&Carrier>,
     axis: usize,
     low: [i32; 3],
 ) -> Option<([f64; 5], [f64; 5])> {
@@ -78,6 +92,19 @@ pub(crate) fn face_flux(
         return None;
     }
     let pick = |by: i32, otherwise: i32| gas.get(at(if readable(by) { by } else { otherwise }));
+    if let Some(carrier) = carrier {
+        if !readable(0) || !readable(1) {
+            return Some(([0.0; 5], [0.0; 5]));
+        }
+        let speed = |by: i32, otherwise: i32| carrier.velocity[at(if readable(by) { by } else { otherwise })][axis];
+        let alpha = [speed(-1, 0), speed(0, 0), speed(1, 1), speed(2, 1)].iter().fold(0.0, |a, s| s.abs().max(a));
+        let carried = match (kind(0), kind(1)) {
+            (GAS, GAS) => carrier.between(gas, axis, at(0), at(1)),
+            (GAS, _) => speed(1, 1),
+            _ => speed(0, 0),
+        };
+        return Some(carried_flux(&[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], carried, alpha));
+    }
     if readable(0) && readable(1) {
         return Some(split_flux(&[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], axis));
     }
@@ -98,9 +125,10 @@ pub(crate) fn fluxes(problem: &Problem, interface: &Interface, gas: &Gas) -> (Fl
     let empty = || vec![[0.0; 5]; grid.slots()];
     let mut weno = [empty(), empty(), empty()];
     let mut first = [empty(), empty(), empty()];
+    let carrier = Carrier::new(problem, &interface.cells, gas);
     for axis in 0..grid.dimension {
         for low in grid.faces(axis) {
-            if let Some((high_order, low_order)) = face_flux(problem, interface, gas, axis, low) {
+            if let Some((high_order, low_order)) = face_flux(problem, interface, gas, carrier.as_ref(), axis, low) {
                 weno[axis][grid.slot(low)] = high_order;
                 first[axis][grid.slot(low)] = low_order;
             }

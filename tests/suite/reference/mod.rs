@@ -1,6 +1,7 @@
 //! CPU twins: one step as plain loops over slices in f64. Same stages, same index space as the GPU code.
 
 pub(crate) mod ars222;
+pub(crate) mod carrier;
 pub(crate) mod coupled_solve;
 pub(crate) mod element;
 pub(crate) mod fluid_update;
@@ -69,6 +70,8 @@ pub(crate) struct Numerics {
     pub(crate) predictor: bool,
     /// ARS(2,2,2): two solves per step; gas only.
     pub(crate) two_solves: bool,
+    /// Gas is carried by what the solve sees of its velocity; gas only.
+    pub(crate) consistent: bool,
     pub(crate) shared: Shared,
     pub(crate) solid_threshold: f64,
     /// Film traction from the nearest gas vertex; otherwise from the solid's own ghost pressure.
@@ -95,6 +98,7 @@ impl Default for Numerics {
             max_iterations: 500,
             predictor: true,
             two_solves: false,
+            consistent: false,
             shared: Shared::Resolved,
             solid_threshold: 0.5,
             film_nearest: true,
@@ -217,7 +221,7 @@ pub(crate) struct State {
     pub(crate) ledger: Vec<[f64; 5]>,
     pub(crate) particles: Vec<Particle>,
     pub(crate) time: f64,
-    /// Last step by rule, 0 before the first.
+    /// The step before, 0 before the first.
     pub(crate) previous_dt: f64,
 }
 

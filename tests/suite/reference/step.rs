@@ -101,8 +101,8 @@ pub(crate) fn advance_to(problem: &Problem, state: &mut State, time: f64) -> Vec
     let mut reports = Vec::new();
     while state.time < time * (1.0 - 1e-12) {
         let rule = time_step::time_step(problem, state);
-        state.previous_dt = rule;
-        reports.push(step(problem, state, rule.min(time - state.time)));
+        state.previous_dt = rule.min(time - state.time);
+        reports.push(step(problem, state, state.previous_dt));
     }
     reports
 }
