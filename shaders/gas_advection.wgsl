@@ -61,15 +61,9 @@ fn carried_face(near: vec3i, far: vec3i, behind: vec3i, beyond: vec3i, n: u32, u
     let other = open_carrier(far);
     var last = next;
     var first = here;
-    var alpha = max(abs(own[n]), abs(other[n]));
-    if is_open(cells[slot_of(nearest_ring(beyond))]) {
-        last = open_gas(beyond);
-        alpha = max(alpha, abs(open_carrier(beyond)[n]));
-    }
-    if is_open(cells[slot_of(behind)]) {
-        first = open_gas(behind);
-        alpha = max(alpha, abs(open_carrier(behind)[n]));
-    }
+    let alpha = select(carrier_spread(other[n], own[n]), carrier_spread(own[n], other[n]), up);
+    if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond); }
+    if is_open(cells[slot_of(behind)]) { first = open_gas(behind); }
     var carried = other[n];
     if kind_of(far_word) == GAS {
         if up { carried = carried_velocity(n, own, here.flow.x, other, next.flow.x); }
@@ -157,7 +151,7 @@ fn interior_fluxes(n: u32, b_slot: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxe
     let s = step_of(n);
     let low = node[b_slot];
     let high = node[b_slot + s];
-    let alpha = max(max(abs(node[b_slot - s][n]), abs(low[n])), max(abs(high[n]), abs(node[b_slot + 2u * s][n])));
+    let alpha = carrier_spread(low[n], high[n]);
     return carried_fluxes(a, b, c, d, carried_velocity(n, low, b.flow.x, high, c.flow.x), alpha);
 }
 

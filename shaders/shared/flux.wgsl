@@ -13,10 +13,12 @@ fn unpacked(flux: vec4f, energy: f32) -> Gas {
     return Gas(flux, energy);
 }
 
-// The same with one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`.
+// The same with one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`,
+// at least upwind.
 fn carried_fluxes(a: Gas, b: Gas, c: Gas, d: Gas, carried: f32, alpha: f32) -> Fluxes {
-    let up = 0.5 * (carried + alpha);
-    let down = 0.5 * (carried - alpha);
+    let spread = max(alpha, abs(carried));
+    let up = 0.5 * (carried + spread);
+    let down = 0.5 * (carried - spread);
     var out: Fluxes;
     let flow = up * weno3_vector(packed(a), packed(b), packed(c)) + down * weno3_vector(packed(d), packed(c), packed(b));
     var energy = 0.0;

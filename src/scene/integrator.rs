@@ -28,7 +28,7 @@ pub enum FaceVelocity {
     Cell,
     /// What the pressure solve sees of it: gas at rest stays quiet. Gas only.
     Consistent,
-    /// `consistent` in scenes of gas alone, else `cell`.
+    /// `consistent` in scenes of gas alone with one solve per step, else `cell`.
     #[default]
     Auto,
 }
@@ -64,7 +64,7 @@ impl Scene {
         match self.numerics.face_velocity {
             FaceVelocity::Cell => false,
             FaceVelocity::Consistent => true,
-            FaceVelocity::Auto => self.bodies.is_empty(),
+            FaceVelocity::Auto => self.bodies.is_empty() && self.solves() == 1,
         }
     }
 

@@ -62,7 +62,8 @@ pub(crate) fn split_flux(stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f6
 /// The same with one velocity of the face: a value from each side of the state itself.
 fn carried_flux(stencil: &[[f64; 5]; 4], carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
     let (mut weno, mut first) = ([0.0; 5], [0.0; 5]);
-    let (up, down) = (0.5 * (carried + alpha), 0.5 * (carried - alpha));
+    let spread = carried.abs().max(alpha);
+    let (up, down) = (0.5 * (carried + spread), 0.5 * (carried - spread));
     for k in 0..5 {
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| stencil[i][k]);
         weno[k] = up * reconstruct(a, b, c) + down * reconstruct(d, c, b);
@@ -96,12 +97,12 @@ pub(crate) fn face_flux(
         if !readable(0) || !readable(1) {
             return Some(([0.0; 5], [0.0; 5]));
         }
-        let speed = |by: i32, otherwise: i32| carrier.velocity[at(if readable(by) { by } else { otherwise })][axis];
-        let alpha = [speed(-1, 0), speed(0, 0), speed(1, 1), speed(2, 1)].iter().fold(0.0, |a, s| s.abs().max(a));
+        let speed = |by: i32| carrier.velocity[at(by)][axis];
+        let alpha = if speed(1) > speed(0) { speed(0).abs().max(speed(1).abs()) } else { 0.0 };
         let carried = match (kind(0), kind(1)) {
             (GAS, GAS) => carrier.between(gas, axis, at(0), at(1)),
-            (GAS, _) => speed(1, 1),
-            _ => speed(0, 0),
+            (GAS, _) => speed(1),
+            _ => speed(0),
         };
         return Some(carried_flux(&[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], carried, alpha));
     }
