@@ -4,23 +4,17 @@ use super::coupled_solve::{Inputs, Solution, coupled_solve};
 use super::interface::Interface;
 use super::p2g::Nodes;
 use super::particle_sort::Bins;
+use super::step::Report;
 use super::{Gas, Problem, State, fluid_update, gas_advection, intermediate_pressure};
 
-/// What the step did: solution of the second solve, iterations of both, limited and floored cells.
-pub(crate) struct Outcome {
-    pub(crate) solution: Solution,
-    pub(crate) limited: usize,
-    pub(crate) floored: usize,
-}
-
-/// Advances the gas by dt.
+/// Advances the gas by dt; returns the report of both solves and the solution of the second.
 pub(crate) fn two_solves(
     problem: &Problem,
     faces: &Interface,
     (bins, nodes): (&Bins, &Nodes),
     state: &mut State,
     dt: f64,
-) -> Outcome {
+) -> (Report, Solution) {
     let a = 1.0 - 0.5_f64.sqrt();
     let e = 1.0 - 1.0 / (2.0 * a);
     let first = state.gas.clone();
@@ -62,5 +56,8 @@ pub(crate) fn two_solves(
     state.gas = gas;
     solution.iterations += solution_one.iterations;
     solution.converged &= solution_one.converged;
-    Outcome { solution, limited: limited_one + limited_two, floored: floored_one + floored_two }
+    state.time += dt;
+    let (limited, floored) = (limited_one + limited_two, floored_one + floored_two);
+    let (iterations, converged) = (solution.iterations, solution.converged);
+    (Report { dt, iterations, converged, limited, floored, substeps: 1 }, solution)
 }

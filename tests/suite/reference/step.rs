@@ -42,12 +42,8 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let faces = interface::interface(problem, kinds, &bins, &nodes);
 
     if problem.numerics.two_solves {
-        let outcome = ars222::two_solves(problem, &faces, (&bins, &nodes), state, dt);
-        state.time += dt;
-        let (limited, floored) = (outcome.limited, outcome.floored);
-        let (iterations, converged) = (outcome.solution.iterations, outcome.solution.converged);
-        let report = Report { dt, iterations, converged, limited, floored, substeps: 1 };
-        return (report, Trace { solution: outcome.solution, nodes, shared: faces.shared });
+        let (report, solution) = ars222::two_solves(problem, &faces, (&bins, &nodes), state, dt);
+        return (report, Trace { solution, nodes, shared: faces.shared });
     }
     let (advected, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
     let star = gas_advection::with_gravity(problem, &faces.cells, &advected, dt);
