@@ -10,7 +10,7 @@ fn main() {
     collect(&root, &mut files);
     files.sort();
     let mut table = String::from("/// Path below `scenes/` and text of every shipped scene.\n");
-    table.push_str("pub(super) const EMBEDDED: &[(&str, &str)] = &[\n");
+    table.push_str("pub(crate) const EMBEDDED: &[(&str, &str)] = &[\n");
     for file in &files {
         let name = file.strip_prefix(&root).expect("collected below it").to_string_lossy().replace('\\', "/");
         // Writing to a String cannot fail.

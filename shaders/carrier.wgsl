@@ -27,8 +27,10 @@ fn velocity_at(c: vec3i, offset: vec3i, own: vec3f) -> vec3f {
     let at = c + offset;
     let kind = kind_of(cells[slot_of(at)]);
     if kind == GAS { return velocity_of(source(slot_of(at))); }
-    let side = side_of(at);
-    if kind == GHOST && side < 6u && side_kind(side) == SIDE_INLET { return velocity_of(bc_inlet(side).flow); }
+    if kind == GHOST {
+        let opening = opening_of(cells[slot_of(at)]);
+        if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow); }
+    }
     var sum = vec3f(0.0);
     var count = 0.0;
     for (var a = 0u; a < DIM; a++) {
@@ -74,13 +76,13 @@ fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
 // Mass-weighted carrier at the face between GAS cell c and its neighbour.
 fn face_mean(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     let far = select(c - axis(n), c + axis(n), up);
-    let other = select(slot - step_of(n), slot + step_of(n), up);
+    let other = slot_of(far);
     if LISTED {
         let kind = kind_of(cells[other]);
         if kind == WALL { return 0.0; }
         if kind != GAS {
-            let side = side_of(far);
-            if side < 6u && side_kind(side) == SIDE_INLET { return velocity_of(bc_inlet(side).flow)[n]; }
+            let opening = opening_of(cells[other]);
+            if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow)[n]; }
             return node[slot][n];
         }
     }

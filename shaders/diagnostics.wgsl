@@ -34,7 +34,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     var crossed = vec4f(0.0);
     var heat = vec4f(0.0);
     var extremes = vec4f(-3e38);
-    var speed = 0.0;
+    var speed = vec2f(0.0); // of the gas, of sound
     let volume = cell_volume();
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
         let kind = kind_of(cells[slot]);
@@ -46,7 +46,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
             heat.x += volume * u.energy;
             let p = pressure_of(u);
             extremes = max(extremes, vec4f(u.flow.x, -u.flow.x, p, -p));
-            speed = max(speed, length(velocity_of(u.flow)));
+            speed = max(speed, vec2f(length(velocity_of(u.flow)), sound_speed(u.flow.x, p)));
         } else if kind == SOLID {
             owed += volume * u.flow;
             heat.y += volume * u.energy;
@@ -61,7 +61,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     put(2u, at, lane, workgroup_sum4(lane, crossed));
     put(3u, at, lane, workgroup_sum4(lane, heat));
     put(4u, at, lane, workgroup_max4(lane, extremes));
-    put(5u, at, lane, workgroup_max4(lane, vec4f(speed, 0.0, 0.0, 0.0)));
+    put(5u, at, lane, workgroup_max4(lane, vec4f(speed.x, speed.y * control.duration / params.spacing, 0.0, 0.0)));
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -132,10 +132,9 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
             let other = select(c - axis(n), c + axis(n), up);
-            if kind == GAS { impulse[n] += select(1.0, -1.0, up) * face_pressure(c, n, up); }
-            else if inside(other) && kind_of(cells[slot_of(other)]) == GAS {
-                impulse[n] += select(1.0, -1.0, up) * face_pressure(other, n, !up);
-            }
+            let own = kind == GAS;
+            if !own && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
+            impulse[n] += select(1.0, -1.0, up) * face_pressure(select(other, c, own), n, up == own);
         }
     }
     if any(impulse != vec3f(0.0)) {
@@ -144,10 +143,11 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 }
 
 // Power through a face between gas and solid: what the solid receives, with the mean of its old and new velocity.
-fn interface_power(c: vec3i, n: u32, up: bool) -> f32 {
+// `count`: block_size(), or 0 at other faces.
+fn interface_power(c: vec3i, n: u32, up: bool, count: u32) -> f32 {
     let beyond = select(c - axis(n), c + axis(n), up);
     var power = 0.0;
-    for (var k = 0u; k < block_size(); k++) {
+    for (var k = 0u; k < count; k++) {
         let node_offset = block_offset(k);  // relative to the solid cell
         if !face_holds(node_offset, n, !up) { continue; }
         let at = slot_of(beyond + node_offset);
@@ -166,19 +166,19 @@ fn interface_power(c: vec3i, n: u32, up: bool) -> f32 {
 fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     let beyond = neighbour_kind(c, n, up);
     if beyond == WALL { return 0.0; }
-    if SOLIDS && beyond == SOLID { return interface_power(c, n, up); }
+    if SOLIDS {
+        let power = interface_power(c, n, up, select(0u, block_size(), beyond == SOLID));
+        if beyond == SOLID { return power; }
+    }
     let p = face_pressure(c, n, up);
     let here = conserved[slot];
     let far = select(c - axis(n), c + axis(n), up);
     if beyond == GAS { return p * face_velocity(n, slot_of(min(c, far)), slot_of(max(c, far))); }
-    let side = side_of(far);
-    if side < 6u && side_kind(side) == SIDE_INLET {
-        let inlet = bc_inlet(side);
-        return p * inlet.flow[n + 1u] / inlet.flow.x;
-    }
-    // Outlet: the velocity before the pressure step, which the solve prescribed there.
-    let gradient = (face_pressure(c, n, true) - face_pressure(c, n, false)) * control.dt / params.spacing;
-    return p * (here[n + 1u] + gradient) / here.x;
+    // Open: the velocity that the solve saw there.
+    let ring = slot_of(far);
+    let face = OpenFace(energy[2u * params.slots + ring], energy[params.slots + ring]);
+    let y = admittance_of(opening_of(cells[ring]), face, here.x, energy[params.slots + slot]);
+    return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -198,11 +198,11 @@ fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
             let sign = select(1.0, -1.0, up);
-            if kind == GAS { heat += sign * face_power(c, slot, n, up); continue; }
+            let own = kind == GAS;
             let other = select(c - axis(n), c + axis(n), up);
-            if inside(other) && kind_of(cells[slot_of(other)]) == GAS {
-                heat += sign * face_power(other, slot_of(other), n, !up);
-            }
+            if !own && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
+            let near = select(other, c, own);
+            heat += sign * face_power(near, slot_of(near), n, up == own);
         }
     }
     if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }

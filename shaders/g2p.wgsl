@@ -1,9 +1,11 @@
 // g2p: how do the particles move and deform?
 // Reads nodes, ghost pressure changes. Writes particles and their stress. On return positions are inside the domain and det F > 0,
 // or the step is flagged. [APIC: Jiang et al. 2015; F: Stomakhin et al. 2013; ghost pressure: Cao et al. 2022, eqs. 17-20]
+// Two forms: g2p, one thread per particle; and g2p_cells, one thread per cell that reads its nodes once for all its particles,
+// followed by g2p_particles.
 #include "shared/index.wgsl"
 #include "shared/control.wgsl"
-#include "shared/bspline.wgsl"
+#include "shared/place.wgsl"
 #include "shared/matrix.wgsl"
 #include "shared/material.wgsl"
 
@@ -15,11 +17,13 @@
 @group(0) @binding(6) var<storage, read_write> stress: array<vec4f>;
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> ghost: array<f32>;     // vertex change of the ghost pressure in this step
+@group(0) @binding(9) var<storage, read> order: array<u32>;
+@group(0) @binding(10) var<storage, read> cell_start: array<u32>;
 
 // Distance that a particle keeps from a wall side, in cells.
 const WALL_GAP = 1e-3;
 
-fn side_is_wall(s: u32) -> bool { return params.side[s >> 2u][s & 3u] == SIDE_WALL; }
+fn side_is_wall(s: u32) -> bool { return ((params.wall_sides >> s) & 1u) == 1u; }
 
 fn ghost_change(x: vec3f) -> f32 {
     let place = (x - params.origin) / params.spacing;
@@ -53,52 +57,157 @@ fn keep_inside(x: ptr<function, vec3f>) -> bool {
     return true;
 }
 
+// Velocities of the nodes around a cell: rows of three along x; y is faster than z.
+var<private> rows: array<mat3x3f, 9>;
+
+fn row_at(slot: u32) -> mat3x3f { return mat3x3f(node[slot - 1u].xyz, node[slot].xyz, node[slot + 1u].xyz); }
+
+fn read_rows(slot: u32) {
+    rows[4] = row_at(slot);
+    if DIM > 1u {
+        rows[3] = row_at(slot - params.stride.x);
+        rows[5] = row_at(slot + params.stride.x);
+    }
+    if DIM > 2u {
+        let layer = params.stride.x * params.stride.y;
+        rows[0] = row_at(slot - layer - params.stride.x);
+        rows[1] = row_at(slot - layer);
+        rows[2] = row_at(slot - layer + params.stride.x);
+        rows[6] = row_at(slot + layer - params.stride.x);
+        rows[7] = row_at(slot + layer);
+        rows[8] = row_at(slot + layer + params.stride.x);
+    }
+}
+
+// Sums over nodes: of velocity times weight, and the same with the slope or the moment of one axis in place of its weight.
+struct Motion { velocity: vec3f, gradient: mat3x3f, moment: mat3x3f }
+
+fn layer_motion(low: mat3x3f, middle: mat3x3f, high: mat3x3f, at: Place) -> Motion {
+    var motion: Motion;
+    if DIM == 1u {
+        motion.velocity = middle * at.weight[0];
+        motion.gradient[0] = middle * at.slope[0];
+        motion.moment[0] = middle * at.moment[0];
+        return motion;
+    }
+    let values = mat3x3f(low * at.weight[0], middle * at.weight[0], high * at.weight[0]);
+    motion.velocity = values * at.weight[1];
+    motion.gradient[0] = mat3x3f(low * at.slope[0], middle * at.slope[0], high * at.slope[0]) * at.weight[1];
+    motion.gradient[1] = values * at.slope[1];
+    motion.moment[0] = mat3x3f(low * at.moment[0], middle * at.moment[0], high * at.moment[0]) * at.weight[1];
+    motion.moment[1] = values * at.moment[1];
+    return motion;
+}
+
+fn motion_at(at: Place) -> Motion {
+    let middle = layer_motion(rows[3], rows[4], rows[5], at);
+    if DIM < 3u { return middle; }
+    let low = layer_motion(rows[0], rows[1], rows[2], at);
+    let high = layer_motion(rows[6], rows[7], rows[8], at);
+    let values = mat3x3f(low.velocity, middle.velocity, high.velocity);
+    let w = at.weight[2];
+    var motion: Motion;
+    motion.velocity = values * w;
+    motion.gradient = w.x * low.gradient + w.y * middle.gradient + w.z * high.gradient;
+    motion.gradient[2] = values * at.slope[2];
+    motion.moment = w.x * low.moment + w.y * middle.moment + w.z * high.moment;
+    motion.moment[2] = values * at.moment[2];
+    return motion;
+}
+
+// C = 4 / h^2 sum w v (x_node - x_p)^T. [Jiang et al. 2015]
+fn affine_of(motion: Motion, at: Place) -> mat3x3f {
+    return (4.0 / params.spacing) * (motion.moment - outer_product(motion.velocity, at.center));
+}
+
+fn deformation_of(p: u32) -> mat3x3f {
+    return mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
+}
+
+fn store_deformation(p: u32, f: mat3x3f) {
+    deformation[3u * p] = vec4f(f[0], deformation[3u * p].w);
+    deformation[3u * p + 1u] = vec4f(f[1], deformation[3u * p + 1u].w);
+    deformation[3u * p + 2u] = vec4f(f[2], 0.0);
+}
+
+// Moves a particle with velocity v; `trial` is its deformation gradient before plastic flow, `stored` where it is in memory already.
+// Returns false after a fault.
+fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
+    var x = position[p].xyz;
+    let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+    let returned = return_map(material.kind, trial, material);
+    let f = returned.deformation;
+    let volume = determinant(f);
+    if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {
+        atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
+        return false;
+    }
+    affine[3u * p].w += ghost_change(x) / f32(control.substeps);
+    x += time * v;
+    let inside_domain = keep_inside(&x);
+    if !inside_domain {
+        atomicAdd(&control.escaped, 1u);
+        deformation[3u * p + 1u].w = 0.0;
+    }
+    position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
+    let tau = kirchhoff_stress(material.kind, f, material) * velocity[p].w;
+    if returned.plastic_strain > 0.0 { affine[3u * p + 1u].w += returned.plastic_strain; }
+    if !stored || returned.plastic_strain > 0.0 { store_deformation(p, f); }
+    stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, 0.0);
+    stress[2u * p + 1u] = vec4f(tau[0].y, tau[1].z, tau[0].z, 0.0);
+    return true;
+}
+
+fn store_motion(p: u32, motion: Motion, at: Place) {
+    let c = affine_of(motion, at);
+    velocity[p] = vec4f(motion.velocity, velocity[p].w);
+    affine[3u * p] = vec4f(c[0], affine[3u * p].w);
+    affine[3u * p + 1u] = vec4f(c[1], affine[3u * p + 1u].w);
+    affine[3u * p + 2u] = vec4f(c[2], affine[3u * p + 2u].w);
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
        @builtin(local_invocation_index) lane: u32) {
     let p = thread_index(group, groups, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     let time = control.dt / f32(control.substeps);
-    var x = position[p].xyz;
-    let s = spline_at(x);
-    var v = vec3f(0.0);
-    var c = mat3x3f();
-    var gradient = mat3x3f();
-    for (var k = 0u; k < block_size(); k++) {
-        let offset = block_offset(k);
-        let weight = spline_node(s, offset);
-        let v_node = node[slot_of(s.base + offset)].xyz;
-        let away = node_distance(s, offset, x);
-        v += weight.w * v_node;
-        c += outer_product(weight.w * v_node, away);
-        gradient += outer_product(v_node, weight.xyz);
+    let x = position[p].xyz;
+    let cell = nearest_inside(vec3i(floor((x - params.origin) / params.spacing)));
+    let at = place_at(x, vec3f(cell) + 0.5);
+    read_rows(slot_of(cell));
+    let motion = motion_at(at);
+    let f = deformation_of(p);
+    if advance(p, motion.velocity, f + time * motion.gradient * f, false, time) { store_motion(p, motion, at); }
+}
+
+// Velocity, affine velocity and trial deformation of the particles of a cell.
+@compute @workgroup_size(WORKGROUP)
+fn g2p_cells(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+             @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let first = cell_start[slot];
+    let end = cell_start[slot + 1u];
+    if first == end { return; }
+    let time = control.dt / f32(control.substeps);
+    let middle = vec3f(cell_of(slot)) + 0.5;
+    read_rows(slot);
+    for (var i = first; i < end; i++) {
+        let p = order[i];
+        let at = place_at(position[p].xyz, middle);
+        let motion = motion_at(at);
+        store_motion(p, motion, at);
+        let f = deformation_of(p);
+        store_deformation(p, f + time * motion.gradient * f);
     }
-    c = c * (4.0 / (params.spacing * params.spacing));
-    let kind = bitcast<u32>(affine[3u * p + 2u].w);
-    let material = materials[kind];
-    var f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
-    f = f + time * gradient * f;
-    let returned = return_map(material.kind, f, material);
-    f = returned.deformation;
-    let volume = determinant(f);
-    if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {
-        atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
-        return;
-    }
-    let q = affine[3u * p].w + ghost_change(x) / f32(control.substeps);
-    let plastic = affine[3u * p + 1u].w + returned.plastic_strain;
-    x += time * v;
-    let inside_domain = keep_inside(&x);
-    if !inside_domain { atomicAdd(&control.escaped, 1u); }
-    let tau = kirchhoff_stress(material.kind, f, material) * velocity[p].w;
-    position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
-    velocity[p] = vec4f(v, velocity[p].w);
-    affine[3u * p] = vec4f(c[0], q);
-    affine[3u * p + 1u] = vec4f(c[1], plastic);
-    affine[3u * p + 2u] = vec4f(c[2], bitcast<f32>(kind));
-    deformation[3u * p] = vec4f(f[0], deformation[3u * p].w);
-    deformation[3u * p + 1u] = vec4f(f[1], f32(inside_domain));
-    deformation[3u * p + 2u] = vec4f(f[2], 0.0);
-    stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, 0.0);
-    stress[2u * p + 1u] = vec4f(tau[0].y, tau[1].z, tau[0].z, 0.0);
+}
+
+// What follows from them, particle by particle.
+@compute @workgroup_size(WORKGROUP)
+fn g2p_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, groups, lane);
+    if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
+    _ = advance(p, velocity[p].xyz, deformation_of(p), true, control.dt / f32(control.substeps));
 }

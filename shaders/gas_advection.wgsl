@@ -36,17 +36,23 @@ fn source(slot: u32) -> Gas {
 
 fn is_open(word: u32) -> bool { return kind_of(word) == GAS || kind_of(word) == GHOST; }
 
-// State of an open slot; beyond an outlet the nearest cell.
-fn open_gas(c: vec3i) -> Gas {
-    let side = side_of(c);
-    if side < 6u && side_kind(side) == SIDE_INLET { return bc_inlet(side); }
-    return source(slot_of(nearest_inside(c)));
+// State of an open slot, reached along axis n.
+fn open_gas(c: vec3i, n: u32) -> Gas {
+    let here = source(slot_of(nearest_inside(c)));
+    if inside(c) { return here; }
+    return gas_beyond(opening_of(cells[slot_of(nearest_ring(c))]), n, select(1.0, -1.0, c[n] < 0), here);
+}
+
+fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
+    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first));
 }
 
 // Carrier of an open slot; beyond an outlet that of the nearest cell.
 fn open_carrier(c: vec3i) -> vec4f {
-    let side = side_of(c);
-    if side < 6u && side_kind(side) == SIDE_INLET { return vec4f(velocity_of(bc_inlet(side).flow), 0.0); }
+    if !inside(c) {
+        let opening = opening_of(cells[slot_of(nearest_ring(c))]);
+        if opening.rule <= RULE_SUBSONIC { return vec4f(velocity_of(opening.flow), 0.0); }
+    }
     return node[slot_of(nearest_inside(c))];
 }
 
@@ -57,13 +63,13 @@ fn carried_face(near: vec3i, far: vec3i, behind: vec3i, beyond: vec3i, n: u32, u
     if !is_open(far_word) { return out; }
     let here = source(slot_of(near));
     let own = node[slot_of(near)];
-    let next = open_gas(far);
+    let next = open_gas(far, n);
     let other = open_carrier(far);
     var last = next;
     var first = here;
     let alpha = select(carrier_spread(other[n], own[n]), carrier_spread(own[n], other[n]), up);
-    if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond); }
-    if is_open(cells[slot_of(behind)]) { first = open_gas(behind); }
+    if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond, n); }
+    if is_open(cells[slot_of(behind)]) { first = open_gas(behind, n); }
     var carried = other[n];
     if kind_of(far_word) == GAS {
         if up { carried = carried_velocity(n, own, here.flow.x, other, next.flow.x); }
@@ -86,14 +92,13 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     var next = here;
     var last = here;
     if open {
-        next = open_gas(far);
+        next = open_gas(far, n);
         last = next;
-        if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond); }
+        if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond, n); }
     }
     var first = here;
-    if is_open(cells[slot_of(behind)]) { first = open_gas(behind); }
-    var out: Fluxes;
-    if up { out = face_fluxes_of(n, first, here, next, last); } else { out = face_fluxes_of(n, last, next, here, first); }
+    if is_open(cells[slot_of(behind)]) { first = open_gas(behind, n); }
+    var out = face_fluxes_of(n, chosen(first, last, up), chosen(here, next, up), chosen(next, here, up), chosen(last, first, up));
     if open { return out; }
     // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
     var blocked = 1.0;
@@ -137,8 +142,7 @@ fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
             if !is_gas && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
             var part = 1.0;
             if limited { part = min(theta[slot], theta[slot_of(other)]); }
-            var f: Fluxes;
-            if is_gas { f = face_fluxes(c, n, up); } else { f = face_fluxes(other, n, !up); }
+            let f = face_fluxes(select(other, c, is_gas), n, up == is_gas);
             add_face(&change, f, part, select(1.0, -1.0, up));
         }
     }
@@ -282,10 +286,11 @@ fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
+    if is_alias(c) { return; }
     var least = theta[slot];
     for (var n = 0u; n < DIM; n++) {
-        if in_ring(c - axis(n)) { least = min(least, theta[slot - step_of(n)]); }
-        if in_ring(c + axis(n)) { least = min(least, theta[slot + step_of(n)]); }
+        if in_ring(c - axis(n)) { least = min(least, theta[slot_of(c - axis(n))]); }
+        if in_ring(c + axis(n)) { least = min(least, theta[slot_of(c + axis(n))]); }
     }
     if least == 1.0 { return; }
     write_result(slot, start_of(slot, source(slot)), change_of(c, slot, true).high);

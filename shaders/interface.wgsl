@@ -27,7 +27,7 @@ fn volume_of(p: u32) -> f32 {
 fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
-    if slot >= params.slots { return; }
+    if slot >= params.slots || !inside(cell_of(slot)) { return; } // the ring keeps what open faces know
     let first = cell_start[slot];
     let end = cell_start[slot + 1u];
     var volume = 0.0;
@@ -41,29 +41,40 @@ fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     fill[slot] = vec2f(volume, compliance / f32(max(end - first, 1u)));
 }
 
+// A march along the last axis over the four cells around each vertex: particles are read four times, not eight.
 @compute @workgroup_size(WORKGROUP)
 fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
-    if slot >= params.slots { return; }
-    let v = cell_of(slot);
-    if !is_vertex(v) { return; }
-    var weight = 0.0;
-    var sum = 0.0;
-    let place = params.origin + vec3f(v) * params.spacing;
-    for (var k = 0u; k < corner_count(); k++) {
-        let c = v - corner_offset(k);
-        if !inside(c) { continue; }
-        let source = slot_of(c);
-        let end = cell_start[source + 1u];
-        for (var i = cell_start[source]; i < end; i++) {
-            let p = order[i];
-            let away = abs(position[p].xyz - place) / params.spacing;
-            var w = velocity[p].w;
-            for (var a = 0u; a < DIM; a++) { w *= max(1.0 - away[a], 0.0); }
-            weight += w;
-            sum += w * affine[3u * p].w;
+    let thread = thread_index(group, groups, lane);
+    let n = DIM - 1u;
+    let step = step_of(n);
+    let first = thread / step * params.march;
+    var v = cell_of(thread % step);
+    v[n] = 0;
+    if first >= params.stride[n] || !is_vertex(v) { return; }
+    // Weight and weighted ghost pressure: from the layer of cells below, and to the vertex above.
+    var from_below = vec2f(0.0);
+    // Layers are counted with the ring, from 0.
+    for (var k = max(first, 1u) - 1u; k < min(first + params.march, params.stride[n]); k++) {
+        v[n] = i32(k) - 1;
+        let place = vec3f(v);
+        var sum = from_below;
+        from_below = vec2f(0.0);
+        for (var column = 0u; column < corner_count() / 2u; column++) {
+            let c = v - corner_offset(column);
+            if !inside(c) { continue; }
+            let source = slot_of(c);
+            let end = cell_start[source + 1u];
+            for (var i = cell_start[source]; i < end; i++) {
+                let p = order[i];
+                let away = min(abs((position[p].xyz - params.origin) / params.spacing - place), vec3f(1.0));
+                var w = velocity[p].w;
+                for (var a = 0u; a < n; a++) { w *= 1.0 - away[a]; }
+                let carried = w * vec2f(1.0, affine[3u * p].w);
+                sum += (1.0 - away[n]) * carried;
+                from_below += away[n] * carried;
+            }
         }
+        if k >= first && is_vertex(v) { ghost[slot_of(v)] = select(0.0, sum.y / sum.x, sum.x > 0.0); }
     }
-    ghost[slot] = select(0.0, sum / weight, weight > 0.0);
 }

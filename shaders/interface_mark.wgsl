@@ -32,7 +32,7 @@ fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let c = cell_of(slot);
     let before = kind_of(cells[slot]);
     if !inside(c) || before == WALL {
-        cells[slot] = before | (before << 2u);
+        cells[slot] = (cells[slot] & 0xffff0000u) | before | (before << 2u);
         return;
     }
     var solid = is_full(slot);
@@ -57,22 +57,27 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     if slot == 0u { atomicStore(&extra[2u * params.slots + 1u], 0u); }
+    if is_alias(c) { return; }
     var flags = 0u;
     var around = 0u;
     var gas = 0u;
     var solid = 0u;
+    var closed = 0u;
     for (var k = 0u; k < block_size(); k++) {
         let near = c + block_offset(k);
-        if !inside(near) { continue; }
         let kind = kind_near(near);
+        closed += u32(kind == WALL || kind == GHOST);
+        if !inside(near) { continue; }
         around += 1u;
         gas += u32(kind == GAS);
         solid += u32(kind == SOLID);
     }
     if gas > 0u { flags |= NODE_GAS; }
-    if gas > 0u && gas == around { flags |= NODE_REGULAR; }
+    if gas > 0u && gas == around && away_from_seam(c, -1, 2) { flags |= NODE_REGULAR; }
     if gas == block_size() { flags |= NODE_INTERIOR; }
     if solid > 0u { flags |= NODE_SOLID; }
+    if solid == block_size() { flags |= NODE_DEEP; }
+    if solid > 0u && closed > 0u { flags |= NODE_FILM; }
     if is_vertex(c) { flags |= vertex_flags(c, slot); }
     cells[slot] = (cells[slot] & 0xffff000fu) | flags;
 }
@@ -91,8 +96,9 @@ fn vertex_flags(v: vec3i, slot: u32) -> u32 {
     }
     var flags = 0u;
     if gas > 0u { flags |= VERTEX_GAS; }
-    if gas > 0u && gas == around { flags |= VERTEX_REGULAR; }
+    if gas > 0u && gas == around && away_from_seam(v, -2, 1) { flags |= VERTEX_REGULAR; }
     if solid > 0u { flags |= VERTEX_SOLID; }
+    if solid == corner_count() { flags |= VERTEX_DEEP; }
     if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }
     return flags;
 }
@@ -122,14 +128,14 @@ fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
-    var interior = inside(c);
+    var interior = inside(c) && away_from_seam(c, -2, 2);
     if interior {
         for (var k = 0u; k < corner_count(); k++) {
             interior = interior && has(cells[slot_of(c - corner_offset(k))], NODE_INTERIOR);
         }
         for (var a = 0u; a < DIM; a++) { interior = interior && has(cells[slot_of(c + axis(a))], NODE_INTERIOR); }
     }
-    edge[slot] = u32(!interior);
+    edge[slot] = u32(!interior && !is_alias(c));
 }
 
 // INTERIOR slots whose node a listed vertex rests on, B1B0: the vertices of a node lie at its own slot and above.
@@ -147,8 +153,10 @@ fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
                   @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
-    if edge[slot] == 0u { cells[slot] |= INTERIOR; } else { atomicStore(&extra[params.slots + edge_place[slot]], slot); }
-    if edge[slot] == 0u && !QUADRATIC && on_frontier(slot) {
+    let interior = edge[slot] == 0u && !is_alias(cell_of(slot));
+    if edge[slot] == 1u { atomicStore(&extra[params.slots + edge_place[slot]], slot); }
+    if interior { cells[slot] |= INTERIOR; }
+    if interior && !QUADRATIC && on_frontier(slot) {
         let at = atomicAdd(&extra[2u * params.slots + 1u], 1u);
         atomicStore(&extra[2u * params.slots - 1u - at], slot);
     }

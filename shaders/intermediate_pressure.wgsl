@@ -36,11 +36,8 @@ fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
         let b = node[slot];
         return (a.w * a[n] + b.w * b[n]) / max(a.w + b.w, 1e-30);
     }
-    let side = side_of(far);
-    if side < 6u && side_kind(side) == SIDE_INLET {
-        let inlet = bc_inlet(side);
-        return inlet.flow[n + 1u] / inlet.flow.x;
-    }
+    let opening = opening_of(cells[slot]);
+    if opening.rule <= RULE_SUBSONIC { return opening.flow[n + 1u] / opening.flow.x; }
     return own;
 }
 
@@ -55,7 +52,8 @@ fn carried_divergence(slot: u32) -> f32 {
     var sum = own;
     for (var n = 0u; n < DIM; n++) {
         for (var side = 0u; side < 2u; side++) {
-            let other = select(slot - step_of(n), slot + step_of(n), side == 1u);
+            var other = select(slot - step_of(n), slot + step_of(n), side == 1u);
+            if LISTED && PERIODIC != 0u { other = slot_of(cell_of(slot) + select(-1, 1, side == 1u) * axis(n)); }
             if !LISTED || kind_of(cells[other]) == GAS { sum -= 0.25 * (node[other].w - own); }
         }
     }
@@ -79,11 +77,11 @@ fn divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
     return sum;
 }
 
-fn predicted(c: vec3i, slot: u32, here: Gas, pressure: f32) -> f32 {
-    if !PREDICTOR { return pressure; }
+fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
+    if !PREDICTOR { return p; }
     let change = divergence(c, slot, here) * control.dt / params.spacing;
     let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(change)), 1.0, change >= 0.0);
-    return pressure * max(LEAST_PREDICTED, 1.0 + smooth_share * change);
+    return p * max(LEAST_PREDICTED, 1.0 + smooth_share * change);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -99,12 +97,12 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         energy[slot] = here.energy;
         return;
     }
-    let pressure = pressure_of(here);
-    if here.flow.x <= 0.0 || pressure <= 0.0 || is_broken(pressure) {
+    let p = pressure_of(here);
+    if here.flow.x <= 0.0 || p <= 0.0 || is_broken(p) {
         atomicMin(&control.fault, (STAGE_GAS_ADVECTION << 27u) | slot);
     }
-    fill[slot].y = 1.0 / (params.gamma * pressure);
-    energy[params.slots + slot] = predicted(cell_of(slot), slot, here, pressure);
+    fill[slot].y = 1.0 / (params.gamma * p);
+    energy[params.slots + slot] = predicted(cell_of(slot), slot, here, p);
     // Gravity: the work of the mean momentum.
     let pull = control.dt * here.flow.x * params.gravity;
     conserved[slot] = here.flow + vec4f(0.0, pull);

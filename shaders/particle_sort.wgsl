@@ -30,14 +30,15 @@ fn sort_count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     if p < params.particles && is_active(p) { atomicAdd(&count[slot_of_particle(p)], 1u); }
 }
 
-// After the scan of `count` into `cell_start`: count runs down to zero while the particles take their places.
+// After the scan of `count` into `cell_start`: count runs down to zero while the particles take their places, from the first on:
+// threads that run in order leave little to sort.
 @compute @workgroup_size(WORKGROUP)
 fn sort_place(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
     let p = thread_index(group, groups, lane);
     if p >= params.particles || !is_active(p) { return; }
     let slot = slot_of_particle(p);
-    order[cell_start[slot] + atomicSub(&count[slot], 1u) - 1u] = p;
+    order[cell_start[slot + 1u] - atomicSub(&count[slot], 1u)] = p;
 }
 
 // Insertion sort inside each cell: a handful of entries.
@@ -48,8 +49,14 @@ fn sort_within_cells(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroup
     if slot >= params.slots { return; }
     let first = cell_start[slot];
     let end = cell_start[slot + 1u];
+    if first == end { return; }
+    var largest = order[first];
     for (var i = first + 1u; i < end; i++) {
         let moving = order[i];
+        if moving > largest {
+            largest = moving;
+            continue;
+        }
         var j = i;
         while j > first && order[j - 1u] > moving {
             order[j] = order[j - 1u];

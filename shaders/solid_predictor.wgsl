@@ -49,9 +49,10 @@ fn film_pressure(v: vec3i, n: u32) -> f32 {
     return ghost[slot];
 }
 
-fn film_force(c: vec3i) -> vec3f {
+// `count`: block_size(), or 0 away from walls.
+fn film_force(c: vec3i, count: u32) -> vec3f {
     var force = vec3f(0.0);
-    for (var k = 0u; k < block_size(); k++) {
+    for (var k = 0u; k < count; k++) {
         let offset = block_offset(k);
         let e = c + offset;
         if !inside(e) || kind_of(cells[slot_of(e)]) != SOLID { continue; }
@@ -77,8 +78,7 @@ fn solid_predictor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots || node[slot].w <= 0.0 { return; }
     var v = node[slot].xyz + control.dt * params.gravity;
-    if has(cells[slot], NODE_SOLID) {
-        v -= control.dt * film_force(cell_of(slot)) / max(node[slot].w, params.mass_floor);
-    }
+    let count = select(0u, block_size(), has(cells[slot], NODE_FILM));
+    v -= control.dt * film_force(cell_of(slot), count) / max(node[slot].w, params.mass_floor);
     node[slot] = vec4f(v, node[slot].w);
 }

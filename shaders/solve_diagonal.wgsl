@@ -16,14 +16,14 @@
 
 struct Entries { own: vec3f, h: vec3f, q: vec3f, h_solid: vec3f } // gas node: own, h; solid node: q, h_solid
 
-fn add_entries(entries: ptr<function, Entries>, e: vec3i, node_offset: vec3i, corner: vec3i, solid: bool) {
+fn add_entries(entries: ptr<function, Entries>, kinds: u32, node_offset: vec3i, corner: vec3i, solid: bool) {
     let quadratic = solid || QUADRATIC;
     let inner = element_entry(quadratic, node_offset, corner);
     if solid { (*entries).q += inner; } else { (*entries).own += inner; }
     for (var n = 0u; n < DIM; n++) {
         let up = corner[n] == 1;
         if !face_holds(node_offset, n, up) { continue; }
-        let beyond = neighbour_kind(e, n, up);
+        let beyond = kind_across(kinds, corner, n);
         let across = select(-1.0, 1.0, up) * face_entry(quadratic, n, node_offset, corner);
         if solid {
             if beyond == GAS { (*entries).h_solid[n] += across; }
@@ -32,21 +32,71 @@ fn add_entries(entries: ptr<function, Entries>, e: vec3i, node_offset: vec3i, co
     }
 }
 
-fn entries_at(v: vec3i, j: vec3i) -> Entries {
+fn entries_at(v: vec3i, kinds: u32, j: vec3i) -> Entries {
     var entries: Entries;
     for (var k = 0u; k < corner_count(); k++) {
         let corner = corner_offset(k);
         let e = v - corner;
         let node_offset = j - e;
         if !inside(e) || any(abs(node_offset) > vec3i(1)) { continue; }
-        let kind = kind_of(cells[slot_of(e)]);
-        if kind == GAS { add_entries(&entries, e, node_offset, corner, false); }
-        if SOLIDS && kind == SOLID { add_entries(&entries, e, node_offset, corner, true); }
+        let kind = (kinds >> (2u * k)) & 3u;
+        if kind == GAS || kind == SOLID { add_entries(&entries, kinds, node_offset, corner, kind == SOLID); }
     }
     return entries;
 }
 
 fn inverse(d: f32) -> f32 { return select(0.0, 1.0 / d, d > 0.0); }
+
+// The node that has this vertex at deep_offset(k), which covers both element pairs.
+fn node_of(v: vec3i, k: u32) -> vec3i { return v - deep_offset(k); }
+
+// Sums of |coefficient|^2 / M over the nodes, where only gas and the sides of the domain are around.
+fn regular_square(v: vec3i, count: u32) -> f32 {
+    var sum = 0.0;
+    for (var k = 0u; k < count; k++) {
+        let j = node_of(v, k);
+        if !in_ring(j) { continue; }
+        let ex = axis_entry(0u, j.x, v.x);
+        let ey = axis_entry(1u, j.y, v.y);
+        let ez = axis_entry(2u, j.z, v.z);
+        let entry = vec3f(ex.x * ey.y * ez.y, ex.y * ey.x * ez.y, ex.y * ey.y * ez.x);
+        sum += work[slot_of(j)].w * dot(entry, entry);
+    }
+    return sum;
+}
+
+// The same deep inside a body.
+fn deep_square(v: vec3i, count: u32) -> f32 {
+    var sum = 0.0;
+    for (var k = 0u; k < count; k++) {
+        let entry = deep_entry(deep_offset(k));
+        sum += work[params.slots + slot_of(node_of(v, k))].w * dot(entry, entry);
+    }
+    return sum;
+}
+
+struct Squares { own: f32, h: f32, q: f32 }
+
+// The same between gas and body.
+fn mixed_squares(v: vec3i, apart: bool, count: u32) -> Squares {
+    var squares: Squares;
+    let kinds = kinds_around_vertex(select(vec3i(0), v, count > 0u));
+    for (var k = 0u; k < count; k++) {
+        let j = node_of(v, k);
+        if !in_ring(j) { continue; }
+        let gas = work[slot_of(j)].w;
+        let solid = select(0.0, work[params.slots + slot_of(j)].w, SOLIDS && has(cells[slot_of(j)], NODE_SOLID));
+        let at = entries_at(v, kinds, j);
+        if apart {
+            squares.own += gas * dot(at.own, at.own);
+            squares.h += gas * dot(at.h, at.h) + solid * dot(at.h_solid, at.h_solid);
+            squares.q += solid * dot(at.q, at.q);
+        } else {
+            squares.own += gas * dot(at.own + at.h, at.own + at.h) + solid * dot(at.q + at.h_solid, at.q + at.h_solid);
+        }
+    }
+    return squares;
+}
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -61,42 +111,16 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     }
     let scale = control.dt * face_area() * control.dt * face_area();
     let v = cell_of(slot);
-    let regular = has(word, VERTEX_REGULAR);
+    let regular = !LISTED || has(word, VERTEX_REGULAR);
+    let deep = SOLIDS && LISTED && has(word, VERTEX_DEEP);
     let apart = interface_index(slot) != slot;
-    var own = 0.0;
-    var h = 0.0;
-    var q = 0.0;
-    for (var z = -2 * reach().z; z <= reach().z; z++) {
-        for (var y = -2 * reach().y; y <= reach().y; y++) {
-            for (var x = -2; x <= 1; x++) {
-                let j = v + vec3i(x, y, z);
-                if regular && !QUADRATIC && any(abs(2 * (j - v) + reach()) > vec3i(1)) { continue; }
-                if !in_ring(j) { continue; }
-                let gas = work[slot_of(j)].w;
-                if regular {
-                    let ex = axis_entry(0u, j.x, v.x);
-                    let ey = axis_entry(1u, j.y, v.y);
-                    let ez = axis_entry(2u, j.z, v.z);
-                    let entry = vec3f(ex.x * ey.y * ez.y, ex.y * ey.x * ez.y, ex.y * ey.y * ez.x);
-                    own += gas * dot(entry, entry);
-                    continue;
-                }
-                let at = entries_at(v, j);
-                var solid = 0.0;
-                if SOLIDS && has(cells[slot_of(j)], NODE_SOLID) { solid = work[params.slots + slot_of(j)].w; }
-                if apart {
-                    own += gas * dot(at.own, at.own);
-                    h += gas * dot(at.h, at.h) + solid * dot(at.h_solid, at.h_solid);
-                    q += solid * dot(at.q, at.q);
-                } else {
-                    own += gas * dot(at.own + at.h, at.own + at.h) + solid * dot(at.q + at.h_solid, at.q + at.h_solid);
-                }
-            }
-        }
-    }
-    inverse_diagonal[slot] = inverse(stiffness[slot] + scale * own);
+    var squares: Squares;
+    if LISTED { squares = mixed_squares(v, apart, select(deep_count(), 0u, regular || deep)); }
+    squares.own += regular_square(v, select(0u, deep_count(), regular));
+    if SOLIDS && LISTED { squares.own += deep_square(v, select(0u, deep_count(), deep)); }
+    inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);
     if apart {
-        inverse_diagonal[interface_index(slot)] = inverse(scale * h);
-        inverse_diagonal[ghost_index(slot)] = inverse(stiffness[ghost_index(slot)] + scale * q);
+        inverse_diagonal[interface_index(slot)] = inverse(scale * squares.h);
+        inverse_diagonal[ghost_index(slot)] = inverse(stiffness[ghost_index(slot)] + scale * squares.q);
     }
 }

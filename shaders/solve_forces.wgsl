@@ -55,9 +55,20 @@ fn interior_force(slot: u32) -> vec3f {
     return vec3f(mean2(low.y, high.y), mean2(low.z, high.z), high.x - low.x);
 }
 
+// The same deep inside a body.
+fn deep_force(slot: u32, count: u32) -> vec3f {
+    var force = vec3f(0.0);
+    for (var k = 0u; k < count; k++) {
+        let offset = deep_offset(k);
+        let v = u32(i32(slot) + offset.x + i32(params.stride.x) * (offset.y + i32(params.stride.y) * offset.z));
+        force += x[ghost_index(v)] * deep_entry(offset);
+    }
+    return force;
+}
+
 // One element's force on one of its nodes: a product of one-dimensional entries. A closed face adds 1/2 to the slope of its
 // vertices; where h is an unknown of its own, the face carries h instead of the element's pressure.
-fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid: bool) {
+fn element_force(c: vec3i, kinds: vec2u, offset: vec3i, solid: bool) -> vec3f {
     let quadratic = solid || QUADRATIC;
     var slope = mat2x3f();      // [high corner][axis]
     var face = mat2x3f();       // of faces between gas and solid
@@ -65,10 +76,10 @@ fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid:
     for (var n = 0u; n < DIM; n++) {
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
-            slope[side][n] = gradient_entry(quadratic, node_offset[n], up);
-            mean[side][n] = mean_entry(quadratic, node_offset[n], up);
-            if !face_holds(node_offset, n, up) { continue; }
-            let beyond = neighbour_kind(e, n, up);
+            slope[side][n] = gradient_entry(quadratic, -offset[n], up);
+            mean[side][n] = mean_entry(quadratic, -offset[n], up);
+            if !face_holds(-offset, n, up) { continue; }
+            let beyond = kind_in_block(kinds, select(offset - axis(n), offset + axis(n), up));
             let body = select(beyond == SOLID, beyond == GAS, solid);
             let bare = !solid && (beyond == WALL || beyond == GHOST);
             let share = select(0.0, select(-0.5, 0.5, up), body || bare);
@@ -76,18 +87,37 @@ fn add_element(force: ptr<function, vec3f>, e: vec3i, node_offset: vec3i, solid:
             if body { face[side][n] = share; }
         }
     }
+    var force = vec3f(0.0);
     for (var k = 0u; k < corner_count(); k++) {
         let corner = corner_offset(k);
-        let v = slot_of(e + corner);
-        var at = v;
-        if solid { at = ghost_index(v); }
+        let v = slot_of(c + offset + corner);
+        let h = interface_index(v);
+        let apart = h != v;
+        let value = x[select(v, h + params.extra_capacity, solid && apart)];
         let m = vec3f(mean[corner.x].x, mean[corner.y].y, mean[corner.z].z);
         let across = vec3f(m.y * m.z, m.x * m.z, m.x * m.y);
-        let value = x[at];
-        *force += value * across * vec3f(slope[corner.x].x, slope[corner.y].y, slope[corner.z].z);
-        let h = interface_index(v);
-        if h != v { *force += (x[h] - value) * across * vec3f(face[corner.x].x, face[corner.y].y, face[corner.z].z); }
+        force += value * across * vec3f(slope[corner.x].x, slope[corner.y].y, slope[corner.z].z);
+        let jump = select(0.0, x[h] - value, apart);
+        force += jump * across * vec3f(face[corner.x].x, face[corner.y].y, face[corner.z].z);
     }
+    return force;
+}
+
+struct Forces { gas: vec3f, solid: vec3f }
+
+// Sum over the elements around a node between gas and body; `count`: block_size(), or 0 elsewhere.
+fn mixed_force(c: vec3i, count: u32) -> Forces {
+    var forces: Forces;
+    let kinds = kinds_around_node(c);
+    for (var k = 0u; k < count; k++) {
+        let offset = block_offset(k);
+        let kind = kind_in_block(kinds, offset);
+        if !inside(c + offset) || (kind != GAS && kind != SOLID) { continue; }
+        let solid = kind == SOLID;
+        let force = element_force(c, kinds, offset, solid);
+        if solid { forces.solid += force; } else { forces.gas += force; }
+    }
+    return forces;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -104,25 +134,15 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         work[slot] = vec4f(force * face_area() * inverse_mass, inverse_mass);
         return;
     }
-    if has(word, NODE_REGULAR) {
-        work[slot] = vec4f(regular_force(slot, cell_of(slot)) * face_area() * inverse_mass, inverse_mass);
-        return;
-    }
-    var gas = vec3f(0.0);
-    var solid = vec3f(0.0);
     let c = cell_of(slot);
-    if has(word, NODE_GAS | NODE_SOLID) {
-        for (var k = 0u; k < block_size(); k++) {
-            let offset = block_offset(k);
-            if !inside(c + offset) { continue; }
-            let kind = kind_of(cells[slot_of(c + offset)]);
-            if kind == GAS { add_element(&gas, c + offset, -offset, false); }
-            if SOLIDS && kind == SOLID { add_element(&solid, c + offset, -offset, true); }
-        }
-    }
-    work[slot] = vec4f(gas * face_area() * inverse_mass, inverse_mass);
-    if SOLIDS && has(word, NODE_SOLID) {
-        let mass = max(node[slot].w, params.mass_floor);
-        work[params.slots + slot] = vec4f(solid * face_area() / mass, 1.0 / mass);
-    }
+    let regular = has(word, NODE_REGULAR);
+    let deep = SOLIDS && has(word, NODE_DEEP);
+    let mixed = has(word, NODE_GAS | NODE_SOLID) && !regular && !deep;
+    var forces = mixed_force(c, select(0u, block_size(), mixed));
+    if regular { forces.gas = regular_force(slot, c); }
+    work[slot] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass);
+    if !SOLIDS || !has(word, NODE_SOLID) { return; }
+    forces.solid += deep_force(slot, select(0u, deep_count(), deep));
+    let mass = max(node[slot].w, params.mass_floor);
+    work[params.slots + slot] = vec4f(forces.solid * face_area() / mass, 1.0 / mass);
 }

@@ -1,6 +1,6 @@
 // coupled_solve, preparation: node masses, intermediate node velocities, right-hand side of the increment form
 //   A D = dt C^T (V* - dt M^-1 C X*) - dt b,  X = X* + D,
-// which keeps float32 from losing a small increment in a large pressure. b: what inlets and outlets let through.
+// which keeps float32 from losing a small increment in a large pressure. b: what inlets and outlets let through (solve_open).
 #include "shared/index.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
@@ -59,16 +59,7 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     }
     let inverse = select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0);
     work[slot] = vec4f(0.0, 0.0, 0.0, inverse);
-    energy[2u * params.slots + slot] = inverse;
-}
-
-// Velocity beyond an open side: what the inlet prescribes, or the last cell's.
-fn open_velocity(c: vec3i) -> vec3f {
-    let side = side_of(c);
-    if side < 6u && side_kind(side) == SIDE_INLET { return velocity_of(bc_inlet(side).flow); }
-    let slot = slot_of(nearest_inside(c));
-    if kind_of(cells[slot]) != GAS { return vec3f(0.0); }
-    return velocity_of(conserved[slot]);
+    if kind_of(cells[slot]) != GHOST { energy[2u * params.slots + slot] = inverse; }
 }
 
 // A node that is not in the gas moves like the nearest gas cells: face neighbours, else edges, else corners.
@@ -93,7 +84,11 @@ fn nearest_gas_velocity(c: vec3i) -> vec3f {
 fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
     let kind = kind_of(cells[slot]);
     if kind == GAS { return velocity_of(conserved[slot]); }
-    if kind == GHOST { return open_velocity(c); }
+    if kind != GHOST { return nearest_gas_velocity(c); }
+    let opening = opening_of(cells[slot]);
+    let near = slot_of(nearest_inside(c));
+    if kind_of(cells[near]) == GAS { return velocity_beyond(opening, conserved[near]); }
+    if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow); }
     return nearest_gas_velocity(c);
 }
 
@@ -120,23 +115,6 @@ fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
     }
 }
 
-// b of a vertex in units of face_area(): prescribed flow through the open faces that it belongs to.
-fn open_flow(v: vec3i) -> f32 {
-    var flow = 0.0;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        let e = v - corner;
-        if !inside(e) || kind_of(cells[slot_of(e)]) != GAS { continue; }
-        for (var n = 0u; n < DIM; n++) {
-            let up = corner[n] == 1;
-            if neighbour_kind(e, n, up) != GHOST { continue; }
-            let beyond = select(e - axis(n), e + axis(n), up);
-            flow += select(-1.0, 1.0, up) * open_velocity(beyond)[n] / f32(1u << (DIM - 1u));
-        }
-    }
-    return flow;
-}
-
 @compute @workgroup_size(WORKGROUP)
 fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
@@ -150,7 +128,7 @@ fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     if !LISTED { residual[slot] = scale * own; return; }
     let v = cell_of(slot);
     let at_side = any(((v == vec3i(0)) | (v == vec3i(params.cells))) & (reach() == vec3i(1)));
-    if at_side && has(word, VERTEX_GAS) { own -= open_flow(v); }
+    if at_side && has(word, VERTEX_GAS) { own -= residual[slot]; } // b, from solve_open
     residual[slot] = scale * own;
     if SOLIDS && extra[slot] != NO_EXTRA {
         residual[params.slots + extra[slot]] = scale * rows.h;

@@ -83,4 +83,9 @@ fn control_finish() {
     control.phase = PHASE_IDLE;
     control.step += 1u;
     control.remaining -= control.duration;
+    // Compensated: many small steps must not lose their sum. [Kahan 1965]
+    let step = control.duration + control.time_error;
+    let time = control.time + step;
+    control.time_error = step - (time - control.time);
+    control.time = time;
 }

@@ -3,8 +3,10 @@
 // rate = max over cells of sum over axes of (a + sqrt(a^2 + 4 b)) / 2, a = |u| / dx, b = |dp| / (dx^2 rho)
 // [Kwatra et al. 2009, eq. 20]; also dt <= cfl dx / |v_particle|, dt <= max_courant dx / c and dt <= max_growth dt_previous.
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
 #include "shared/control.wgsl"
 #include "shared/ars.wgsl"
 #include "shared/reduce4.wgsl"
@@ -16,43 +18,76 @@
 @group(0) @binding(4) var<storage, read> energy: array<f32>;
 @group(0) @binding(5) var<storage, read> velocity: array<vec4f>;
 @group(0) @binding(6) var<storage, read_write> maxima: array<vec4f>; // rate, sound speed, particle speed, -
+@group(0) @binding(7) var<storage, read> extra: array<u32>;
 
 // Pressure differences below this share of p are noise of the solve, not a force.
 const PRESSURE_NOISE = 1e-6;
 
 fn gas_at(slot: u32) -> Gas { return Gas(conserved[slot], energy[slot]); }
 
-fn rate_of(slot: u32) -> vec2f {
-    let gas = gas_at(slot);
-    let p = pressure_of(gas);
+// Pressure difference to a neighbour as an acceleration over the cell edge.
+fn push_of(gas: Gas, p: f32, neighbour: Gas) -> f32 {
+    let difference = abs(pressure_of(neighbour) - p);
+    if difference <= PRESSURE_NOISE * p { return 0.0; }
+    return difference / (params.spacing * params.spacing * min(gas.flow.x, neighbour.flow.x));
+}
+
+fn rate_along(speed: f32, push: f32) -> f32 { return 0.5 * (speed + sqrt(speed * speed + 4.0 * push)); }
+
+fn interior_rate(slot: u32, gas: Gas, p: f32) -> f32 {
     var rate = 0.0;
     for (var a = 0u; a < DIM; a++) {
-        let speed = abs(gas.flow[a + 1u] / gas.flow.x) / params.spacing;
+        let push = max(push_of(gas, p, gas_at(slot - step_of(a))), push_of(gas, p, gas_at(slot + step_of(a))));
+        rate += rate_along(abs(gas.flow[a + 1u] / gas.flow.x) / params.spacing, push);
+    }
+    return rate;
+}
+
+fn listed_rate(c: vec3i, gas: Gas, p: f32) -> f32 {
+    var rate = 0.0;
+    for (var a = 0u; a < DIM; a++) {
+        var speed = abs(gas.flow[a + 1u] / gas.flow.x) / params.spacing;
         var push = 0.0;
         for (var side = 0u; side < 2u; side++) {
-            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
-            if kind_of(cells[other]) != GAS { continue; }
-            let neighbour = gas_at(other);
-            let difference = abs(pressure_of(neighbour) - p);
-            if difference > PRESSURE_NOISE * p {
-                push = max(push, difference / (params.spacing * params.spacing * min(gas.flow.x, neighbour.flow.x)));
+            let other = slot_of(select(c - axis(a), c + axis(a), side == 1u));
+            let kind = kind_of(cells[other]);
+            if kind != GAS && kind != GHOST { continue; }
+            var neighbour = gas_at(other);
+            if kind == GHOST {
+                // What flows in may be faster than all that is inside.
+                neighbour = gas_beyond(opening_of(cells[other]), a, select(-1.0, 1.0, side == 1u), gas);
+                speed = max(speed, abs(neighbour.flow[a + 1u] / neighbour.flow.x) / params.spacing);
             }
+            push = max(push, push_of(gas, p, neighbour));
         }
-        rate += 0.5 * (speed + sqrt(speed * speed + 4.0 * push));
+        rate += rate_along(speed, push);
     }
-    return vec2f(rate, sound_speed(gas.flow.x, p));
+    return rate;
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
     let total = groups.x * groups.y * WORKGROUP;
+    let end = listed_count();
     var bound = vec2f(0.0);
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += total) {
-        if kind_of(cells[slot]) == GAS && inside(cell_of(slot)) { bound = max(bound, rate_of(slot)); }
+    for (var k = thread_index(group, groups, lane); k < end; k += total) {
+        let slot = listed_slot(k);
+        let word = cells[slot];
+        if LISTED != !has(word, INTERIOR) { continue; }
+        let c = cell_of(slot);
+        if LISTED && (kind_of(word) != GAS || !inside(c)) { continue; }
+        let gas = gas_at(slot);
+        let p = pressure_of(gas);
+        var rate: f32;
+        if LISTED { rate = listed_rate(c, gas, p); } else { rate = interior_rate(slot, gas, p); }
+        bound = max(bound, vec2f(rate, sound_speed(gas.flow.x, p)));
     }
     let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
-    if lane == 0u { maxima[thread_index(group, groups, 0u) / WORKGROUP] = largest; }
+    if lane != 0u { return; }
+    // The listed form comes first; the plain one adds to what it left.
+    let at = thread_index(group, groups, 0u) / WORKGROUP;
+    if LISTED { maxima[at] = largest; } else { maxima[at] = max(maxima[at], largest); }
 }
 
 @compute @workgroup_size(WORKGROUP)

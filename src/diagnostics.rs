@@ -61,6 +61,8 @@ pub struct StepRecord {
     pub pressure: [f32; 2],
     /// Largest gas speed \[m s^-1\].
     pub gas_speed: f32,
+    /// Acoustic Courant number: largest speed of sound in cells per step.
+    pub courant: f32,
     /// Largest particle speed \[m s^-1\].
     pub solid_speed: f32,
     /// Cells where the flux limiter acted.
@@ -97,6 +99,7 @@ impl StepRecord {
             density: [-extremes[1], extremes[0]],
             pressure: [-extremes[3], extremes[2]],
             gas_speed: gas_speed[0].max(0.0),
+            courant: gas_speed[1].max(0.0),
             solid: total(solid, solid_heat[0]),
             elastic_energy: solid_heat[1],
             ghost_energy: solid_heat[2],

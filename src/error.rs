@@ -38,7 +38,7 @@ pub enum Error {
     /// The driver reported an error or lost the device.
     #[error("GPU: {0}")]
     Gpu(String),
-    /// A check of a scene's `[expect]` table failed.
+    /// A check of a scene's `[expect]` table or a gate of the verification failed.
     #[error("{0}")]
     Expectation(String),
     /// A file could not be read or written.

@@ -15,7 +15,7 @@
 //! ```
 //!
 //! Modules stand on floors and use lower floors only: `math`, `error`, `riemann`; `material`, `gpu`; `scene`, `numerics`;
-//! `state`; `stage`, `snapshot`; `simulation`, `diagnostics`, `bodies`; `render`, `expect`; `export`; `cli`, `viewer`. The rules of the
+//! `state`; `stage`, `snapshot`; `simulation`, `diagnostics`, `bodies`; `render`, `expect`; `export`, `verify`; `cli`, `viewer`. The rules of the
 //! house are in `docs/architecture.md`, the method in `docs/method.md`. Start reading at [`simulation::Simulation::record_step`].
 
 pub mod bodies;
@@ -35,6 +35,7 @@ pub mod simulation;
 pub mod snapshot;
 pub mod stage;
 pub mod state;
+pub mod verify;
 #[cfg(feature = "viewer")]
 pub mod viewer;
 

@@ -51,6 +51,35 @@ impl ExactRiemann {
         }
     }
 
+    /// Speeds of the waves: low and high edge of the left one, contact, low and high edge of the right one. The edges of a shock
+    /// coincide; without gas between the waves the inner three are those of the vacuum.
+    #[must_use]
+    pub fn wave_speeds(&self) -> [f64; 5] {
+        let flip = |(rho, u, p): Primitive| (rho, -u, p);
+        let (left, right) = (self.side_speeds(self.left), self.side_speeds(flip(self.right)));
+        let contact = if self.vacuum() { 0.5 * (left[1] - right[1]) } else { self.star_velocity };
+        [left[0], left[1], contact, -right[1], -right[0]]
+    }
+
+    /// Edges of the wave on the left of a gas.
+    fn side_speeds(&self, side: Primitive) -> [f64; 2] {
+        let g = self.gamma;
+        let (c, ratio) = (self.sound(side), self.star_pressure / side.2);
+        if ratio > 1.0 {
+            return [self.shock_speed(side); 2];
+        }
+        // across a rarefaction u + 2 c / (gamma - 1) stays
+        let c_star = c * ratio.powf((g - 1.0) / (2.0 * g));
+        [side.1 - c, side.1 + 2.0 / (g - 1.0) * (c - c_star) - c_star]
+    }
+
+    /// Speed of a left shock into a gas. [Toro, eq. 4.52]
+    fn shock_speed(&self, side: Primitive) -> f64 {
+        let g = self.gamma;
+        let ratio = self.star_pressure / side.2;
+        side.1 - self.sound(side) * ((g + 1.0) / (2.0 * g) * ratio + (g - 1.0) / (2.0 * g)).sqrt()
+    }
+
     /// Mean of the state over a cell at a time; the jump lies at `jump` at time 0.
     ///
     /// Density, velocity and pressure are averaged one by one over 64 points; the waves inside the cell are resolved to 1/64 of it.
@@ -137,7 +166,7 @@ impl ExactRiemann {
         let c = self.sound(side);
         let ratio = self.star_pressure / p;
         if ratio > 1.0 {
-            let speed = u - c * ((g + 1.0) / (2.0 * g) * ratio + (g - 1.0) / (2.0 * g)).sqrt();
+            let speed = self.shock_speed(side);
             let weight = (g - 1.0) / (g + 1.0);
             let star = rho * (ratio + weight) / (weight * ratio + 1.0);
             return if xi < speed { side } else { (star, self.star_velocity, self.star_pressure) };
@@ -219,6 +248,20 @@ mod tests {
             let sum = (0..cells).map(|i| exact.cell_average(edge(i), edge(i + 1), 0.0, 1.0).0 * 0.05).sum::<f64>();
             let flow = 100.0 * (left.0 + right.0) + left.0 * left.1 - right.0 * right.1;
             assert!((sum / flow - 1.0).abs() < 1e-4, "{sum} {flow}");
+        }
+    }
+
+    #[test]
+    fn states_change_at_the_wave_speeds() {
+        for (left, right, _) in TORO {
+            let exact = ExactRiemann::new(1.4, left, right);
+            let speeds = exact.wave_speeds();
+            assert!(speeds.windows(2).all(|pair| pair[0] <= pair[1]), "{speeds:?}");
+            let nudge = 1e-7 * (speeds[4] - speeds[0]);
+            assert_eq!((exact.sample(speeds[0] - nudge), exact.sample(speeds[4] + nudge)), (left, right));
+            for plateau in [[speeds[1] + nudge, speeds[2] - nudge], [speeds[2] + nudge, speeds[3] - nudge]] {
+                assert!(plateau.iter().all(|xi| (exact.sample(*xi).2 / exact.star_pressure - 1.0).abs() < 1e-6));
+            }
         }
     }
 

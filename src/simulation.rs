@@ -72,7 +72,7 @@ impl Simulation {
             coupled_solve,
             fluid_update: FluidUpdate::new(parts)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
-            g2p: solids.then(|| G2p::new(parts)).transpose()?,
+            g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
             odd_even: (scene.numerics.filter > 0.0).then(|| OddEven::new(parts, scene.numerics.filter)).transpose()?,
             totals: Totals::new(parts)?,
             gamma: scene.gas.gamma,
@@ -179,6 +179,7 @@ impl Simulation {
     pub fn set_target(&mut self, time: f64) -> Result<()> {
         let mut control = self.control()?;
         control.remaining = (time - self.time).max(0.0) as f32;
+        (control.time, control.time_error) = (self.time as f32, 0.0);
         self.state.control.write(&self.gpu, 0, &[control]);
         Ok(())
     }

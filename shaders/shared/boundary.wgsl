@@ -1,16 +1,102 @@
-// State of the gas beyond an open side: one function per boundary rule. Walls have no state; their faces are closed.
-// A slot outside of the domain belongs to the side that it lies behind; behind two sides, to the first open one.
+// The gas beyond open sides. Each GHOST slot of the ring names its rule in the word of the slot; walls have no rule.
+// Two things follow from a rule: the state beyond, which advection reads, and the velocity of the face as the pressure system
+// sees it, u = u0 + (p - p0) / Z along the outward normal. Z = rho c lets sound pass: what a wave would do beyond the side,
+// the face does [Poinsot and Lele 1992]. Where Z is infinite, the velocity is prescribed. 1 / Z adds to the diagonal, so
+// that the system stays symmetric positive definite.
+#include "shared/opening.wgsl"
 
-fn side_kind(s: u32) -> u32 { return params.side[s >> 2u][s & 3u]; }
+@group(0) @binding(14) var<uniform> openings: array<Opening, MAX_OPENINGS>;
 
-// Side that cell c lies behind (0..5), or 6 when it is inside.
-fn side_of(c: vec3i) -> u32 {
-    var found = 6u;
-    for (var a = 0u; a < DIM; a++) {
-        if c[a] < 0 && (found == 6u || side_kind(2u * a) != SIDE_WALL) { found = 2u * a; }
-        if c[a] >= i32(params.cells[a]) && (found == 6u || side_kind(2u * a + 1u) != SIDE_WALL) { found = 2u * a + 1u; }
-    }
-    return found;
+// Least inflow speed over that of sound for which the impedance of a reservoir is taken: at rest it vanishes.
+const LEAST_INFLOW = 0.1;
+
+fn opening_of(word: u32) -> Opening { return openings[word >> RULE_SHIFT]; }
+
+// Pressure of gas that has left a reservoir without losses, at a speed. [Liepmann and Roshko 1957, section 2.10]
+fn reservoir_pressure(o: Opening, speed: f32) -> f32 {
+    let square = params.gamma * o.pressure / o.flow.x;
+    let ratio = 1.0 - 0.5 * (params.gamma - 1.0) * speed * speed / square;
+    return o.pressure * pow(max(ratio, 0.0), params.gamma / (params.gamma - 1.0));
 }
 
-fn bc_inlet(side: u32) -> Gas { return Gas(params.inlet_flow[side], params.inlet_energy[side].x); }
+// Speed into the domain; that of sound at most, which no reservoir exceeds.
+fn inflow_speed(o: Opening, outward_velocity: f32) -> f32 {
+    let critical = sqrt(2.0 / (params.gamma + 1.0) * params.gamma * o.pressure / o.flow.x);
+    return clamp(-outward_velocity, 0.0, critical);
+}
+
+// State beyond a face next to `here`, across axis n, outward = -1 or 1.
+fn gas_beyond(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
+    let velocity = outward * here.flow[n + 1u] / here.flow.x;
+    switch o.rule {
+        case RULE_FIXED: { return Gas(o.flow, o.energy); }
+        case RULE_SUBSONIC: { return Gas(o.flow, internal_energy(here) + kinetic_energy(o.flow)); }
+        case RULE_TOTAL: {
+            let speed = inflow_speed(o, velocity);
+            let pressure = reservoir_pressure(o, speed);
+            var u = vec3f(0.0);
+            u[n] = -outward * speed;
+            return gas_from_primitive(o.flow.x * pow(pressure / o.pressure, 1.0 / params.gamma), u, pressure);
+        }
+        case RULE_ATTENUATED: {
+            return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share));
+        }
+        case RULE_FAR: { if velocity < 0.0 { return Gas(o.flow, o.energy); } return here; }
+        default: { return here; }
+    }
+}
+
+// Velocity that the node beyond an open face has.
+fn velocity_beyond(o: Opening, here: vec4f) -> vec3f {
+    if o.rule <= RULE_SUBSONIC { return velocity_of(o.flow); }
+    if o.rule == RULE_ATTENUATED { return velocity_of(mix(here, o.flow, o.share)); }
+    return velocity_of(here);
+}
+
+// A face as the pressure system sees it.
+struct OpenFace {
+    velocity: f32,      // u0 along +axis
+    reference: f32,     // p0; below 0 where the velocity is prescribed
+}
+
+// What the pressure system is told about an open face of a cell with the advected state `here`. `known` is what a free outlet
+// knows of itself: velocity and pressure of the last step. Kept, they keep what would come in from far away as it was, along the
+// whole history of the outgoing wave, however strong; so nothing is sent back. They drift slowly towards the cell's, or the
+// pressure towards the far one. [Thompson 1987; Poinsot and Lele 1992]
+fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32) -> OpenFace {
+    let velocity = here.flow[n + 1u] / here.flow.x;
+    let pressure = pressure_of(here);
+    let c = sound_speed(here.flow.x, pressure);
+    let mach = outward * velocity / c;
+    switch o.rule {
+        case RULE_FIXED, RULE_SUBSONIC: { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
+        case RULE_TOTAL: {
+            let speed = inflow_speed(o, outward * velocity);
+            return OpenFace(-outward * speed, reservoir_pressure(o, speed));
+        }
+        case RULE_ATTENUATED: {
+            let beyond = mix(here.flow, o.flow, o.share);
+            return OpenFace((here.flow[n + 1u] + beyond[n + 1u]) / (here.flow.x + beyond.x), -1.0);
+        }
+        case RULE_FAR: {
+            if mach >= 1.0 { return OpenFace(velocity, -1.0); }
+            return OpenFace(o.flow[n + 1u] / o.flow.x, select(o.pressure, -1.0, mach <= -1.0));
+        }
+        default: {
+            if mach >= 1.0 { return OpenFace(velocity, -1.0); }
+            let drift = min(1.0, o.share * max(1.0 - mach * mach, 0.0) * c * dt);
+            if o.rule == RULE_PRESSURE {
+                return OpenFace(known.x + outward * drift * (known.y - o.pressure) / (here.flow.x * c), known.y);
+            }
+            return OpenFace(mix(known.x, velocity, drift), mix(known.y, pressure, drift));
+        }
+    }
+}
+
+// 1 / Z of an open face, from density and predicted pressure of its cell.
+fn admittance_of(o: Opening, face: OpenFace, density: f32, predicted: f32) -> f32 {
+    if face.reference < 0.0 { return 0.0; }
+    let c = sound_speed(density, predicted);
+    if o.rule == RULE_TOTAL { return 1.0 / (density * max(abs(face.velocity), LEAST_INFLOW * c)); }
+    return 1.0 / (density * c);
+}

@@ -1,5 +1,6 @@
 // The word of a slot: kind of the cell, kind one step ago, and what is known of its node and vertex.
-// Bits 0..1 kind, 2..3 previous kind, then the flags; bits 16..31 hold the blocked fraction R as a 16-bit share.
+// Bits 0..1 kind, 2..3 previous kind, then the flags; bits 16..31 hold the blocked fraction R as a 16-bit share, in GHOST slots
+// the place of their rule.
 
 fn kind_of(word: u32) -> u32 { return word & 3u; }
 fn previous_kind_of(word: u32) -> u32 { return (word >> 2u) & 3u; }

@@ -21,6 +21,8 @@ struct Control {
     residual: f32,              // of the last solve, relative
     listed: u32,                // slots that are not INTERIOR
     frontier: u32,              // INTERIOR slots whose nodes listed vertices rest on
+    time: f32,                  // [s] at the start of the step
+    time_error: f32,            // [s] what rounding has taken from it so far
 }
 
 // True for NaN and infinities; comparisons alone do not find a NaN on every driver.

@@ -1,4 +1,5 @@
 // The table of indirect dispatches: a zero entry makes every dispatch that uses it a no-op. The device steers the step with it.
+#include "shared/columns.wgsl"
 
 @group(0) @binding(9) var<storage, read_write> extents: array<vec4u>;
 
@@ -14,6 +15,12 @@ fn marches() -> u32 {
     return params.slots / rows * ((rows + params.march - 1u) / params.march);
 }
 
+// Marches over the columns of one color, the ring's layers included.
+fn color_marches() -> u32 {
+    let columns = columns_of_color();
+    return columns.x * columns.y * ((params.stride[DIM - 1u] + params.march - 1u) / params.march);
+}
+
 // Switches the dispatches of one phase on or off. Needs the binding control.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
@@ -23,6 +30,7 @@ fn open_phase(first: u32, on: bool) {
     extents[first + EXTENT_LISTED] = groups_for(control.listed) * keep;
     extents[first + EXTENT_FRONTIER] = groups_for(control.frontier) * keep;
     extents[first + EXTENT_MARCHED] = groups_for(marches()) * keep;
+    extents[first + EXTENT_COLOR] = groups_for(color_marches()) * keep;
     extents[first + EXTENT_SINGLE] = vec4u(keep);
     for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
 }

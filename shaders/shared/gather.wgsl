@@ -38,17 +38,16 @@ fn regular_rows(slot: u32, v: vec3i) -> f32 {
     return sum;
 }
 
-// The transpose of add_element: one element's nodes as one of its vertices sees them.
-fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3i, solid: bool) {
+// The transpose of element_force: one element's nodes as one of its vertices sees them.
+fn element_rows(slot: u32, v: vec3i, kinds: u32, corner: vec3i, solid: bool) -> Rows {
     let quadratic = solid || QUADRATIC;
     let base = select(0u, params.slots, solid);
     let apart = interface_index(slot) != slot;
     var closed = vec3f(0.0);    // +-1/2 where the face on this corner's side acts on the element's own pressure
     var shared_face = vec3f(0.0);   // the same where it acts on h
     for (var n = 0u; n < DIM; n++) {
-        let up = corner[n] == 1;
-        let beyond = neighbour_kind(e, n, up);
-        let share = select(-0.5, 0.5, up);
+        let beyond = kind_across(kinds, corner, n);
+        let share = select(-0.5, 0.5, corner[n] == 1);
         let body = select(beyond == SOLID, beyond == GAS, solid);
         if body && apart { shared_face[n] = share; }
         else if body || (!solid && (beyond == WALL || beyond == GHOST)) { closed[n] = share; }
@@ -58,7 +57,7 @@ fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3
     let count = select(corner_count(), block_size(), quadratic);
     for (var k = 0u; k < count; k++) {
         let node_offset = select(corner + corner_offset(k) - reach(), block_offset(k), quadratic);
-        let velocity = work[base + slot_of(e + node_offset)].xyz;
+        let velocity = work[base + slot_of(v - corner + node_offset)].xyz;
         var mean = vec3f(1.0);
         var slope = vec3f(0.0);
         var holds = vec3f(0.0);
@@ -75,25 +74,36 @@ fn add_element_rows(rows: ptr<function, Rows>, slot: u32, e: vec3i, corner: vec3
     var r: Rows;
     r.h = h;
     if solid { r.q = own; } else { r.own = own; }
-    add_rows(rows, slot, r);
+    return r;
+}
+
+// Only solid around the vertex.
+fn deep_rows(slot: u32, count: u32) -> f32 {
+    var sum = 0.0;
+    for (var k = 0u; k < count; k++) {
+        let offset = deep_offset(k);
+        let at = u32(i32(slot) - offset.x - i32(params.stride.x) * (offset.y + i32(params.stride.y) * offset.z));
+        sum += dot(work[params.slots + at].xyz, deep_entry(offset));
+    }
+    return sum;
 }
 
 // C^T W at a vertex, in units of face_area().
 fn gather_rows(slot: u32, word: u32) -> Rows {
     var rows: Rows;
-    if !LISTED || has(word, VERTEX_REGULAR) {
-        rows.own = regular_rows(slot, cell_of(slot));
-        return rows;
-    }
-    if !has(word, VERTEX_GAS | VERTEX_SOLID) { return rows; }
     let v = cell_of(slot);
-    for (var k = 0u; k < corner_count(); k++) {
+    let regular = !LISTED || has(word, VERTEX_REGULAR);
+    if regular { rows.own = regular_rows(slot, v); }
+    if !LISTED { return rows; }
+    let deep = SOLIDS && has(word, VERTEX_DEEP);
+    let mixed = has(word, VERTEX_GAS | VERTEX_SOLID) && !regular && !deep;
+    if SOLIDS { rows.own += deep_rows(slot, select(0u, deep_count(), deep)); }
+    let kinds = kinds_around_vertex(select(vec3i(0), v, mixed));
+    for (var k = 0u; k < select(0u, corner_count(), mixed); k++) {
         let corner = corner_offset(k);
-        let e = v - corner;
-        if !inside(e) { continue; }
-        let kind = kind_of(cells[slot_of(e)]);
-        if kind == GAS { add_element_rows(&rows, slot, e, corner, false); }
-        if SOLIDS && kind == SOLID { add_element_rows(&rows, slot, e, corner, true); }
+        let kind = (kinds >> (2u * k)) & 3u;
+        if !inside(v - corner) || (kind != GAS && kind != SOLID) { continue; }
+        add_rows(&rows, slot, element_rows(slot, v, kinds, corner, kind == SOLID));
     }
     return rows;
 }

@@ -1,7 +1,7 @@
 // Walls of the solid grid: a node beyond a wall may not move outward. [numerics: one-sided, nothing is glued]
 // Needs the binding cells.
 
-fn stops_at(side: u32) -> bool { return params.side[side >> 2u][side & 3u] == SIDE_WALL; }
+fn stops_at(side: u32) -> bool { return ((params.wall_sides >> side) & 1u) == 1u; }
 
 fn velocity_at_wall(c: vec3i, v: vec3f) -> vec3f {
     var out = v;

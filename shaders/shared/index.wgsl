@@ -1,13 +1,22 @@
 // One index space for cells, nodes and vertices: the grid with one ring of slots around it on every active axis.
-// Cell c, the velocity node at its centre and the vertex at its low corner share slot_of(c).
+// Cell c, the velocity node at its centre and the vertex at its low corner share slot_of(c). Along a periodic axis c stands for
+// c modulo the number of cells: cells, nodes and vertices alike; the ring beyond it stays unused.
 #include "shared/params.wgsl"
 #include "shared/thread.wgsl"
 
 fn active_axis(a: u32) -> i32 { return i32(a < DIM); }
 fn reach() -> vec3i { return vec3i(1, i32(DIM > 1u), i32(DIM > 2u)); }
 
+fn periodic_axes() -> vec3<bool> { return (vec3u(PERIODIC) & vec3u(1u, 2u, 4u)) != vec3u(0u); }
+
+fn wrapped(c: vec3i) -> vec3i {
+    if PERIODIC == 0u { return c; }
+    let n = vec3i(params.cells);
+    return select(c, (c + n) % n, periodic_axes());
+}
+
 fn slot_of(c: vec3i) -> u32 {
-    let r = vec3u(c + reach());
+    let r = vec3u(wrapped(c) + reach());
     return r.x + params.stride.x * (r.y + params.stride.y * r.z);
 }
 
@@ -26,11 +35,27 @@ fn step_of(a: u32) -> u32 {
     return params.stride.x * params.stride.y;
 }
 
-fn inside(c: vec3i) -> bool { return all(c >= vec3i(0)) && all(c < vec3i(params.cells)); }
-fn in_ring(c: vec3i) -> bool { return all(c >= -reach()) && all(c < vec3i(params.cells) + reach()); }
-fn is_vertex(v: vec3i) -> bool { return all(v >= vec3i(0)) && all(v < vec3i(params.cells) + reach()); }
-fn nearest_inside(c: vec3i) -> vec3i { return clamp(c, vec3i(0), vec3i(params.cells) - vec3i(1)); }
-fn nearest_ring(c: vec3i) -> vec3i { return clamp(c, -reach(), vec3i(params.cells) + reach() - vec3i(1)); }
+// Whether low <= c < high along every axis that is not periodic.
+fn within(c: vec3i, low: vec3i, high: vec3i) -> bool {
+    if PERIODIC == 0u { return all(c >= low) && all(c < high); }
+    return all(((c >= low) & (c < high)) | periodic_axes());
+}
+fn inside(c: vec3i) -> bool { return within(c, vec3i(0), vec3i(params.cells)); }
+fn in_ring(c: vec3i) -> bool { return within(c, -reach(), vec3i(params.cells) + reach()); }
+fn is_vertex(v: vec3i) -> bool { return within(v, vec3i(0), vec3i(params.cells) + reach()); }
+fn nearest_inside(c: vec3i) -> vec3i { return select(clamp(c, vec3i(0), vec3i(params.cells) - vec3i(1)), c, periodic_axes()); }
+fn nearest_ring(c: vec3i) -> vec3i {
+    return select(clamp(c, -reach(), vec3i(params.cells) + reach() - vec3i(1)), c, periodic_axes());
+}
+
+// Whether a slot lies beyond a periodic side: it stands for one at the other end and holds nothing.
+fn is_alias(c: vec3i) -> bool { return !away_from_seam(c, 0, 0); }
+
+// Whether c + first .. c + last stay clear of the ends of the periodic axes, where neighbours are no neighbours in memory.
+fn away_from_seam(c: vec3i, first: i32, last: i32) -> bool {
+    if PERIODIC == 0u { return true; }
+    return all(((c + first >= vec3i(0)) & (c + last < vec3i(params.cells))) | !periodic_axes());
+}
 
 // Enumerations of the 3^DIM block (offsets -1..1) and of the 2^DIM corners (offsets 0..1), x fastest.
 fn block_size() -> u32 { if DIM == 1u { return 3u; } if DIM == 2u { return 9u; } return 27u; }

@@ -11,6 +11,7 @@ override LIMITER: bool;         // conservative flux limiter for positivity
 override BLENDING: bool;        // blocked fraction of partly filled cells
 override LEDGER: bool;          // gas of covered cells is kept and given back
 override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity
+override PERIODIC: u32;          // axes whose ends meet, as bits
 override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
 override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE
 
@@ -43,9 +44,7 @@ struct Params {
     max_substeps: u32,
     groups: u32,                // groups that leave partial results
     march: u32,                 // slots that one thread of a marching kernel takes, along the last axis
-    side: array<vec4u, 2>,      // SIDE_WALL, SIDE_INLET, SIDE_OUTLET for x-, x+, y-, y+, z-, z+
-    inlet_flow: array<vec4f, 6>,    // density, momentum per volume
-    inlet_energy: array<vec4f, 6>,  // total energy per volume in x
+    wall_sides: u32,            // sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
     scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 

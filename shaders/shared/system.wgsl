@@ -16,3 +16,58 @@ fn ghost_index(slot: u32) -> u32 {
 fn neighbour_kind(c: vec3i, n: u32, up: bool) -> u32 {
     return kind_of(cells[slot_of(select(c - axis(n), c + axis(n), up))]);
 }
+
+// Kinds of the 2^DIM cells around a vertex, two bits each, in the order of corner_offset(): cell k lies at v - corner_offset(k).
+fn kinds_around_vertex(v: vec3i) -> u32 {
+    var kinds = 0u;
+    for (var k = 0u; k < corner_count(); k++) { kinds |= kind_of(cells[slot_of(v - corner_offset(k))]) << (2u * k); }
+    return kinds;
+}
+
+fn corner_index(corner: vec3i) -> u32 { return u32(corner.x + 2 * corner.y + 4 * corner.z); }
+
+// Kind of the cell beyond the face, across axis n, that the element at `corner` has on the vertex' side.
+fn kind_across(kinds: u32, corner: vec3i, n: u32) -> u32 {
+    var other = corner;
+    other[n] = 1 - other[n];
+    return (kinds >> (2u * corner_index(other))) & 3u;
+}
+
+// Kinds of the 3^DIM cells around a node, two bits each, in the order of block_offset(). Beyond the ring: WALL.
+fn kinds_around_node(c: vec3i) -> vec2u {
+    var kinds = vec2u(0u);
+    for (var k = 0u; k < block_size(); k++) {
+        let near = c + block_offset(k);
+        var kind = WALL;
+        if in_ring(near) { kind = kind_of(cells[slot_of(near)]); }
+        if k < 16u { kinds.x |= kind << (2u * k); } else { kinds.y |= kind << (2u * (k - 16u)); }
+    }
+    return kinds;
+}
+
+fn kind_in_block(kinds: vec2u, offset: vec3i) -> u32 {
+    let place = offset + reach();
+    let k = u32(place.x + 3 * place.y + 9 * place.z);
+    return (select(kinds.y, kinds.x, k < 16u) >> (2u * (k & 15u))) & 3u;
+}
+
+// Deep inside a body the B2B1 stencil is a product: (-1, -3, 3, 1)/6 along an axis, (1, 11, 11, 1)/24 across, on the vertices
+// at -1 .. 2 of a node. Entry k - 1 of both; the mean is 1 on inactive axes.
+fn deep_slope(k: i32) -> f32 { return select(select(-0.5, 0.5, k == 1), select(-1.0 / 6.0, 1.0 / 6.0, k == 2), k == -1 || k == 2); }
+fn deep_mean(k: i32) -> f32 { return select(11.0, 1.0, k == -1 || k == 2) / 24.0; }
+
+fn deep_entry(offset: vec3i) -> vec3f {
+    let mx = deep_mean(offset.x);
+    let sx = deep_slope(offset.x);
+    if DIM == 1u { return vec3f(sx, 0.0, 0.0); }
+    let my = deep_mean(offset.y);
+    let sy = deep_slope(offset.y);
+    if DIM == 2u { return vec3f(sx * my, mx * sy, 0.0); }
+    let mz = deep_mean(offset.z);
+    let sz = deep_slope(offset.z);
+    return vec3f(sx * my * mz, mx * sy * mz, mx * my * sz);
+}
+
+// Vertices of a deep node, 4 per axis, as offsets from its own.
+fn deep_count() -> u32 { return 1u << (2u * DIM); }
+fn deep_offset(k: u32) -> vec3i { return vec3i(vec3u(k & 3u, (k >> 2u) & 3u, k >> 4u)) - reach(); }

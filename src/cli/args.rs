@@ -10,7 +10,7 @@ use crate::gpu::Detail;
 #[derive(Debug, Parser)]
 #[command(name = "brisance", version, arg_required_else_help = true, subcommand_required = true)]
 #[command(after_help = "Exit codes: 0 done, 1 internal, 2 usage, 3 scene, 4 no device, 5 does not fit, 7 diverged, \
-                        8 expectation failed, 9 disk, 75 device lost, 130 interrupted")]
+                        8 expectation or gate failed, 9 disk, 75 device lost, 130 interrupted")]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -32,6 +32,8 @@ pub enum Command {
     Check(SceneOptions),
     /// Measure a scene: a table of stages, then totals per second
     Bench(BenchOptions),
+    /// Compare the method with numbers from elsewhere: a table, a page with plots, an exit code
+    Verify(VerifyOptions),
     /// List the devices, best first
     Devices,
     /// List the shipped scenes
@@ -114,4 +116,27 @@ impl BenchOptions {
     pub fn detail(&self) -> Detail {
         if self.kernels { Detail::Kernels } else { Detail::Stages }
     }
+}
+
+/// Options of `verify`.
+#[derive(Debug, Args)]
+pub struct VerifyOptions {
+    /// The short suite: minutes on two processor cores [default]
+    #[arg(long, conflicts_with = "full")]
+    pub quick: bool,
+    /// Every case, resolution, element pair and time integration
+    #[arg(long)]
+    pub full: bool,
+    /// Only cases whose name, title or group contains this
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    pub filter: String,
+    /// Folder for report.html and verify.json
+    #[arg(long, value_name = "DIR", default_value = "verify")]
+    pub out: PathBuf,
+    /// Print the cases and run none
+    #[arg(long)]
+    pub list: bool,
+    /// Print the tables as Markdown
+    #[arg(long)]
+    pub markdown: bool,
 }

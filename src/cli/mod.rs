@@ -19,6 +19,7 @@ mod progress;
 mod run;
 mod scenes;
 mod tables;
+mod verify;
 mod writer;
 
 pub use args::{Cli, Command};
@@ -100,6 +101,7 @@ fn execute(cli: &Cli) -> Result<()> {
         Command::Run(options) => run::run(options, cli),
         Command::Check(options) => check::check(options, cli),
         Command::Bench(options) => bench::bench(options, cli),
+        Command::Verify(options) => verify::verify(options, cli),
         Command::Devices => list::devices(cli.json),
         Command::List => list::scenes(cli.json),
         Command::Schema => {

@@ -3,10 +3,8 @@
 use std::path::Path;
 
 use super::args::SceneOptions;
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 use crate::{Error, Result};
-
-include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
 /// A shipped scene.
 #[derive(Clone, Debug)]
@@ -41,7 +39,7 @@ pub(super) fn shipped() -> Vec<Shipped> {
     let mut found = Vec::new();
     collect(Path::new("scenes"), &mut found);
     if found.is_empty() {
-        found = EMBEDDED.iter().map(|(path, text)| Shipped::new(path, text)).collect();
+        found = scene::EMBEDDED.iter().map(|(path, text)| Shipped::new(path, text)).collect();
     }
     found.sort_by(|a, b| a.path.cmp(&b.path));
     found

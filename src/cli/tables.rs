@@ -10,7 +10,7 @@ use crate::snapshot::Snapshot;
 
 /// Columns of `diagnostics.csv`.
 #[rustfmt::skip]
-const STEP_COLUMNS: [&str; 38] = [
+const STEP_COLUMNS: [&str; 39] = [
     "step", "time", "dt",
     "gas_mass", "gas_momentum_x", "gas_momentum_y", "gas_momentum_z", "gas_energy",
     "owed_mass", "owed_momentum_x", "owed_momentum_y", "owed_momentum_z", "owed_energy",
@@ -19,7 +19,7 @@ const STEP_COLUMNS: [&str; 38] = [
     "solid_elastic_energy", "solid_ghost_energy",
     "pcg_iterations", "pcg_residual", "substeps", "extra_vertices",
     "min_density", "max_density", "min_pressure", "max_pressure", "max_gas_speed", "max_solid_speed",
-    "limited_cells", "floored_cells", "clamped_particles",
+    "limited_cells", "floored_cells", "clamped_particles", "acoustic_courant",
 ];
 
 /// Columns of `bodies.csv`.
@@ -106,5 +106,6 @@ fn step_row(record: &StepRecord) -> Vec<Value> {
     row.extend([record.density, record.pressure].into_iter().flatten().map(Value::from));
     row.extend([record.gas_speed, record.solid_speed].map(Value::from));
     row.extend([record.limited, record.floored, record.clamped].map(Value::from));
+    row.push(record.courant.into());
     row
 }

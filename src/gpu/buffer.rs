@@ -44,6 +44,17 @@ impl<T: Pod> Buffer<T> {
         Self::allocate(gpu, label, len, wgpu::BufferUsages::UNIFORM)
     }
 
+    /// A buffer that one kernel writes as storage and others read as `var<uniform>`; it holds `values`.
+    ///
+    /// # Errors
+    /// As [`Buffer::new`].
+    pub fn uniform_storage(gpu: &Gpu, label: &str, values: &[T]) -> Result<Buffer<T>> {
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE;
+        let buffer = Self::allocate(gpu, label, values.len(), usage)?;
+        buffer.write(gpu, 0, values);
+        Ok(buffer)
+    }
+
     /// A storage buffer that holds `values`.
     ///
     /// # Errors

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::kernel::Kernel;
 use super::reflect::Compiled;
 use super::shader::Folder;
 use crate::error::{Error, Result};
@@ -65,12 +66,17 @@ pub struct Gpu {
     pub folder: Folder,
     /// Shaders compiled so far.
     pub(super) shaders: ShaderCache,
+    /// Their entry points with the overrides they were specialised for.
+    pub(super) kernels: KernelCache,
     faults: Arc<Mutex<Faults>>,
     allocated: Arc<AtomicU64>,
 }
 
 /// Compiled shaders by file name and constants text.
 type ShaderCache = Arc<Mutex<HashMap<(String, String), (Arc<Compiled>, wgpu::ShaderModule)>>>;
+
+/// Kernels by shader, entry point, overrides and constants text.
+type KernelCache = Arc<Mutex<HashMap<String, Kernel>>>;
 
 /// What the driver reported since the last [`Gpu::check`].
 #[derive(Debug, Default)]
@@ -112,8 +118,21 @@ impl Gpu {
             Some(path) => Folder::Disk(path),
             None => Folder::Embedded,
         };
-        let (shaders, allocated) = (Arc::default(), Arc::default());
-        Ok(Gpu { instance, adapter, device, queue, info, limits, timestamps, folder, shaders, faults, allocated })
+        let (shaders, kernels, allocated) = (Arc::default(), Arc::default(), Arc::default());
+        Ok(Gpu {
+            instance,
+            adapter,
+            device,
+            queue,
+            info,
+            limits,
+            timestamps,
+            folder,
+            shaders,
+            kernels,
+            faults,
+            allocated,
+        })
     }
 
     /// All devices, best first: discrete, integrated, virtual, other, software.

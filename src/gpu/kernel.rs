@@ -64,11 +64,22 @@ pub fn group_counts(groups: u64, limit: u32) -> [u32; 3] {
 }
 
 impl Kernel {
-    /// Compiles one entry point of a shader. The shader itself is read, checked and given to the driver once per constants.
+    /// One entry point of a shader, compiled once per device and constants.
     ///
     /// # Errors
     /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings.
     pub fn new(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
+        let key = format!("{shader}: {entry} {:?}\n{}", constants.overrides, constants.source);
+        if let Some(known) = lock(&gpu.kernels).get(&key) {
+            return Ok(known.clone());
+        }
+        let kernel = Kernel::compile(gpu, shader, entry, constants)?;
+        lock(&gpu.kernels).insert(key, kernel.clone());
+        Ok(kernel)
+    }
+
+    /// Compiles one entry point.
+    fn compile(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
         let (compiled, module) = compiled(gpu, shader, constants.source)?;
         let label = format!("shaders/{shader}: {entry}");
         let bindings = compiled.bindings(entry)?;

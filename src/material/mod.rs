@@ -59,12 +59,13 @@ const YOUNG_MODULUS: Parameter = Parameter {
     summary: "Young's modulus: stress over strain of a thin rod.",
 };
 
-/// Poisson's ratio, shared by the elastic laws; at 0.5 lambda has no finite value.
+/// Poisson's ratio, shared by the elastic laws. At 0.5 lambda has no finite value; at 0 it vanishes, and with it the stiffness
+/// of the ghost pressure, which the pressure system divides by.
 const POISSON_RATIO: Parameter = Parameter {
     name: "poisson_ratio",
     unit: "1",
     default: None,
-    above: -1.0,
+    above: 0.0,
     below: 0.5,
     summary: "Poisson's ratio: lateral over axial strain of a thin rod.",
 };
@@ -307,7 +308,8 @@ pub fn wgsl_includes() -> String {
 }
 
 /// WGSL functions that ask the material `kind` (its number in [`KINDS`]): `kirchhoff_stress`, `return_map`, `elastic_energy`, `wave_speed`.
-/// They need the files of [`wgsl_includes`].
+/// They need the files of [`wgsl_includes`]. Kinds whose bit is not in the override `MATERIALS_USED` are left out: lanes of a
+/// software device run every case of a switch.
 #[must_use]
 pub fn wgsl_switch() -> String {
     let mut text = String::new();
@@ -315,6 +317,7 @@ pub fn wgsl_switch() -> String {
         // writing to a String cannot fail
         let _ = writeln!(text, "const MATERIAL_{}: u32 = {index}u;", kind.name.to_uppercase());
     }
+    text.push_str("override MATERIALS_USED: u32 = 0xffffffffu; // bit k: the scene uses kind k\n");
     for question in &QUESTIONS {
         let _ = writeln!(text, "\n// {}", question.summary);
         let _ = writeln!(
@@ -324,13 +327,14 @@ pub fn wgsl_switch() -> String {
         );
         for kind in KINDS {
             let label = kind.name.to_uppercase();
+            let used = format!("(MATERIALS_USED & (1u << MATERIAL_{label})) != 0u");
             let _ = writeln!(
                 text,
-                "        case MATERIAL_{label}: {{ return {}_{}({}); }}",
+                "        case MATERIAL_{label}: {{ if {used} {{ return {}_{}({}); }} }}",
                 question.function, kind.name, question.arguments
             );
         }
-        let _ = writeln!(text, "        default: {{ return {}; }}\n    }}\n}}", question.otherwise);
+        let _ = writeln!(text, "        default: {{ }}\n    }}\n    return {};\n}}", question.otherwise);
     }
     text
 }

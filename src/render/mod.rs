@@ -19,6 +19,7 @@ use glam::Vec3;
 
 pub use frame::{Frame, Picture};
 pub use kernels::constants as shader_constants;
+pub(crate) use ticks::ticks;
 pub use view::View;
 
 use crate::Result;
@@ -220,12 +221,12 @@ impl Renderer {
 
     /// The line plot of a one-dimensional state.
     fn draw_lines(&self, time: f64) -> Result<Picture> {
-        let line = self.read_line()?;
+        let line = self.read_line(time)?;
         let frame = plot::draw(&line, self.scene.render.size, &Stamp { title: &self.scene.title, time });
         Ok(Picture { name: "lines".to_owned(), range: line.range(0), frame })
     }
 
-    fn read_line(&self) -> Result<Line> {
+    fn read_line(&self, time: f64) -> Result<Line> {
         let conserved: Vec<[f32; 4]> = self.grid.unpadded(&self.read(&self.sources.conserved, self.grid.slots())?);
         let energy: Vec<f32> = self.grid.unpadded(&self.read(&self.sources.energy, self.grid.slots())?);
         let cells: Vec<u32> = self.grid.unpadded(&self.read(&self.sources.cells, self.grid.slots())?);
@@ -249,7 +250,23 @@ impl Renderer {
                 .collect();
         }
         let kind = cells.iter().map(|word| (word & u32::from(kind::MASK)) as u8).collect();
-        Ok(Line { grid: self.grid, kind, gas: [density, velocity, pressure], particles })
+        let exact = self.exact_lines(time);
+        Ok(Line { grid: self.grid, kind, gas: [density, velocity, pressure], particles, exact })
+    }
+
+    /// Density, velocity and pressure of the exact solution over x, if the scene has one; a few points per pixel.
+    fn exact_lines(&self, time: f64) -> Option<[Vec<[f64; 2]>; 3]> {
+        let (exact, jump) = self.scene.riemann_until_waves_leave(time).filter(|_| time > 0.0)?;
+        let (low, points) = (self.scene.domain.origin[0], 2 * self.scene.render.size[0]);
+        let places = (0..=points).map(|k| low + self.scene.domain.size[0] * f64::from(k) / f64::from(points));
+        let mut lines = [const { Vec::new() }; 3];
+        for x in places {
+            let (density, velocity, pressure) = exact.sample((x - jump) / time);
+            for (line, value) in lines.iter_mut().zip([density, velocity, pressure]) {
+                line.push([x, value]);
+            }
+        }
+        Some(lines)
     }
 
     fn read<T: bytemuck::Pod>(&self, buffer: &wgpu::Buffer, len: usize) -> Result<Vec<T>> {

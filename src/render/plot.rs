@@ -26,6 +26,8 @@ pub(crate) struct Line {
     pub(crate) gas: [Vec<f32>; 3],
     /// Position, velocity and body of each particle.
     pub(crate) particles: Vec<(f32, f32, u32)>,
+    /// The exact solution of a Riemann problem: points (x, value) of the three panels.
+    pub(crate) exact: Option<[Vec<[f64; 2]>; 3]>,
 }
 
 impl Line {
@@ -34,12 +36,13 @@ impl Line {
         let gas =
             self.gas[panel].iter().zip(&self.kind).filter(|(_, cell)| **cell == kind::GAS).map(|(value, _)| *value);
         let velocity = self.particles.iter().map(|particle| particle.1).filter(|_| panel == 1);
+        let exact = self.exact.iter().flat_map(|lines| &lines[panel]).map(|point| point[1]);
         let (low, high) = gas
             .chain(velocity)
+            .map(f64::from)
+            .chain(exact)
             .filter(|value| value.is_finite())
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value.into()), high.max(value.into()))
-            });
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
         if low > high {
             return [0.0, 1.0];
         }
@@ -99,6 +102,7 @@ impl Panel<'_> {
         canvas.fill(self.area, PANEL, 1.0);
         self.shade_covered_cells(canvas);
         self.draw_axes(canvas);
+        self.draw_exact(canvas);
         self.draw_gas(canvas);
         if self.index == 1 {
             self.draw_particles(canvas);
@@ -153,6 +157,16 @@ impl Panel<'_> {
                 canvas.dot(point, self.area, CURVES[self.index], 2.6 * width);
             }
         }
+    }
+
+    /// The exact solution under the curve, with a word beside the caption.
+    fn draw_exact(&self, canvas: &mut Canvas) {
+        let Some(lines) = &self.line.exact else { return };
+        let points: Vec<[f32; 2]> =
+            lines[self.index].iter().map(|[x, value]| [self.x_pixel(*x), self.y_pixel(*value)]).collect();
+        canvas.curve(&points, self.area, INK, canvas.lettering.unit() as f32);
+        let y = self.area.y - 2 * canvas.lettering.line() / 3;
+        canvas.text(self.area.right(), y, Anchor::Right, "exact", INK);
     }
 
     fn draw_particles(&self, canvas: &mut Canvas) {

@@ -3,23 +3,180 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::GasState;
+use super::{GasState, Shape, vector};
 
-/// What happens at one side, for gas and solid.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// What happens at one side, or at a patch of it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Boundary {
     /// Slip wall: nothing passes, nothing sticks.
     #[default]
     Wall,
-    /// Gas of a fixed state flows in; solids may leave through it.
+    /// What leaves here enters at the opposite side, which must be periodic too.
+    Periodic,
+    /// Gas of a fixed state flows in, faster than sound or not; solids may leave.
     Inlet(GasState),
-    /// Gas leaves freely; so do solids.
+    /// Density and velocity are fixed, the pressure comes from inside.
+    SubsonicInlet(Inflow),
+    /// Gas at rest far away flows in along the normal as fast as the pressure inside lets it.
+    TotalInlet(Reservoir),
+    /// An inlet whose state follows a table of times.
+    TimedInlet(TimedInlet),
+    /// Gas leaves; nothing comes back that has not been inside: neither a state nor a pressure is prescribed.
     Outlet,
+    /// Gas leaves against a far pressure.
+    PressureOutlet(PressureOutlet),
+    /// Gas leaves; beyond the side the state is drawn towards a far one. [Kwatra et al. 2009; Cao et al. 2022, section 2.9]
+    AttenuatedOutlet(AttenuatedOutlet),
+    /// Undisturbed gas of a fixed state beyond the side: gas may leave and enter, sound leaves.
+    FarField(GasState),
+    /// A base rule and patches with rules of their own.
+    Patched(Patched),
+}
+
+/// Gas whose pressure comes from elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Inflow {
+    /// Density `[kg m^-3]`, positive.
+    pub density: f64,
+    /// Velocity `[m s^-1]`.
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub velocity: [f64; 3],
+}
+
+/// Total state: that of the gas before it was accelerated, without losses, to the speed that it enters with.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reservoir {
+    /// Total density `[kg m^-3]`, positive.
+    pub density: f64,
+    /// Total pressure `[Pa]`, positive.
+    pub pressure: f64,
+}
+
+/// Which of its numbers an inlet prescribes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InletRule {
+    /// All, as `inlet`.
+    #[default]
+    Fixed,
+    /// Density and velocity, as `subsonic_inlet`.
+    Subsonic,
+    /// Total density and pressure, as `total_inlet`.
+    Total,
+}
+
+/// An inlet that changes in time; linear between the entries, constant before the first and after the last.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TimedInlet {
+    /// What the states prescribe.
+    #[serde(default)]
+    pub rule: InletRule,
+    /// The states, in order of time.
+    pub table: Vec<TimedState>,
+}
+
+/// The state of an inlet at one time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TimedState {
+    /// When `[s]`.
+    pub time: f64,
+    /// Density `[kg m^-3]`, positive.
+    pub density: f64,
+    /// Velocity `[m s^-1]`.
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub velocity: [f64; 3],
+    /// Pressure `[Pa]`, positive; not needed by the rule `subsonic`.
+    #[serde(default)]
+    pub pressure: f64,
+}
+
+/// An outlet with a far pressure.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PressureOutlet {
+    /// Far pressure `[Pa]`, positive.
+    pub pressure: f64,
+    /// How fast the pressure returns to the far one, in sound crossings of the domain `[1]`. [Poinsot & Lele 1992]
+    #[serde(default = "default_relaxation")]
+    pub relaxation: f64,
+}
+
+fn default_relaxation() -> f64 {
+    0.25
+}
+
+/// An outlet whose extrapolated state is attenuated.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AttenuatedOutlet {
+    /// Far density `[kg m^-3]`, positive.
+    pub density: f64,
+    /// Far velocity `[m s^-1]`.
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub velocity: [f64; 3],
+    /// Far pressure `[Pa]`, positive.
+    pub pressure: f64,
+    /// Share of the far state in the state beyond the side, 0 to 1.
+    pub attenuation: f64,
+}
+
+/// A side of several rules.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Patched {
+    /// Rule of what no patch covers; solids follow it everywhere on this side.
+    #[serde(default)]
+    pub base: Box<Boundary>,
+    /// Patches; a later one covers an earlier one.
+    pub patches: Vec<Patch>,
+}
+
+/// A part of a side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Patch {
+    /// Faces of the side whose centre lies inside belong to the patch.
+    pub shape: Shape,
+    /// What happens there.
+    pub rule: Boundary,
+}
+
+impl Boundary {
+    /// Base rule, then those of the patches.
+    #[must_use]
+    pub fn rules(&self) -> Vec<&Boundary> {
+        match self {
+            Boundary::Patched(patched) => {
+                std::iter::once(&*patched.base).chain(patched.patches.iter().map(|patch| &patch.rule)).collect()
+            }
+            rule => vec![rule],
+        }
+    }
+
+    /// Position among [`Boundary::rules`] of the rule that holds at a point of the side \[m\].
+    #[must_use]
+    pub fn rule_at(&self, point: [f64; 3]) -> usize {
+        let Boundary::Patched(patched) = self else { return 0 };
+        patched.patches.iter().rposition(|patch| patch.shape.distance(point) < 0.0).map_or(0, |index| index + 1)
+    }
+
+    /// True if no gas can cross the side for good.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.rules().iter().all(|rule| matches!(rule, Boundary::Wall | Boundary::Periodic))
+    }
 }
 
 /// One rule per side; sides of inactive axes stay walls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Boundaries {
     /// Side of lowest x.
@@ -42,13 +199,19 @@ impl Boundaries {
 
     /// The sides in the order x_min, x_max, y_min, y_max, z_min, z_max.
     #[must_use]
-    pub fn sides(&self) -> [Boundary; 6] {
-        [self.x_min, self.x_max, self.y_min, self.y_max, self.z_min, self.z_max]
+    pub fn sides(&self) -> [&Boundary; 6] {
+        [&self.x_min, &self.x_max, &self.y_min, &self.y_max, &self.z_min, &self.z_max]
     }
 
     /// True if no gas can cross any side of a domain with `dimension` active axes.
     #[must_use]
     pub fn closed(&self, dimension: u32) -> bool {
-        self.sides().iter().take(2 * dimension as usize).all(|side| *side == Boundary::Wall)
+        self.sides().iter().take(2 * dimension as usize).all(|side| side.is_closed())
+    }
+
+    /// Whether what leaves along an axis enters at its other end.
+    #[must_use]
+    pub fn periodic(&self, axis: usize) -> bool {
+        *self.sides()[2 * axis] == Boundary::Periodic
     }
 }

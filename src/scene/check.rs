@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::check_shape;
 use super::source::{Finding, walk};
-use super::{Boundaries, Boundary, GasState, Integrator, Scene};
+use super::{GasState, Integrator, Scene};
 use crate::material::kind_names;
 
 /// Cells per active axis at least: the advection stencil needs this many.
@@ -17,9 +17,9 @@ const MOST_SLOTS: u64 = i32::MAX as u64;
 const CUBE_TOLERANCE: f64 = 1e-6;
 
 /// Keys that hold one number per axis.
-const VECTORS: [&str; 15] = [
+const VECTORS: [&str; 16] = [
     "cells", "origin", "size", "velocity", "center", "axis", "from", "to", "point", "normal", "offset", "about",
-    "radii", "position", "gravity",
+    "radii", "position", "gravity", "vector",
 ];
 
 /// Numbers that are not finite and vectors of the wrong length, in the text itself.
@@ -76,17 +76,18 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     check.findings
 }
 
-struct Check<'s> {
-    scene: &'s Scene,
-    findings: Vec<Finding>,
+/// The scene and what has been found so far.
+pub(super) struct Check<'s> {
+    pub(super) scene: &'s Scene,
+    pub(super) findings: Vec<Finding>,
 }
 
 impl Check<'_> {
-    fn add(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
+    pub(super) fn add(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
         self.findings.push(Finding::new(path, message, help));
     }
 
-    fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
+    pub(super) fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
         if !(value > 0.0 && value.is_finite()) {
             self.add(path, format!("{value} is not positive"), format!("give a finite number above 0 {unit}"));
         }
@@ -106,7 +107,7 @@ impl Check<'_> {
     }
 
     /// A vector that must be finite and vanish along inactive axes.
-    fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
+    pub(super) fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
         let axes = self.scene.domain.axes().min(3);
         if vector.iter().any(|x| !x.is_finite()) {
             self.add(path, format!("{vector:?} is not finite"), "give finite numbers");
@@ -116,7 +117,7 @@ impl Check<'_> {
         }
     }
 
-    fn state(&mut self, path: &str, state: &GasState) {
+    pub(super) fn state(&mut self, path: &str, state: &GasState) {
         self.positive(format!("{path}.density"), state.density, "[kg m^-3]");
         self.positive(format!("{path}.pressure"), state.pressure, "[Pa]");
         self.planar(format!("{path}.velocity"), state.velocity);
@@ -180,29 +181,11 @@ impl Check<'_> {
             self.state(&format!("gas.regions[{index}]"), &region.state);
         }
         self.planar("gravity", self.scene.gravity);
-    }
-
-    fn boundary(&mut self) {
-        for (side, name) in self.scene.boundary.sides().iter().zip(Boundaries::NAMES) {
-            let index = Boundaries::NAMES.iter().position(|other| *other == name).unwrap_or(0);
-            let (axis, outward) = (index / 2, if index % 2 == 0 { -1.0 } else { 1.0 });
-            let path = format!("boundary.{name}");
-            if axis >= self.scene.domain.axes() && *side != Boundary::Wall {
-                let help = format!("the scene has {} axes; remove the key", self.scene.domain.dimension);
-                self.add(&path, "this side belongs to an inactive axis", help);
-            }
-            if let Boundary::Inlet(state) = side {
-                self.state(&format!("{path}.inlet"), state);
-                if state.velocity[axis] * outward > 0.0 {
-                    let message = format!("{:?} points out of the domain", state.velocity);
-                    self.add(
-                        format!("{path}.inlet.velocity"),
-                        message,
-                        "turn the velocity round, or make the side an \"outlet\"",
-                    );
-                }
-            }
+        for (index, wave) in gas.waves.iter().enumerate() {
+            self.planar(format!("gas.waves[{index}].vector"), wave.vector);
+            self.planar(format!("gas.waves[{index}].velocity"), wave.velocity);
         }
+        self.findings.extend(super::wave::finding(gas));
     }
 
     fn materials(&mut self) {
@@ -260,9 +243,11 @@ impl Check<'_> {
         let regions =
             scene.gas.regions.iter().enumerate().map(|(i, region)| (format!("gas.regions[{i}].shape"), &region.shape));
         let bodies = scene.bodies.iter().enumerate().map(|(i, body)| (format!("bodies[{i}].shape"), &body.shape));
+        let waves = scene.gas.waves.iter().enumerate();
+        let waves = waves.filter_map(|(i, wave)| Some((format!("gas.waves[{i}].shape"), wave.shape.as_ref()?)));
         let obstacles =
             scene.obstacles.iter().enumerate().map(|(i, obstacle)| (format!("obstacles[{i}].shape"), &obstacle.shape));
-        for (path, shape) in regions.chain(bodies).chain(obstacles) {
+        for (path, shape) in regions.chain(waves).chain(bodies).chain(obstacles) {
             check_shape::sizes(&path, shape, &mut self.findings);
         }
         for (index, probe) in scene.probes.iter().enumerate() {

@@ -25,10 +25,14 @@ pub struct Seed {
 impl Scene {
     /// Density, momentum and energy per volume of every cell, x fastest, without padding.
     ///
-    /// A cell that the surface of a region crosses holds the mean over 4^dimension points; every other cell is exact.
+    /// A cell that the surface of a region crosses, and every cell under waves, holds the mean over 4^dimension points; every other
+    /// cell is exact.
     #[must_use]
     pub fn initial_gas(&self) -> Vec<[f64; 5]> {
         let gamma = self.gas.gamma;
+        if !self.gas.waves.is_empty() {
+            return self.each_cell(|center| self.mean_over(center, |point| self.gas_at(point).conserved(gamma)));
+        }
         let ambient = self.gas.ambient.conserved(gamma);
         let states = self.gas.regions.iter().map(|region| region.state.conserved(gamma)).collect::<Vec<_>>();
         let reach = 0.5 * self.domain.spacing() * f64::from(self.domain.dimension).sqrt();
@@ -48,13 +52,19 @@ impl Scene {
 
     /// Mean over regular points of a cell, the last region at each point.
     fn mean_state(&self, center: [f64; 3], ambient: &[f64; 5], states: &[[f64; 5]]) -> [f64; 5] {
+        self.mean_over(center, |point| {
+            let last = self.gas.regions.iter().zip(states).rev().find(|(region, _)| region.shape.distance(point) < 0.0);
+            *last.map_or(ambient, |(_, state)| state)
+        })
+    }
+
+    /// Mean of a state over regular points of a cell.
+    fn mean_over(&self, center: [f64; 3], state: impl Fn([f64; 3]) -> [f64; 5]) -> [f64; 5] {
         let mut sum = [0.0; 5];
         let points = lattice(self.domain.axes(), SAMPLES);
         for offset in &points {
             let point = std::array::from_fn(|d| center[d] + offset[d] * self.domain.spacing());
-            let last = self.gas.regions.iter().zip(states).rev().find(|(region, _)| region.shape.distance(point) < 0.0);
-            let state = last.map_or(ambient, |(_, state)| state);
-            for (total, entry) in sum.iter_mut().zip(state) {
+            for (total, entry) in sum.iter_mut().zip(state(point)) {
                 *total += entry;
             }
         }
@@ -154,7 +164,11 @@ impl Scene {
     #[must_use]
     pub fn gas_at(&self, point: [f64; 3]) -> GasState {
         let last = self.gas.regions.iter().rev().find(|region| region.shape.distance(point) < 0.0);
-        last.map_or(self.gas.ambient, |region| region.state)
+        let mut state = last.map_or(self.gas.ambient, |region| region.state);
+        for wave in &self.gas.waves {
+            wave.add(&mut state, point);
+        }
+        state
     }
 }
 

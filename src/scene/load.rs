@@ -31,6 +31,16 @@ impl Scene {
         read(&mut source).map_err(|findings| Error::Scene(source.report(&findings)))
     }
 
+    /// Reads a shipped scene by its path below `scenes/`, as the program carries it, and applies overrides.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if there is none of that path or an override is wrong.
+    pub fn shipped(path: &str, overrides: &[String]) -> Result<Scene> {
+        let found = super::EMBEDDED.iter().find(|(own, _)| *own == path);
+        let (_, text) = found.ok_or_else(|| Error::Scene(format!("no shipped scene scenes/{path}")))?;
+        Scene::parse(text, &format!("scenes/{path}"), overrides)
+    }
+
     /// The same scene with `cells` cells along its longest axis.
     ///
     /// # Errors

@@ -7,6 +7,7 @@
 
 mod boundary;
 mod check;
+mod check_boundary;
 mod check_shape;
 mod distance;
 mod fill;
@@ -18,15 +19,22 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod vector;
+mod wave;
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
+
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
-pub use boundary::{Boundaries, Boundary};
+pub use boundary::{
+    AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
+    TimedState,
+};
+pub use check_boundary::MAX_OPENINGS;
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};
 pub use settings::{
@@ -34,6 +42,7 @@ pub use settings::{
     RenderSettings, Time, Transfer,
 };
 pub use shape::Shape;
+pub use wave::Wave;
 
 /// One experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,6 +124,9 @@ pub struct Gas {
     /// Regions with their own state; a later one covers an earlier one.
     #[serde(default)]
     pub regions: Vec<Region>,
+    /// Waves on top of that.
+    #[serde(default)]
+    pub waves: Vec<Wave>,
 }
 
 fn default_gamma() -> f64 {
@@ -258,6 +270,24 @@ impl Domain {
         let center = |d: usize| self.origin[d] + (f64::from(cell[d]) + 0.5) * self.spacing();
         std::array::from_fn(|d| if d < self.axes() { center(d) } else { 0.0 })
     }
+
+    /// Centre of the face of a side next to a cell `[m]`; the entry of `cell` along the side's axis does not matter. Sides are
+    /// numbered as in [`Boundaries::sides`].
+    #[must_use]
+    pub fn face_center(&self, side: usize, cell: [u32; 3]) -> [f64; 3] {
+        let mut center = self.cell_center(cell);
+        let axis = side / 2;
+        center[axis] = self.origin[axis] + if side.is_multiple_of(2) { 0.0 } else { self.size[axis] };
+        center
+    }
+
+    /// Centres of all faces of a side `[m]`.
+    pub fn side_faces(&self, side: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let mut count = self.cells;
+        count[side / 2] = 1;
+        let [nx, ny, nz] = count;
+        (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| self.face_center(side, [x, y, z]))))
+    }
 }
 
 impl GasState {
@@ -303,6 +333,7 @@ impl Scene {
         let plain = self.domain.dimension == 1
             && self.bodies.is_empty()
             && self.obstacles.is_empty()
+            && self.gas.waves.is_empty()
             && self.gravity == [0.0; 3];
         let [region] = &self.gas.regions[..] else { return None };
         let inside = |x: f64| region.shape.distance([x, 0.0, 0.0]) < 0.0;
@@ -325,6 +356,16 @@ impl Scene {
             if inside(middle) == first { low = middle } else { high = middle }
         }
         Some((ExactRiemann::new(self.gas.gamma, left, right), 0.5 * (low + high)))
+    }
+
+    /// The exact solution and the place of its jump, while its waves are inside the domain: later the sides have their say.
+    #[must_use]
+    pub fn riemann_until_waves_leave(&self, time: f64) -> Option<(ExactRiemann, f64)> {
+        let (exact, jump) = self.riemann()?;
+        let ends = [self.domain.origin[0], self.domain.origin[0] + self.domain.size[0]];
+        let speeds = exact.wave_speeds();
+        let inside = jump + speeds[0] * time >= ends[0] && jump + speeds[4] * time <= ends[1];
+        inside.then_some((exact, jump))
     }
 
     /// The JSON schema of scene files (draft 2020-12).

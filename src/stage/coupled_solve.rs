@@ -16,6 +16,7 @@ pub struct CoupledSolve {
     pub pcg: Pcg,
     predictor: Option<Bound>,
     masses: [Bound; 2],
+    open: Bound,
     forces_of_pressure: [Bound; 2],
     velocities: [Bound; 2],
     vertices: Vertices,
@@ -76,6 +77,7 @@ impl CoupledSolve {
             pcg,
             predictor: optional("solid_predictor.wgsl", "solid_predictor")?,
             masses: setup("solve_masses")?,
+            open: state.bind(gpu, "solve_open.wgsl", "solve_open", &[], &[("LISTED", 1.0)])?,
             forces_of_pressure: forces(state.pressure.raw())?,
             velocities: setup("solve_velocities")?,
             vertices: Vertices::new(parts)?,
@@ -94,6 +96,7 @@ impl CoupledSolve {
         if let Some(predictor) = &self.predictor {
             pass.dispatch(predictor, &slots(state, phase));
         }
+        pass.dispatch(&self.open, &extent(state, phase, Entry::Listed));
         record_both(pass, state, phase, &self.masses);
         for [plain, listed] in [&self.forces_of_pressure, &self.velocities] {
             pass.dispatch(plain, &extent(state, phase, self.vertices.nodes.0));

@@ -1,30 +1,50 @@
 //! `g2p`: how do the particles move and deform? [Jiang et al. 2015; Cao et al. 2022, step 7]
 
-use super::{Parts, extent};
+use super::{Parts, Transfer, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
 
+/// How nodes reach particles.
+#[derive(Debug)]
+enum Form {
+    /// Each particle reads its nodes.
+    Particles(Bound),
+    /// Each cell reads its nodes for all its particles, then each particle goes on.
+    Cells([Bound; 2]),
+}
+
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct G2p {
-    g2p: Bound,
+    form: Form,
 }
 
 impl G2p {
-    /// Binds.
+    /// Binds the form that goes with the one of `p2g`: [`Transfer::Gather`] works cell by cell.
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
+    pub fn new(parts: Parts<'_>, transfer: Transfer) -> Result<Self> {
         let Parts { gpu, state } = parts;
-        Ok(Self { g2p: state.bind(gpu, "g2p.wgsl", "g2p", &[], &[])? })
+        let bind = |entry: &str| state.bind(gpu, "g2p.wgsl", entry, &[], &[]);
+        let form = match transfer {
+            Transfer::Gather => Form::Cells([bind("g2p_cells")?, bind("g2p_particles")?]),
+            Transfer::Scatter => Form::Particles(bind("g2p")?),
+        };
+        Ok(Self { form })
     }
 
     /// One sub-step of the particles.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("g2p");
-        pass.dispatch(&self.g2p, &extent(state, "SUBSTEP", Entry::Particles));
+        match &self.form {
+            Form::Particles(g2p) => pass.dispatch(g2p, &extent(state, "SUBSTEP", Entry::Particles)),
+            Form::Cells([cells, particles]) => {
+                pass.dispatch(cells, &extent(state, "SUBSTEP", Entry::Slots));
+                pass.dispatch(particles, &extent(state, "SUBSTEP", Entry::Particles));
+            }
+        }
     }
 }

@@ -1,12 +1,13 @@
 //! `interface`: where do gas and solid meet, and what happens to the gas of cells that a body covers or uncovers?
 //! [Cao et al. 2022, section 2.3]
 
-use super::Parts;
 use super::time_step::slots;
+use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::numerics::Scan;
 use crate::state::State;
+use crate::state::constants::Entry;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -87,7 +88,7 @@ impl InterfaceStage {
         let Some(solids) = &self.solids else { return };
         pass.stage("interface");
         pass.dispatch(&solids.fill, &slots(state, "BEGIN"));
-        pass.dispatch(&solids.ghost, &slots(state, "BEGIN"));
+        pass.dispatch(&solids.ghost, &extent(state, "BEGIN", Entry::Marched));
         pass.dispatch(&solids.kind, &slots(state, "BEGIN"));
         self.record_flags(pass, state);
         solids.scan.record_with(pass, &super::scan_extents(state, "BEGIN"));

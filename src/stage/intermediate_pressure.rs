@@ -11,6 +11,7 @@ use crate::state::constants::Entry;
 #[derive(Debug)]
 pub struct IntermediatePressure {
     cells: [Bound; 2],
+    open_faces: Bound,
     clear: Bound,
     vertices: [Bound; 2],
 }
@@ -24,6 +25,7 @@ impl IntermediatePressure {
         let Parts { gpu, state } = parts;
         Ok(Self {
             cells: parts.both("intermediate_pressure.wgsl", "pressure_star", &[], &[])?,
+            open_faces: state.bind(gpu, "solve_open.wgsl", "open_faces", &[], &[("LISTED", 1.0)])?,
             clear: state.bind(gpu, "vertex_pressure.wgsl", "vertex_clear", &[], &[("LISTED", 0.0)])?,
             vertices: parts.both("vertex_pressure.wgsl", "vertex_pressure", &[], &[])?,
         })
@@ -33,6 +35,7 @@ impl IntermediatePressure {
     pub fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("intermediate_pressure");
         record_both(pass, state, phase, &self.cells);
+        pass.dispatch(&self.open_faces, &extent(state, phase, Entry::Listed));
         pass.dispatch(&self.clear, &extent(state, phase, Entry::Reduce));
         record_both(pass, state, phase, &self.vertices);
     }

@@ -1,16 +1,16 @@
 //! `p2g`: what do the solids look like on the grid? Two forms with the same result in the same buffers: gather over sorted
-//! particles, and scatter by fixed-point integer atomics. Both give equal bits on every run.
+//! particles, column by column in a fixed order, and scatter by fixed-point integer atomics. Both give equal bits on every run.
 
 use super::{Parts, extent};
 use crate::error::Result;
-use crate::gpu::{Bound, Pass};
+use crate::gpu::{Bound, Buffer, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
 
 /// How particles reach nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
-    /// Nodes collect from sorted particles: cheaper in software.
+    /// Columns of cells collect their sorted particles: cheaper in software.
     Gather,
     /// Particles add to nodes.
     Scatter,
@@ -25,10 +25,15 @@ enum Carry {
 }
 
 /// Kernels of one transfer.
-#[derive(Debug)]
-struct Kernels {
-    gather: Option<Bound>,
-    scatter: Option<[Bound; 5]>,
+#[derive(Clone, Debug)]
+enum Kernels {
+    /// `colors` run one after the other; only mass and momentum have something to finish.
+    Gather {
+        clear: Bound,
+        colors: Vec<Bound>,
+        finish: Option<Bound>,
+    },
+    Scatter([Bound; 5]),
 }
 
 /// Kernels of the stage.
@@ -36,46 +41,71 @@ struct Kernels {
 pub struct P2g {
     mass: Kernels,
     force: Kernels,
-    both: Kernels,
+    both: Vec<Kernels>,
+}
+
+fn flag(on: bool) -> f64 {
+    f64::from(u8::from(on))
 }
 
 impl Kernels {
-    fn new(parts: Parts<'_>, transfer: Transfer, carry: Carry) -> Result<Self> {
+    fn gather(parts: Parts<'_>, force: bool) -> Result<Self> {
         let Parts { gpu, state } = parts;
-        let flag = |on: bool| f64::from(u8::from(on));
+        let switches = [("WITH_FORCE", flag(force))];
+        let bind = |entry: &str| state.bind(gpu, "p2g.wgsl", entry, &[], &switches);
+        let kernel = state.kernel(gpu, "p2g.wgsl", "p2g_gather", &switches)?;
+        let axes = state.grid.dimension;
+        let wide = |axis: u32| if axes > axis { COLORS } else { 1 };
+        let mut colors = Vec::new();
+        for y in 0..wide(2) {
+            for x in 0..wide(1) {
+                let color = Buffer::uniform(gpu, "color", 4)?;
+                color.write(gpu, 0, &[x, y, 0, 0]);
+                colors.push(state.bind_kernel(gpu, &kernel, &[("color", color.raw())])?);
+            }
+        }
+        let finish = if force { None } else { Some(bind("p2g_finish")?) };
+        Ok(Self::Gather { clear: bind("p2g_clear")?, colors, finish })
+    }
+
+    fn scatter(parts: Parts<'_>, carry: Carry) -> Result<Self> {
+        let Parts { gpu, state } = parts;
         let switches = [("WITH_MASS", flag(carry != Carry::Force)), ("WITH_FORCE", flag(carry != Carry::Mass))];
         let renamed = [("sums", state.gas.work.raw()), ("bounds", state.partials.raw())];
-        let scatter = |entry: &str| state.bind(gpu, "p2g_scatter.wgsl", entry, &renamed, &switches);
-        Ok(match transfer {
-            Transfer::Gather => {
-                Self { gather: Some(state.bind(gpu, "p2g.wgsl", "p2g_gather", &[], &switches)?), scatter: None }
-            }
-            Transfer::Scatter => {
-                let kernels = [
-                    scatter("scatter_bounds")?,
-                    scatter("scatter_units")?,
-                    scatter("scatter_clear")?,
-                    scatter("scatter_add")?,
-                    scatter("scatter_resolve")?,
-                ];
-                Self { gather: None, scatter: Some(kernels) }
-            }
-        })
+        let bind = |entry: &str| state.bind(gpu, "p2g_scatter.wgsl", entry, &renamed, &switches);
+        Ok(Self::Scatter([
+            bind("scatter_bounds")?,
+            bind("scatter_units")?,
+            bind("scatter_clear")?,
+            bind("scatter_add")?,
+            bind("scatter_resolve")?,
+        ]))
     }
 
     fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
-        if let Some(gather) = &self.gather {
-            pass.dispatch(gather, &extent(state, phase, Entry::Slots));
-        }
-        if let Some([bounds, units, clear, add, resolve]) = &self.scatter {
-            pass.dispatch(bounds, &extent(state, phase, Entry::Reduce));
-            pass.dispatch(units, &extent(state, phase, Entry::Single));
-            pass.dispatch(clear, &extent(state, phase, Entry::Slots));
-            pass.dispatch(add, &extent(state, phase, Entry::Particles));
-            pass.dispatch(resolve, &extent(state, phase, Entry::Slots));
+        match self {
+            Self::Gather { clear, colors, finish } => {
+                pass.dispatch(clear, &extent(state, phase, Entry::Slots));
+                for color in colors {
+                    pass.dispatch(color, &extent(state, phase, Entry::Color));
+                }
+                if let Some(finish) = finish {
+                    pass.dispatch(finish, &extent(state, phase, Entry::Slots));
+                }
+            }
+            Self::Scatter([bounds, units, clear, add, resolve]) => {
+                pass.dispatch(bounds, &extent(state, phase, Entry::Reduce));
+                pass.dispatch(units, &extent(state, phase, Entry::Single));
+                pass.dispatch(clear, &extent(state, phase, Entry::Slots));
+                pass.dispatch(add, &extent(state, phase, Entry::Particles));
+                pass.dispatch(resolve, &extent(state, phase, Entry::Slots));
+            }
         }
     }
 }
+
+/// Colors of columns along an axis: the splines of two columns meet unless two others lie between them.
+const COLORS: u32 = 3;
 
 impl P2g {
     /// Binds one form.
@@ -83,11 +113,18 @@ impl P2g {
     /// # Errors
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>, transfer: Transfer) -> Result<Self> {
-        Ok(Self {
-            mass: Kernels::new(parts, transfer, Carry::Mass)?,
-            force: Kernels::new(parts, transfer, Carry::Force)?,
-            both: Kernels::new(parts, transfer, Carry::Both)?,
-        })
+        match transfer {
+            Transfer::Gather => {
+                let (mass, force) = (Kernels::gather(parts, false)?, Kernels::gather(parts, true)?);
+                let both = vec![mass.clone(), force.clone()];
+                Ok(Self { mass, force, both })
+            }
+            Transfer::Scatter => Ok(Self {
+                mass: Kernels::scatter(parts, Carry::Mass)?,
+                force: Kernels::scatter(parts, Carry::Force)?,
+                both: vec![Kernels::scatter(parts, Carry::Both)?],
+            }),
+        }
     }
 
     /// Mass and velocity at the start of a step.
@@ -102,7 +139,9 @@ impl P2g {
         if first {
             self.force.record(pass, state, "FIRST");
         } else {
-            self.both.record(pass, state, "AGAIN");
+            for kernels in &self.both {
+                kernels.record(pass, state, "AGAIN");
+            }
         }
     }
 }

@@ -9,9 +9,10 @@ use crate::state::constants::Entry;
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct TimeStep {
-    gas: Bound,
+    gas: [Bound; 2],
     particles: Bound,
     choose: Bound,
+    openings: Option<Bound>,
     start: Bound,
     listed: Bound,
     limiter: Bound,
@@ -29,12 +30,17 @@ impl TimeStep {
     pub fn new(parts: Parts<'_>, pcg: &wgpu::Buffer) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let maxima = [("maxima", state.partials.raw())];
-        let time = |entry: &str| state.bind(gpu, "time_step.wgsl", entry, &maxima, &[]);
+        let time = |entry: &str| state.bind(gpu, "time_step.wgsl", entry, &maxima, &[("LISTED", 0.0)]);
         let control = |entry: &str| state.bind(gpu, "step_control.wgsl", entry, &[("pcg", pcg)], &[]);
         Ok(Self {
-            gas: time("time_step_gas")?,
+            gas: parts.both("time_step.wgsl", "time_step_gas", &maxima, &[])?,
             particles: time("time_step_particles")?,
             choose: time("time_step_choose")?,
+            openings: if state.knots.is_empty() {
+                None
+            } else {
+                Some(state.bind(gpu, "openings.wgsl", "openings_now", &[], &[])?)
+            },
             start: control("control_start")?,
             listed: control("control_listed")?,
             limiter: control("control_limiter")?,
@@ -48,11 +54,17 @@ impl TimeStep {
     /// Chooses dt and opens the step, if one is due.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("time_step");
-        pass.dispatch(&self.gas, &Extent::Groups([state.params.groups, 1, 1]));
+        // The listed form leaves its maxima first, the plain form adds to them.
+        for kernel in self.gas.iter().rev() {
+            pass.dispatch(kernel, &Extent::Groups([state.params.groups, 1, 1]));
+        }
         if state.has_solids() {
             pass.dispatch(&self.particles, &Extent::Groups([state.params.groups, 1, 1]));
         }
         pass.dispatch(&self.choose, &Extent::Groups([1, 1, 1]));
+        if let Some(openings) = &self.openings {
+            pass.dispatch(openings, &extent(state, "BEGIN", Entry::Single));
+        }
     }
 
     /// Opens the marks of the start.

@@ -13,6 +13,11 @@ pub const WALL: u32 = 2;
 /// Outside of an inlet or outlet side.
 pub const GHOST: u32 = 3;
 
+/// What a rule prescribes beyond a side; the position is the number on the device.
+pub const RULES: [&str; 7] = ["FIXED", "SUBSONIC", "TOTAL", "FREE", "PRESSURE", "ATTENUATED", "FAR"];
+/// Lowest bit of the place of its rule in the word of a GHOST slot.
+pub const RULE_SHIFT: u32 = 16;
+
 /// Stage names in the order of a step; the position is the stage number in a fault.
 pub const STAGES: [&str; 10] = [
     "time_step",
@@ -36,7 +41,7 @@ pub const NO_FAULT: u32 = u32::MAX;
 /// Dispatches of the longest prefix sum that a step runs.
 pub const SCAN_DISPATCHES: usize = 6;
 /// Entries of a phase in the table of extents.
-pub const PHASE_WIDTH: usize = 7 + SCAN_DISPATCHES;
+pub const PHASE_WIDTH: usize = 8 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
 pub const PHASES: [&str; 8] = ["BEGIN", "LIMIT", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END"];
 
@@ -58,8 +63,19 @@ pub enum Entry {
     Frontier = 5,
     /// One thread per march of [`super::Params::march`] slots.
     Marched = 6,
+    /// One thread per march over a column of one color: every third column of cells along each axis but the last.
+    Color = 7,
     /// First dispatch of a prefix sum.
-    Scan = 7,
+    Scan = 8,
+}
+
+/// Number of a rule on the device.
+///
+/// # Panics
+/// If the rule is not in [`RULES`]: a bug of the caller.
+#[must_use]
+pub fn rule(name: &str) -> u32 {
+    RULES.iter().position(|known| *known == name).expect("rule names are literals of this crate") as u32
 }
 
 /// Byte offset of an entry of a phase in the table of extents.
@@ -87,17 +103,22 @@ pub fn source() -> String {
         "NODE_REGULAR",
         "NODE_INTERIOR",
         "NODE_SOLID",
+        "NODE_DEEP",
+        "NODE_FILM",
         "VERTEX_GAS",
         "VERTEX_REGULAR",
         "VERTEX_SOLID",
+        "VERTEX_DEEP",
         "INTERIOR",
     ];
     for (bit, name) in flags.iter().enumerate() {
         put(name, 1 << (4 + bit));
     }
-    for (value, name) in ["SIDE_WALL", "SIDE_INLET", "SIDE_OUTLET"].iter().enumerate() {
-        put(name, value as u32);
+    for (value, name) in RULES.iter().enumerate() {
+        put(&format!("RULE_{name}"), value as u32);
     }
+    put("RULE_SHIFT", RULE_SHIFT);
+    put("MAX_OPENINGS", super::MAX_OPENINGS as u32);
     for (value, name) in ["INTERFACE_RESOLVED", "INTERFACE_H", "INTERFACE_SINGLE"].iter().enumerate() {
         put(name, value as u32);
     }
@@ -111,7 +132,7 @@ pub fn source() -> String {
         put(&format!("PHASE_{name}_EXTENTS"), (PHASE_WIDTH * value) as u32);
     }
     for (value, name) in
-        ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "SCAN"].iter().enumerate()
+        ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "COLOR", "SCAN"].iter().enumerate()
     {
         put(&format!("EXTENT_{name}"), value as u32);
     }

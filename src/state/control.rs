@@ -46,4 +46,8 @@ pub struct Control {
     pub listed: u32,
     /// INTERIOR slots whose nodes listed vertices rest on.
     pub frontier: u32,
+    /// Simulated time at the start of the step \[s\].
+    pub time: f32,
+    /// What rounding has taken from it so far \[s\].
+    pub time_error: f32,
 }

@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-use super::{HISTORY, MAX_MATERIALS, Params, constants, control::Control, extra_capacity};
+use super::{
+    HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, constants, control::Control, extra_capacity,
+};
 use crate::error::{Error, Result};
 use crate::numerics::{PcgControl, Scan};
 use crate::scene::Scene;
@@ -72,6 +74,8 @@ impl MemoryPlan {
         if particles > 0 {
             plan.add("nodes", &[("scans", 2 * scan, 1)]);
         }
+        plan.add("fixed", &[("openings", MAX_OPENINGS as u64, size_of::<Opening>() as u64)]);
+        plan.add("fixed", &[("knots", Openings::new(scene).knots.len() as u64, size_of::<Knot>() as u64)]);
         plan.add_fixed(scene.probes.len() as u64);
         plan
     }

@@ -6,6 +6,7 @@ pub mod gas;
 pub mod grid;
 pub mod interface;
 pub mod memory;
+pub mod openings;
 pub mod params;
 pub mod particles;
 
@@ -14,6 +15,7 @@ pub use gas::GasState;
 pub use grid::Grid;
 pub use interface::Interface;
 pub use memory::MemoryPlan;
+pub use openings::{Knot, MAX_OPENINGS, Opening, Openings};
 pub use params::{HISTORY, Params};
 pub use particles::{ParticleStart, Particles};
 
@@ -39,6 +41,10 @@ pub struct State {
     pub control: Buffer<Control>,
     /// Group counts of the indirect dispatches.
     pub extents: Buffer<u32>,
+    /// What lies beyond the sides, now.
+    pub openings: Buffer<Opening>,
+    /// Tables of times of the inlets.
+    pub knots: Buffer<Knot>,
     /// Materials, as shaders see them.
     pub materials: Buffer<f32>,
     /// Gas.
@@ -97,12 +103,15 @@ impl State {
         let capacity = extra_capacity(slots, start.len(), domain.dimension);
         let params = Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity));
         let unknowns = slots + 2 * capacity;
+        let openings = Openings::new(scene);
         let state = State {
             grid,
             params,
             params_buffer: Buffer::uniform(gpu, "params", 1)?,
             control: Buffer::new(gpu, "control", 1)?,
             extents: Buffer::indirect(gpu, "extents", 4 * constants::PHASE_WIDTH * constants::PHASES.len())?,
+            openings: Buffer::uniform_storage(gpu, "openings", &openings.padded())?,
+            knots: Buffer::from_slice(gpu, "knots", &openings.knots)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
             gas: GasState::new(gpu, slots, usize::from(scene.solves() == 2))?,
             interface: Interface::new(gpu, slots, !start.is_empty())?,
@@ -119,12 +128,12 @@ impl State {
         state.params_buffer.write(gpu, 0, &[params]);
         state.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, ..Control::default() }]);
         state.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
-        state.fill_gas(gpu, scene);
+        state.fill_gas(gpu, scene, &openings);
         Ok(state)
     }
 
     /// Initial gas and kinds of all slots.
-    fn fill_gas(&self, gpu: &Gpu, scene: &Scene) {
+    fn fill_gas(&self, gpu: &Gpu, scene: &Scene, openings: &Openings) {
         let (grid, slots) = (&self.grid, self.grid.slots());
         let mut conserved = vec![[0.0f32; 4]; slots];
         let mut energy = vec![0.0f32; slots];
@@ -134,7 +143,7 @@ impl State {
             for y in 0..stride[1] as i32 {
                 for x in 0..stride[0] as i32 {
                     let cell = [x - padding[0] as i32, y - padding[1] as i32, z - padding[2] as i32];
-                    cells[grid.slot(cell)] = params::kind_outside(&self.params, cell, grid.dimension);
+                    cells[grid.slot(cell)] = openings.word(scene, grid, cell);
                 }
             }
         }
@@ -185,10 +194,25 @@ impl State {
         renamed: &[(&str, &wgpu::Buffer)],
         switches: &[(&str, f64)],
     ) -> Result<Bound> {
+        self.bind_kernel(gpu, &self.kernel(gpu, shader, entry, switches)?, renamed)
+    }
+
+    /// Compiles an entry point with this scene's switches and the given ones, for [`State::bind_kernel`].
+    ///
+    /// # Errors
+    /// If the shader is wrong.
+    pub fn kernel(&self, gpu: &Gpu, shader: &str, entry: &str, switches: &[(&str, f64)]) -> Result<Kernel> {
         let mut all: Vec<(&str, f64)> = self.overrides.clone();
         all.extend_from_slice(switches);
         let source = constants::source_for(shader);
-        let kernel = Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })?;
+        Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })
+    }
+
+    /// Binds the buffers that a kernel names: once compiled, it can run with several.
+    ///
+    /// # Errors
+    /// If the kernel uses a name that is not known here.
+    pub fn bind_kernel(&self, gpu: &Gpu, kernel: &Kernel, renamed: &[(&str, &wgpu::Buffer)]) -> Result<Bound> {
         let named = self.names();
         let buffer_of =
             |name: &str| renamed.iter().chain(&named).find(|(known, _)| *known == name).map(|(_, buffer)| *buffer);
@@ -207,6 +231,8 @@ impl State {
             ("control", self.control.raw()),
             ("extents", self.extents.raw()),
             ("materials", self.materials.raw()),
+            ("openings", self.openings.raw()),
+            ("knots", self.knots.raw()),
             ("conserved", self.gas.conserved.raw()),
             ("energy", self.gas.energy.raw()),
             ("work", self.gas.work.raw()),

@@ -67,12 +67,10 @@ pub struct Params {
     pub groups: u32,
     /// Slots that one thread of a marching kernel takes one after the other, along the last axis.
     pub march: u32,
-    /// Kind of each side: x-, x+, y-, y+, z-, z+.
-    pub side: [u32; 8],
-    /// Density and momentum of each inlet.
-    pub inlet_flow: [[f32; 4]; 6],
-    /// Total energy per volume of each inlet, first entry.
-    pub inlet_energy: [[f32; 4]; 6],
+    /// Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+.
+    pub wall_sides: u32,
+    /// Room up to the next 16 bytes.
+    pub unused: [u32; 3],
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -159,25 +157,12 @@ impl Params {
             max_substeps: numerics.max_substeps,
             groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, limits.groups),
             march: limits.march,
-            side: [0; 8],
-            inlet_flow: [[0.0; 4]; 6],
-            inlet_energy: [[0.0; 4]; 6],
+            wall_sides: wall_sides(scene),
+            unused: [0; 3],
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
             *entry = [x, y, z, 0];
-        }
-        for (index, side) in scene.boundary.sides().iter().enumerate() {
-            params.side[index] = match side {
-                Boundary::Wall => 0,
-                Boundary::Inlet(state) => {
-                    let [density, x, y, z, energy] = state.conserved(scene.gas.gamma).map(|v| v as f32);
-                    params.inlet_flow[index] = [density, x, y, z];
-                    params.inlet_energy[index][0] = energy;
-                    1
-                }
-                Boundary::Outlet => 2,
-            };
         }
         params
     }
@@ -191,6 +176,10 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
     vec![
         ("DIM", f64::from(scene.domain.dimension)),
         ("SOLIDS", flag(solids)),
+        (
+            "MATERIALS_USED",
+            f64::from(scene.materials.values().fold(0, |used, material| used | 1 << material.kind_index())),
+        ),
         ("QUADRATIC", flag(numerics.pair == Pair::B2b1)),
         ("PREDICTOR", flag(scene.integrator() != Integrator::Paper)),
         ("CONSISTENT", flag(scene.consistent())),
@@ -199,6 +188,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("BLENDING", flag(numerics.blending)),
         ("LEDGER", flag(numerics.ledger)),
         ("MIDPOINT_POWER", flag(numerics.power == Power::Midpoint)),
+        ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
             "INTERFACE",
@@ -211,18 +201,8 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
     ]
 }
 
-/// Kind of a slot outside of the domain: WALL behind any wall side, else GHOST.
-#[must_use]
-pub fn kind_outside(params: &Params, cell: [i32; 3], dimension: u32) -> u32 {
-    let behind = |axis: usize| {
-        if cell[axis] < 0 {
-            Some(2 * axis)
-        } else if cell[axis] >= params.cells[axis] as i32 {
-            Some(2 * axis + 1)
-        } else {
-            None
-        }
-    };
-    let wall = (0..dimension as usize).filter_map(behind).any(|side| params.side[side] == 0);
-    if wall { constants::WALL } else { constants::GHOST }
+/// Sides whose base rule is a wall, as bits.
+fn wall_sides(scene: &Scene) -> u32 {
+    let wall = |side: &Boundary| *side.rules()[0] == Boundary::Wall;
+    scene.boundary.sides().iter().enumerate().map(|(index, side)| u32::from(wall(side)) << index).sum()
 }

@@ -65,7 +65,7 @@ fn report(folder: &Path) -> serde_json::Value {
 #[test]
 fn help_and_usage() {
     let help = succeeds(&["--help"]);
-    for verb in ["run", "check", "bench", "devices", "list", "schema"] {
+    for verb in ["run", "check", "bench", "verify", "devices", "list", "schema"] {
         assert!(help.contains(&format!("\n  {verb} ")), "{help}");
     }
     assert!(succeeds(&["--version"]).starts_with("brisance "));

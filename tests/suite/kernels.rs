@@ -80,6 +80,38 @@ fn gas_with_two_solves() {
     channel(&["numerics.integrator=auto", "numerics.pair=b2b1"]);
 }
 
+#[test]
+fn gas_between_subsonic_sides() {
+    channel(&[
+        "boundary.x_min={ subsonic_inlet = { density = 1.4, velocity = [0.5, 0.1] } }",
+        "boundary.x_max={ pressure_outlet = { pressure = 0.9, relaxation = 2.0 } }",
+        "boundary.y_min={ total_inlet = { density = 1.3, pressure = 1.6 } }",
+        "boundary.y_max={ far_field = { density = 1.1, velocity = [0.3, 0.1], pressure = 1.05 } }",
+    ]);
+}
+
+#[test]
+fn gas_leaving_through_an_attenuated_outlet() {
+    channel(&[
+        "boundary.x_max={ attenuated_outlet = { density = 1.1, pressure = 1.0, attenuation = 0.3 } }",
+        "boundary.y_max=outlet",
+        "numerics.pair=b2b1",
+    ]);
+}
+
+#[test]
+fn gas_with_one_periodic_axis() {
+    channel(&["boundary.y_min=periodic", "boundary.y_max=periodic"]);
+}
+
+#[test]
+fn gas_with_periodic_axes_quadratic() {
+    let periodic = ["x_min", "x_max", "y_min", "y_max"].map(|side| format!("boundary.{side}=periodic"));
+    let mut overrides: Vec<&str> = periodic.iter().map(String::as_str).collect();
+    overrides.push("numerics.pair=b2b1");
+    channel(&overrides);
+}
+
 const BODY: &str = r#"
 title = "A body in moving gas"
 [domain]

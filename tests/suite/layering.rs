@@ -11,7 +11,7 @@ const FLOORS: [&[&str]; 10] = [
     &["stage", "snapshot"],
     &["simulation", "diagnostics", "bodies"],
     &["render", "expect"],
-    &["export"],
+    &["export", "verify"],
     &["viewer", "cli"],
     &["main"],
 ];

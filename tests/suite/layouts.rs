@@ -66,9 +66,7 @@ fn params() {
             max_substeps,
             groups,
             march,
-            side,
-            inlet_flow,
-            inlet_energy,
+            wall_sides,
             scan,
         ]
     );
@@ -101,6 +99,8 @@ fn control() {
             residual,
             listed,
             frontier,
+            time,
+            time_error,
         ]
     );
 }

@@ -1,6 +1,7 @@
 //! The test suite: one binary, one module per subject.
 
 mod analytic;
+mod boundaries;
 mod cli;
 mod common;
 mod determinism;
@@ -20,3 +21,4 @@ mod render;
 mod scenes;
 mod shaders;
 mod twins;
+mod verify;

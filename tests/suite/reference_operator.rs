@@ -36,9 +36,10 @@ fn random_system(dimension: usize, pair: Pair, shared: Shared, seed: u64) -> Sys
     let (bins, nodes) = (particle_sort::bin(&problem, &state.particles), p2g::p2g(&problem, &state.particles));
     assert!(state.cells.contains(&SOLID));
     let faces = interface::interface(&problem, state.cells.clone(), &bins, &nodes);
-    let intermediate = intermediate_pressure::intermediate(&problem, &faces, &state.gas, &state.gas, 0.05);
-    let (star, intermediate) = (&state.gas, &intermediate);
-    assemble(&Inputs { problem: &problem, interface: &faces, bins: &bins, star, intermediate, nodes: &nodes, dt: 0.05 })
+    let intermediate =
+        intermediate_pressure::intermediate(&problem, &faces, (&state.gas, &state.gas), &state.open, 0.05);
+    let intermediate = &intermediate;
+    assemble(&Inputs { problem: &problem, interface: &faces, bins: &bins, intermediate, nodes: &nodes, dt: 0.05 })
 }
 
 #[test]
@@ -81,13 +82,12 @@ fn interior_stencils() {
         let state = State::new(&problem, |_| (1.0, [0.0; 3], 1.0), Vec::new());
         let (bins, nodes) = (particle_sort::bin(&problem, &[]), p2g::p2g(&problem, &[]));
         let faces = interface::interface(&problem, state.cells.clone(), &bins, &nodes);
-        let intermediate = &intermediate_pressure::intermediate(&problem, &faces, &state.gas, &state.gas, 0.1);
-        let star = &state.gas;
+        let intermediate =
+            &intermediate_pressure::intermediate(&problem, &faces, (&state.gas, &state.gas), &state.open, 0.1);
         let system = assemble(&Inputs {
             problem: &problem,
             interface: &faces,
             bins: &bins,
-            star,
             intermediate,
             nodes: &nodes,
             dt: 0.1,

@@ -95,6 +95,18 @@ fn shock_tubes_coarse() {
     }
 }
 
+/// The L1 errors of `src/verify/tube_errors.rs` that no published table has.
+#[test]
+#[ignore = "minutes"]
+fn shock_tubes_with_predictor() {
+    for case in &CASES {
+        for n in [100, 200, 400, 800, 1600] {
+            print_case(case, n, Pair::B2b1, true);
+        }
+        print_case(case, 1600, Pair::B1b0, true);
+    }
+}
+
 /// Radial solution, shared by the tests.
 static RADIAL: OnceLock<Vec<f64>> = OnceLock::new();
 

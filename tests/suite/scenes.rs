@@ -37,6 +37,15 @@ scenes! {
     rarefactions: "gas/rarefactions.toml";
     blast: "gas/blast.toml";
     circular_shock: "gas/circular_shock.toml";
+    modified_sod: "validation/modified_sod.toml";
+    stationary_contact: "validation/stationary_contact.toml";
+    shu_osher: "validation/shu_osher.toml";
+    shock_reflection: "validation/shock_reflection.toml";
+    noh_planar: "validation/noh_planar.toml";
+    sedov_planar: "validation/sedov_planar.toml";
+    acoustic_wave: "validation/acoustic_wave.toml";
+    density_wave: "validation/density_wave.toml";
+    sedov_cylindrical: "validation/sedov_cylindrical.toml";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";
     shell_at_rest: "coupled/shell_at_rest.toml";
@@ -44,6 +53,7 @@ scenes! {
     bursting_shell_2d: "coupled/bursting_shell_2d.toml";
     #[ignore = "minutes on a software device"]
     bursting_shell_3d: "demos/bursting_shell_3d.toml";
+    ball_in_blast_3d: "demos/ball_in_blast_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
 }
 
 fn scene_files(folder: &Path, below: &str, found: &mut Vec<String>) {

@@ -26,6 +26,18 @@ fn problem_of(scene: &Scene) -> Problem {
             Side::Inlet { density: state.density, velocity: state.velocity, pressure: state.pressure }
         }
         Boundary::Outlet => Side::Outlet,
+        Boundary::Periodic => Side::Periodic,
+        Boundary::SubsonicInlet(flow) => Side::Subsonic { density: flow.density, velocity: flow.velocity },
+        Boundary::TotalInlet(total) => Side::Total { density: total.density, pressure: total.pressure },
+        Boundary::PressureOutlet(outlet) => Side::Pressure { pressure: outlet.pressure, relaxation: outlet.relaxation },
+        Boundary::AttenuatedOutlet(far) => Side::Attenuated {
+            density: far.density,
+            velocity: far.velocity,
+            pressure: far.pressure,
+            attenuation: far.attenuation,
+        },
+        Boundary::FarField(far) => Side::Far { density: far.density, velocity: far.velocity, pressure: far.pressure },
+        Boundary::TimedInlet(_) | Boundary::Patched(_) => panic!("the twin has no tables and no patches"),
     });
     let mut problem = Problem::new(grid, sides);
     for (c, wall) in problem.grid.interior().into_iter().zip(scene.obstacle_cells()) {

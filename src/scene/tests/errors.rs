@@ -63,7 +63,7 @@ fn unknown_material_kind_and_parameter() {
 #[test]
 fn poisson_ratio_of_one_half() {
     let text = BASE.replace("0.3", "0.5");
-    expect(&text, &[], &["test.toml:12:56", "materials.rubber.neo_hookean.poisson_ratio", "above -1 and below 0.5"]);
+    expect(&text, &[], &["test.toml:12:56", "materials.rubber.neo_hookean.poisson_ratio", "above 0 and below 0.5"]);
 }
 
 #[test]
@@ -143,6 +143,27 @@ fn settings() {
         ("[boundary]\nz_min = \"outlet\"\n", "boundary.z_min"),
         ("[boundary]\nx_min = { inlet = { density = 1.0, pressure = 0.0 } }\n", "boundary.x_min.inlet.pressure"),
         ("[boundary]\nx_max = { inlet = { density = 1.0, velocity = [1, 0], pressure = 1.0 } }\n", "out of the domain"),
+        ("[boundary]\nx_min = \"periodic\"\n", "only one side of the axis is periodic"),
+        ("[boundary]\nx_min = { subsonic_inlet = { density = 0.0 } }\n", "boundary.x_min.subsonic_inlet.density"),
+        ("[boundary]\nx_min = { total_inlet = { density = 1.0, pressure = -1.0 } }\n", "total_inlet.pressure"),
+        ("[boundary]\nx_min = { timed_inlet = { table = [] } }\n", "timed_inlet.table"),
+        (
+            "[boundary]\nx_min = { timed_inlet = { rule = \"subsonic\", table = [{ time = 1.0, density = 1.0 }, \
+             { time = 0.5, density = 1.0 }] } }\n",
+            "boundary.x_min.timed_inlet.table[1].time",
+        ),
+        ("[boundary]\nx_max = { pressure_outlet = { pressure = 0.0 } }\n", "pressure_outlet.pressure"),
+        (
+            "[boundary]\nx_max = { attenuated_outlet = { density = 1.0, pressure = 1.0, attenuation = 2.0 } }\n",
+            "attenuated_outlet.attenuation",
+        ),
+        ("[boundary]\nx_max = { far_field = { density = 1.0, pressure = 0.0 } }\n", "far_field.pressure"),
+        (
+            "[boundary]\nx_max = { patched = { patches = [{ shape = { sphere = { center = [0.5, 0.5], radius = 0.1 } }, \
+             rule = \"outlet\" }] } }\n",
+            "covers no face",
+        ),
+        ("[boundary]\nx_max = { patched = { base = \"periodic\", patches = [] } }\n", "boundary.x_max.patched.base"),
         ("[[probes]]\nname = \"p\"\nposition = [3.0, 0.5]\n", "probes[0].position"),
         ("[expect]\ndensity_l1 = 0.1\n", "expect.density_l1"),
         ("[expect]\nbodies = [{ body = \"x\", center = [0, 0], tolerance = 1 }]\n", "unknown body `x`"),

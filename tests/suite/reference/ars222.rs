@@ -5,7 +5,7 @@ use super::interface::Interface;
 use super::p2g::Nodes;
 use super::particle_sort::Bins;
 use super::step::Report;
-use super::{Gas, Problem, State, fluid_update, gas_advection, intermediate_pressure};
+use super::{Gas, Problem, State, boundary, fluid_update, gas_advection, intermediate_pressure};
 
 /// Advances the gas by dt; returns the report of both solves and the solution of the second.
 pub(crate) fn two_solves(
@@ -18,19 +18,14 @@ pub(crate) fn two_solves(
     let a = 1.0 - 0.5_f64.sqrt();
     let e = 1.0 - 1.0 / (2.0 * a);
     let first = state.gas.clone();
-    let solve = |advected: &Gas, booked: f64, ledger: &mut [[f64; 5]]| {
+    let solve = |advected: &Gas, booked: f64, open: &mut boundary::Memory, ledger: &mut [[f64; 5]]| {
         let star = gas_advection::with_gravity(problem, &faces.cells, advected, a * dt);
-        let intermediate = intermediate_pressure::intermediate(problem, faces, advected, &star, a * dt);
-        let solution = coupled_solve(&Inputs {
-            problem,
-            interface: faces,
-            bins,
-            star: &star,
-            intermediate: &intermediate,
-            nodes,
-            dt: a * dt,
-        });
-        let mut gas = fluid_update::fluid_update(problem, faces, &star, &solution, &nodes.velocity, a * dt);
+        let intermediate = intermediate_pressure::intermediate(problem, faces, (advected, &star), open, a * dt);
+        let solution =
+            coupled_solve(&Inputs { problem, interface: faces, bins, intermediate: &intermediate, nodes, dt: a * dt });
+        let mut gas =
+            fluid_update::fluid_update(problem, faces, (&star, &intermediate), &solution, &nodes.velocity, a * dt);
+        *open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
         let mut floored = vec![[0.0; 5]; ledger.len()];
         let count = fluid_update::energy_floor(problem, &faces.cells, &star, &mut gas, &mut floored);
         for (held, taken) in ledger.iter_mut().flatten().zip(floored.iter().flatten()) {
@@ -42,7 +37,7 @@ pub(crate) fn two_solves(
     let (mut advected, limited_one) =
         gas_advection::stage(problem, faces, [&first, &first], a * dt, a, &mut state.ledger);
     gas_advection::fill_ghosts(problem, &faces.cells, &mut advected);
-    let (middle, solution_one, floored_one) = solve(&advected, (1.0 - a) / a, &mut state.ledger);
+    let (middle, solution_one, floored_one) = solve(&advected, (1.0 - a) / a, &mut state.open, &mut state.ledger);
     // U0 + dt e A0 + dt (1 - a) I1, with A0 and I1 from what the first half added.
     let mut start = first.clone();
     for slot in 0..start.energy.len() {
@@ -52,7 +47,7 @@ pub(crate) fn two_solves(
     let (mut advected, limited_two) =
         gas_advection::stage(problem, faces, [&middle, &start], (1.0 - e) * dt, 1.0 - e, &mut state.ledger);
     gas_advection::fill_ghosts(problem, &faces.cells, &mut advected);
-    let (gas, mut solution, floored_two) = solve(&advected, 1.0, &mut state.ledger);
+    let (gas, mut solution, floored_two) = solve(&advected, 1.0, &mut state.open, &mut state.ledger);
     state.gas = gas;
     solution.iterations += solution_one.iterations;
     solution.converged &= solution_one.converged;

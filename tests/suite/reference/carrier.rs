@@ -1,22 +1,12 @@
 //! The velocity that carries the gas through its faces: what the pressure solve sees of it. Gas only.
 
 use super::grid::{add, shift};
-use super::{GAS, GHOST, Gas, Problem, Side, WALL};
+use super::{GAS, GHOST, Gas, Problem, WALL, boundary};
 
 /// Per cell: velocity averaged over the other axes, and the sum of its differences across the faces.
 pub(crate) struct Carrier {
     pub(crate) velocity: Vec<[f64; 3]>,
     divergence: Vec<f64>,
-}
-
-/// Velocity that the side behind a slot of the ring prescribes.
-fn inlet(problem: &Problem, c: [i32; 3]) -> Option<[f64; 3]> {
-    let grid = &problem.grid;
-    let axis = (0..grid.dimension).find(|d| c[*d] < 0 || c[*d] >= grid.cells[*d])?;
-    match problem.sides[2 * axis + usize::from(c[axis] >= 0)] {
-        Side::Inlet { velocity, .. } => Some(velocity),
-        _ => None,
-    }
 }
 
 fn velocity_at(problem: &Problem, cells: &[u32], gas: &Gas, c: [i32; 3], offset: [i32; 3]) -> [f64; 3] {
@@ -26,7 +16,7 @@ fn velocity_at(problem: &Problem, cells: &[u32], gas: &Gas, c: [i32; 3], offset:
     if cells[slot] == GAS {
         return gas.velocity(slot);
     }
-    if let Some(velocity) = inlet(problem, at).filter(|_| cells[slot] == GHOST) {
+    if let Some(velocity) = Some(at).filter(|_| cells[slot] == GHOST).and_then(|at| boundary::prescribed(problem, at)) {
         return velocity;
     }
     let (mut sum, mut count) = ([0.0; 3], 0.0);
@@ -62,8 +52,8 @@ impl Carrier {
             }
         }
         for c in grid.all().into_iter().filter(|c| cells[grid.slot(*c)] == GHOST) {
-            let nearest = grid.slot([0, 1, 2].map(|d| c[d].clamp(0, grid.cells[d] - 1)));
-            carrier.velocity[grid.slot(c)] = inlet(problem, c).unwrap_or(carrier.velocity[nearest]);
+            let nearest = boundary::nearest(problem, c);
+            carrier.velocity[grid.slot(c)] = boundary::prescribed(problem, c).unwrap_or(carrier.velocity[nearest]);
         }
         let mut divergence = vec![0.0; grid.slots()];
         for c in &inside {

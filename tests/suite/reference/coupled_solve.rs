@@ -1,12 +1,13 @@
 //! The coupled pressure system: (S^-1 + dt^2 C^T M^-1 C) X = S^-1 X* + dt C^T V* - dt b, by Jacobi PCG.
 
+use super::boundary::{behind, open_faces};
 use super::element;
 use super::grid::{add, shift, subtract};
 use super::interface::{self, Interface};
-use super::intermediate_pressure::{Intermediate, open_velocity};
+use super::intermediate_pressure::Intermediate;
 use super::p2g::Nodes;
 use super::particle_sort::Bins;
-use super::{GAS, GHOST, Gas, Pair, Problem, SOLID, WALL};
+use super::{GAS, GHOST, Pair, Problem, SOLID, WALL};
 
 /// Gas pressure.
 pub(crate) const P: usize = 0;
@@ -52,7 +53,6 @@ pub(crate) struct Inputs<'a> {
     pub(crate) problem: &'a Problem,
     pub(crate) interface: &'a Interface,
     pub(crate) bins: &'a Bins,
-    pub(crate) star: &'a Gas,
     pub(crate) intermediate: &'a Intermediate,
     /// Solid nodes with the velocity that enters the solve.
     pub(crate) nodes: &'a Nodes,
@@ -170,6 +170,7 @@ pub(crate) fn assemble(inputs: &Inputs) -> System {
     for index in (0..3 * slots).filter(|index| compliance[*index] > 0.0) {
         start[index] = weighted[index] / compliance[index];
     }
+    let open = open_term(inputs, &start, &mut compliance);
     let rows = rows(inputs);
     let mut diagonal = compliance.clone();
     for row in &rows {
@@ -177,27 +178,22 @@ pub(crate) fn assemble(inputs: &Inputs) -> System {
             diagonal[*index] += inputs.dt * inputs.dt * value * value / row.mass;
         }
     }
-    System { rows, compliance, start, open: open_term(inputs), diagonal, dt: inputs.dt }
+    System { rows, compliance, start, open, diagonal, dt: inputs.dt }
 }
 
-/// b: int u_b.n N_v over inlet and outlet faces of gas cells.
-fn open_term(inputs: &Inputs) -> Vec<f64> {
+/// b: int u.n N_v over open faces, with X* in u; the admittance of the faces goes to the compliance.
+fn open_term(inputs: &Inputs, start: &[f64], compliance: &mut [f64]) -> Vec<f64> {
     let (problem, cells) = (inputs.problem, &inputs.interface.cells);
     let grid = &problem.grid;
     let mut open = vec![0.0; 3 * grid.slots()];
     let share = grid.area() / 2.0_f64.powi(grid.dimension as i32 - 1);
-    for c in grid.interior().into_iter().filter(|c| cells[grid.slot(*c)] == GAS) {
-        for axis in 0..grid.dimension {
-            for normal in [-1, 1] {
-                if cells[grid.slot(shift(c, axis, normal))] != GHOST {
-                    continue;
-                }
-                let velocity = open_velocity(problem, inputs.star, axis, normal > 0, c);
-                for corner in grid.offsets(0, 1).into_iter().filter(|k| 2 * k[axis] - 1 == normal) {
-                    let index = unknown(inputs.interface, P, grid.slot(add(c, corner)));
-                    open[index] += f64::from(normal) * velocity * share;
-                }
-            }
+    for (c, axis, upper) in open_faces(problem, cells) {
+        let face = inputs.intermediate.open[&behind(problem, (c, axis, upper))];
+        let normal = if upper { 1.0 } else { -1.0 };
+        for corner in grid.offsets(0, 1).into_iter().filter(|k| (k[axis] == 1) == upper) {
+            let index = unknown(inputs.interface, P, grid.slot(add(c, corner)));
+            open[index] += share * (normal * face.velocity + face.admittance * (start[index] - face.reference));
+            compliance[index] += inputs.dt * share * face.admittance;
         }
     }
     open

@@ -1,11 +1,12 @@
 //! Momentum and energy of the gas from the solved pressures; internal-energy floor, kinetic energy first.
 
+use super::boundary;
 use super::carrier::Carrier;
 use super::coupled_solve::{H, P, Solution};
 use super::element;
 use super::grid::{add, shift};
 use super::interface::{self, Interface};
-use super::intermediate_pressure::face_velocity;
+use super::intermediate_pressure::{Intermediate, face_velocity};
 use super::{GAS, Gas, Pair, Problem, SOLID, internal_energy, kinetic_energy};
 
 /// Pressure of the face above `low`.
@@ -43,7 +44,7 @@ fn smooth_pressure(
     let mut sum = 0.0;
     for off in grid.offsets(-1, 2).into_iter().filter(|o| o[axis] < 2) {
         let vertex = add(high, off);
-        let stored = (0..grid.dimension).all(|d| vertex[d] >= 0 && vertex[d] <= grid.cells[d]);
+        let stored = (0..grid.dimension).all(|d| grid.periodic[d] || (vertex[d] >= 0 && vertex[d] <= grid.cells[d]));
         if !stored || !interface::touches(problem, &interface.cells, vertex, GAS) {
             return None;
         }
@@ -80,7 +81,7 @@ fn solid_power(problem: &Problem, solution: &Solution, velocity: &[[f64; 3]], ax
 pub(crate) fn fluid_update(
     problem: &Problem,
     interface: &Interface,
-    star: &Gas,
+    (star, intermediate): (&Gas, &Intermediate),
     solution: &Solution,
     before: &[[f64; 3]],
     dt: f64,
@@ -126,6 +127,11 @@ pub(crate) fn fluid_update(
                 };
                 pressure[axis][slot] * velocity
             };
+        }
+        for face in boundary::open_faces(problem, &interface.cells).into_iter().filter(|face| face.1 == axis) {
+            let slot = grid.slot(if face.2 { face.0 } else { shift(face.0, axis, -1) });
+            let p = pressure[axis][slot];
+            work[axis][slot] = p * boundary::solved_velocity(problem, &intermediate.open, face, p);
         }
         for c in &gas_slots {
             let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));

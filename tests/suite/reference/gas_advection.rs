@@ -1,37 +1,13 @@
 //! Gas advection: WENO with two-point sub-stencils, local Lax-Friedrichs split by |u|, TVD-RK2, positivity limiter.
 
+pub(crate) use super::boundary::fill_ghosts;
 use super::carrier::Carrier;
 use super::grid::shift;
 use super::interface::Interface;
-use super::{GAS, GHOST, Gas, Problem, SOLID, Side};
+use super::{GAS, GHOST, Gas, Problem, SOLID};
 
 /// Fluxes of (rho, m, E) through the faces of each axis, stored at the low cell.
 pub(crate) type Fluxes = [Vec<[f64; 5]>; 3];
-
-/// Writes the ring cells outside inlets and outlets.
-pub(crate) fn fill_ghosts(problem: &Problem, cells: &[u32], gas: &mut Gas) {
-    let grid = &problem.grid;
-    for c in grid.all() {
-        let slot = grid.slot(c);
-        if cells[slot] != GHOST {
-            continue;
-        }
-        let outside = |d: usize| c[d] < 0 || c[d] >= grid.cells[d];
-        let inlet = (0..grid.dimension).filter(|d| outside(*d)).find_map(|d| {
-            match problem.sides[2 * d + usize::from(c[d] >= 0)] {
-                Side::Inlet { density, velocity, pressure } => Some((density, velocity, pressure)),
-                _ => None,
-            }
-        });
-        let value = match inlet {
-            Some((density, velocity, pressure)) => {
-                Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma)
-            }
-            None => gas.get(grid.slot([0, 1, 2].map(|d| c[d].clamp(0, grid.cells[d] - 1)))),
-        };
-        gas.set(slot, value);
-    }
-}
 
 /// Value at the face between b and c, from a, b, c upwind of it.
 pub(crate) fn reconstruct(a: f64, b: f64, c: f64) -> f64 {
@@ -84,7 +60,9 @@ pub(crate) fn face_flux(
     let grid = &problem.grid;
     let at = |by: i32| {
         let mut c = shift(low, axis, by);
-        c[axis] = c[axis].clamp(-1, grid.cells[axis]);
+        if !grid.periodic[axis] {
+            c[axis] = c[axis].clamp(-1, grid.cells[axis]);
+        }
         grid.slot(c)
     };
     let kind = |by: i32| interface.cells[at(by)];

@@ -12,6 +12,8 @@ pub(crate) struct Grid {
     pub(crate) origin: [f64; 3],
     /// Cell edge.
     pub(crate) spacing: f64,
+    /// Axes whose ends meet: coordinates there are taken modulo the number of cells.
+    pub(crate) periodic: [bool; 3],
 }
 
 impl Grid {
@@ -19,11 +21,16 @@ impl Grid {
     pub(crate) fn new(cells: &[i32], origin: [f64; 3], spacing: f64) -> Self {
         let mut all = [1; 3];
         all[..cells.len()].copy_from_slice(cells);
-        Self { dimension: cells.len(), cells: all, origin, spacing }
+        Self { dimension: cells.len(), cells: all, origin, spacing, periodic: [false; 3] }
     }
 
     fn pad(&self, axis: usize) -> i32 {
         i32::from(axis < self.dimension)
+    }
+
+    /// Cells beyond each end that are no others of the domain.
+    fn ring(&self, axis: usize) -> i32 {
+        if self.periodic[axis] { 0 } else { self.pad(axis) }
     }
 
     fn extent(&self, axis: usize) -> usize {
@@ -37,7 +44,8 @@ impl Grid {
 
     /// Slot of a cell or vertex; the ring is allowed.
     pub(crate) fn slot(&self, c: [i32; 3]) -> usize {
-        let at = |axis: usize| (c[axis] + self.pad(axis)) as usize;
+        let place = |axis: usize| if self.periodic[axis] { c[axis].rem_euclid(self.cells[axis]) } else { c[axis] };
+        let at = |axis: usize| (place(axis) + self.pad(axis)) as usize;
         at(0) + self.extent(0) * (at(1) + self.extent(1) * at(2))
     }
 
@@ -50,12 +58,14 @@ impl Grid {
 
     /// Is this one of the domain's own cells?
     pub(crate) fn contains(&self, c: [i32; 3]) -> bool {
-        (0..3).all(|axis| c[axis] >= 0 && c[axis] < self.cells[axis])
+        (0..3).all(|axis| self.periodic[axis] || (c[axis] >= 0 && c[axis] < self.cells[axis]))
     }
 
     /// Is this a cell of the domain or of its ring?
     pub(crate) fn stored(&self, c: [i32; 3]) -> bool {
-        (0..3).all(|axis| c[axis] >= -self.pad(axis) && c[axis] < self.cells[axis] + self.pad(axis))
+        (0..3).all(|axis| {
+            self.periodic[axis] || (c[axis] >= -self.pad(axis) && c[axis] < self.cells[axis] + self.pad(axis))
+        })
     }
 
     fn range(low: [i32; 3], high: [i32; 3]) -> Vec<[i32; 3]> {
@@ -77,18 +87,18 @@ impl Grid {
 
     /// All cells of the domain and its ring.
     pub(crate) fn all(&self) -> Vec<[i32; 3]> {
-        Self::range([0, 1, 2].map(|d| -self.pad(d)), [0, 1, 2].map(|d| self.cells[d] + self.pad(d)))
+        Self::range([0, 1, 2].map(|d| -self.ring(d)), [0, 1, 2].map(|d| self.cells[d] + self.ring(d)))
     }
 
     /// All vertices.
     pub(crate) fn vertices(&self) -> Vec<[i32; 3]> {
-        Self::range([0; 3], [0, 1, 2].map(|d| self.cells[d] + self.pad(d)))
+        Self::range([0; 3], [0, 1, 2].map(|d| self.cells[d] + self.ring(d)))
     }
 
     /// Low cells of all faces normal to an axis.
     pub(crate) fn faces(&self, axis: usize) -> Vec<[i32; 3]> {
         let mut low = [0; 3];
-        low[axis] = -1;
+        low[axis] = -self.ring(axis);
         Self::range(low, self.cells)
     }
 

@@ -28,7 +28,7 @@ pub(crate) fn kinds(problem: &Problem, bins: &Bins) -> Vec<u32> {
         cells[slot] = if !grid.contains(c) {
             let outside = (0..grid.dimension).filter(|d| c[*d] < 0 || c[*d] >= grid.cells[*d]);
             let mut sides = outside.map(|d| problem.sides[2 * d + usize::from(c[d] >= 0)]);
-            if sides.any(|side| matches!(side, Side::Wall)) { WALL } else { GHOST }
+            if sides.any(|side| matches!(side, Side::Wall | Side::Periodic)) { WALL } else { GHOST }
         } else if problem.obstacles[slot] {
             WALL
         } else if bins.count[slot] == 0 {

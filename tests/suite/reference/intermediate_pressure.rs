@@ -4,26 +4,20 @@ use super::carrier::Carrier;
 use super::element;
 use super::grid::{add, shift};
 use super::interface::{self, Interface};
-use super::{GAS, GHOST, Gas, Problem, SOLID, Side};
+use super::{GAS, GHOST, Gas, Problem, SOLID, boundary};
 
 /// What the solve needs from the advected gas.
 pub(crate) struct Intermediate {
     /// EOS pressure of gas cells.
     pub(crate) pressure: Vec<f64>,
+    /// What the solve is told about open faces.
+    pub(crate) open: boundary::OpenFaces,
     /// P* at vertices.
     pub(crate) vertex_pressure: Vec<f64>,
     /// Lumped mass of gas nodes.
     pub(crate) node_mass: Vec<f64>,
     /// Velocity of gas nodes.
     pub(crate) node_velocity: Vec<[f64; 3]>,
-}
-
-/// Prescribed normal velocity of an inlet or outlet face of a gas cell.
-pub(crate) fn open_velocity(problem: &Problem, star: &Gas, axis: usize, upper: bool, cell: [i32; 3]) -> f64 {
-    match problem.sides[2 * axis + usize::from(upper)] {
-        Side::Inlet { velocity, .. } => velocity[axis],
-        Side::Wall | Side::Outlet => star.velocity(problem.grid.slot(cell))[axis],
-    }
 }
 
 /// Velocity of the face above `low`, which touches at least one gas cell. `star` is the state after advection.
@@ -43,8 +37,8 @@ pub(crate) fn face_velocity(
             let (ra, rb) = (gas.conserved[a], gas.conserved[b]);
             (ra[1 + axis] + rb[1 + axis]) / (ra[0] + rb[0])
         }
-        (GAS, GHOST) => open_velocity(problem, star, axis, true, low),
-        (GHOST, GAS) => open_velocity(problem, star, axis, false, high),
+        (GAS, GHOST) => boundary::carried_velocity(problem, star, axis, true, low),
+        (GHOST, GAS) => boundary::carried_velocity(problem, star, axis, false, high),
         (GAS, SOLID) | (SOLID, GAS) => interface.face_velocity[axis][a],
         _ => 0.0,
     }
@@ -72,8 +66,13 @@ pub(crate) fn predicted(
 /// Node velocity: gas cell, ghost, or the nearest gas cells by class (faces, edges, corners).
 fn node_velocity(problem: &Problem, cells: &[u32], star: &Gas, node: [i32; 3]) -> [f64; 3] {
     let grid = &problem.grid;
-    if matches!(cells[grid.slot(node)], GAS | GHOST) {
-        return star.velocity(grid.slot(node));
+    let known = match cells[grid.slot(node)] {
+        GAS => Some(star.velocity(grid.slot(node))),
+        GHOST => boundary::node_velocity(problem, cells, star, node),
+        _ => None,
+    };
+    if let Some(velocity) = known {
+        return velocity;
     }
     for class in 1..=grid.dimension as i32 {
         let (mut sum, mut count) = ([0.0; 3], 0.0);
@@ -96,8 +95,8 @@ fn node_velocity(problem: &Problem, cells: &[u32], star: &Gas, node: [i32; 3]) -
 pub(crate) fn intermediate(
     problem: &Problem,
     interface: &Interface,
-    advected: &Gas,
-    star: &Gas,
+    (advected, star): (&Gas, &Gas),
+    memory: &boundary::Memory,
     dt: f64,
 ) -> Intermediate {
     let grid = &problem.grid;
@@ -134,5 +133,6 @@ pub(crate) fn intermediate(
     for node in grid.all().into_iter().filter(|node| node_mass[grid.slot(*node)] > 0.0) {
         velocities[grid.slot(node)] = node_velocity(problem, &interface.cells, star, node);
     }
-    Intermediate { pressure, vertex_pressure, node_mass, node_velocity: velocities }
+    let open = boundary::faces(problem, &interface.cells, star, &predicted_pressure, memory, dt);
+    Intermediate { pressure, open, vertex_pressure, node_mass, node_velocity: velocities }
 }

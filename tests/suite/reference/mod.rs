@@ -1,6 +1,7 @@
 //! CPU twins: one step as plain loops over slices in f64. Same stages, same index space as the GPU code.
 
 pub(crate) mod ars222;
+pub(crate) mod boundary;
 pub(crate) mod carrier;
 pub(crate) mod coupled_solve;
 pub(crate) mod element;
@@ -37,8 +38,20 @@ pub(crate) enum Side {
     Wall,
     /// Prescribed state.
     Inlet { density: f64, velocity: [f64; 3], pressure: f64 },
+    /// Density and velocity prescribed.
+    Subsonic { density: f64, velocity: [f64; 3] },
+    /// Total density and pressure.
+    Total { density: f64, pressure: f64 },
     /// Copies the last cell.
     Outlet,
+    /// The same with a far pressure.
+    Pressure { pressure: f64, relaxation: f64 },
+    /// A share of a far state beyond the side.
+    Attenuated { density: f64, velocity: [f64; 3], pressure: f64, attenuation: f64 },
+    /// Undisturbed gas beyond the side.
+    Far { density: f64, velocity: [f64; 3], pressure: f64 },
+    /// The other end of the axis.
+    Periodic,
 }
 
 /// Velocity/pressure pair of the gas.
@@ -134,7 +147,8 @@ pub(crate) struct Problem {
 
 impl Problem {
     /// A problem with the default method, no obstacles and no gravity.
-    pub(crate) fn new(grid: Grid, sides: [Side; 6]) -> Self {
+    pub(crate) fn new(mut grid: Grid, sides: [Side; 6]) -> Self {
+        grid.periodic = [0, 1, 2].map(|axis| matches!(sides[2 * axis], Side::Periodic));
         let obstacles = vec![false; grid.slots()];
         Self {
             grid,
@@ -221,6 +235,8 @@ pub(crate) struct State {
     pub(crate) ledger: Vec<[f64; 5]>,
     pub(crate) particles: Vec<Particle>,
     pub(crate) time: f64,
+    /// What free outlets know of themselves.
+    pub(crate) open: boundary::Memory,
     /// The step before, 0 before the first.
     pub(crate) previous_dt: f64,
 }
@@ -242,7 +258,15 @@ impl State {
         let bins = particle_sort::bin(problem, &particles);
         let cells = interface::kinds(problem, &bins);
         gas_advection::fill_ghosts(problem, &cells, &mut cells_gas);
-        Self { gas: cells_gas, cells, ledger: vec![[0.0; 5]; grid.slots()], particles, time: 0.0, previous_dt: 0.0 }
+        Self {
+            gas: cells_gas,
+            cells,
+            ledger: vec![[0.0; 5]; grid.slots()],
+            particles,
+            time: 0.0,
+            open: boundary::Memory::new(),
+            previous_dt: 0.0,
+        }
     }
 
     /// (mass, momentum, energy) of gas and ledger.

@@ -4,7 +4,7 @@ use super::coupled_solve::{Inputs, Solution, coupled_solve};
 use super::p2g::Nodes;
 use super::{Problem, State};
 use super::{
-    ars222, fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g,
+    ars222, boundary, fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g,
     particle_sort, time_step,
 };
 
@@ -47,7 +47,7 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     }
     let (advected, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
     let star = gas_advection::with_gravity(problem, &faces.cells, &advected, dt);
-    let intermediate = intermediate_pressure::intermediate(problem, &faces, &advected, &star, dt);
+    let intermediate = intermediate_pressure::intermediate(problem, &faces, (&advected, &star), &state.open, dt);
 
     let film = interface::film_force(problem, &faces.cells, &bins, &intermediate.vertex_pressure);
     let floor = problem.numerics.mass_floor * bins.density * problem.grid.volume();
@@ -59,12 +59,12 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
         problem,
         interface: &faces,
         bins: &bins,
-        star: &star,
         intermediate: &intermediate,
         nodes: &nodes,
         dt,
     });
-    state.gas = fluid_update::fluid_update(problem, &faces, &star, &solution, &nodes.velocity, dt);
+    state.gas = fluid_update::fluid_update(problem, &faces, (&star, &intermediate), &solution, &nodes.velocity, dt);
+    state.open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
     let touched = fluid_update::energy_floor(problem, &faces.cells, &star, &mut state.gas, &mut state.ledger);
 
     let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);

@@ -1,5 +1,6 @@
 //! Length of the next step.
 
+use super::boundary::fill_ghosts;
 use super::grid::shift;
 use super::{GAS, GHOST, Gas, Problem, State};
 
@@ -10,10 +11,13 @@ pub(crate) fn cell_rate(problem: &Problem, cells: &[u32], gas: &Gas, c: [i32; 3]
     let pressure = gas.pressure(slot, problem.gamma);
     (0..grid.dimension)
         .map(|axis| {
-            let a = gas.velocity(slot)[axis].abs() / dx;
+            let mut a = gas.velocity(slot)[axis].abs() / dx;
             let mut b = 0.0_f64;
             for by in [-1, 1] {
                 let other = grid.slot(shift(c, axis, by));
+                if cells[other] == GHOST {
+                    a = a.max(gas.velocity(other)[axis].abs() / dx);
+                }
                 if matches!(cells[other], GAS | GHOST) {
                     let jump = (gas.pressure(other, problem.gamma) - pressure).abs();
                     if jump >= 1e-6 * pressure {
@@ -30,10 +34,12 @@ pub(crate) fn cell_rate(problem: &Problem, cells: &[u32], gas: &Gas, c: [i32; 3]
 pub(crate) fn time_step(problem: &Problem, state: &State) -> f64 {
     let (grid, numerics) = (&problem.grid, &problem.numerics);
     let (mut rate, mut sound) = (0.0_f64, 0.0_f64);
+    let mut gas = state.gas.clone();
+    fill_ghosts(problem, &state.cells, &mut gas);
     for c in grid.interior() {
         let slot = grid.slot(c);
         if state.cells[slot] == GAS {
-            rate = rate.max(cell_rate(problem, &state.cells, &state.gas, c));
+            rate = rate.max(cell_rate(problem, &state.cells, &gas, c));
             let pressure = state.gas.pressure(slot, problem.gamma);
             sound = sound.max((problem.gamma * pressure / state.gas.conserved[slot][0]).sqrt());
         }

@@ -1,0 +1,93 @@
+// coupled_solve, preparation: open faces. b of a vertex in units of face_area(), with X* in it: what flows out through the open
+// faces that it belongs to; and their admittance, which resists the increment like a stiffness.
+#include "shared/index.wgsl"
+#include "shared/listed.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
+#include "shared/control.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> extra: array<u32>;
+@group(0) @binding(4) var<storage, read_write> energy: array<f32>;    // second third: predicted pressure, of GHOST slots p0; last third: u0
+@group(0) @binding(8) var<storage, read> conserved: array<vec4f>;
+@group(0) @binding(5) var<storage, read> pressure: array<f32>;
+@group(0) @binding(9) var<storage, read_write> fill: array<vec2f>;
+@group(0) @binding(6) var<storage, read_write> stiffness: array<f32>;
+@group(0) @binding(7) var<storage, read_write> residual: array<f32>;
+
+// Mean of the pressure that the last solve left at the face of a cell.
+fn last_face_pressure(near: vec3i, n: u32, up: bool) -> f32 {
+    let low = select(near, near + axis(n), up);
+    var sum = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        if corner[n] == 0 { sum += pressure[slot_of(low + corner)]; }
+    }
+    return sum / f32(1u << (DIM - 1u));
+}
+
+// GHOST slots next to a gas cell keep what the pressure system is told about the face, in two thirds of the energy that they do
+// not use: p0 and u0; and in `fill` what a free outlet knows of itself.
+fn note_open_face(c: vec3i, slot: u32) {
+    let near = nearest_inside(c);
+    let away = c - near;
+    if dot(away, away) != 1 { return; }
+    if kind_of(cells[slot_of(near)]) != GAS {
+        fill[slot] = vec2f(0.0);
+        return;
+    }
+    let n = u32(away.y != 0) + 2u * u32(away.z != 0);
+    let outward = f32(away[n]);
+    let opening = opening_of(cells[slot]);
+    let here = Gas(conserved[slot_of(near)], energy[slot_of(near)]);
+    let p = pressure_of(here);
+    let last = fill[slot];
+    var known = vec2f(here.flow[n + 1u] / here.flow.x, p);
+    if last.y > 0.0 {
+        known.y = last_face_pressure(near, n, away[n] > 0);
+        known.x = last.x + outward * (known.y - last.y) / (here.flow.x * sound_speed(here.flow.x, p));
+    }
+    let face = open_face(opening, n, outward, here, known, control.dt);
+    fill[slot] = vec2f(face.velocity, select(face.reference, p, face.reference < 0.0));
+    energy[params.slots + slot] = face.reference;
+    energy[2u * params.slots + slot] = face.velocity;
+}
+
+// While `pressure` still holds what the last solve left.
+@compute @workgroup_size(WORKGROUP)
+fn open_faces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+              @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, groups, lane));
+    if slot < params.slots && kind_of(cells[slot]) == GHOST { note_open_face(cell_of(slot), slot); }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+              @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, groups, lane));
+    if slot >= params.slots { return; }
+    let v = cell_of(slot);
+    var flow = 0.0;
+    var admittance = 0.0;
+    for (var k = 0u; k < corner_count() && has(cells[slot], VERTEX_GAS); k++) {
+        let corner = corner_offset(k);
+        let e = v - corner;
+        if !inside(e) { continue; }
+        let here = slot_of(e);
+        if kind_of(cells[here]) != GAS { continue; }
+        for (var n = 0u; n < DIM; n++) {
+            let up = corner[n] == 1;
+            let beyond = slot_of(select(e - axis(n), e + axis(n), up));
+            if kind_of(cells[beyond]) != GHOST { continue; }
+            let face = OpenFace(energy[2u * params.slots + beyond], energy[params.slots + beyond]);
+            let y = admittance_of(opening_of(cells[beyond]), face, conserved[here].x, energy[params.slots + here]);
+            flow += select(-1.0, 1.0, up) * face.velocity + y * (pressure[slot] - face.reference);
+            admittance += y;
+        }
+    }
+    let share = 1.0 / f32(1u << (DIM - 1u));
+    residual[slot] = share * flow;
+    stiffness[slot] += share * control.dt * face_area() * admittance;
+}

@@ -1,0 +1,135 @@
+//! `verify`: the cases of [`crate::verify`], one table, one page, one verdict.
+
+use std::io::IsTerminal;
+use std::path::Path;
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+
+use super::args::{Cli, VerifyOptions};
+use super::interrupt::{self, Wish};
+use super::open_device;
+use crate::export::atomic;
+use crate::gpu::Gpu;
+use crate::verify::{self, Case, Head, Row, Session, Suite, Verdict};
+use crate::{Error, Result};
+
+/// Runs the suite and judges. What was found before an error or an interruption is written all the same.
+///
+/// # Errors
+/// [`Error::Expectation`] if a gate does not hold, after everything was written; those of runs.
+pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
+    let suite = if options.full { Suite::Full } else { Suite::Quick };
+    let cases = verify::select(suite, &options.filter);
+    if cases.is_empty() {
+        return Err(Error::Usage(format!(
+            "no case matches `{}`; `brisance verify --full --list` prints all",
+            options.filter
+        )));
+    }
+    if options.list {
+        list(&cases, cli.json);
+        return Ok(());
+    }
+    interrupt::listen();
+    let start = Instant::now();
+    let gpu = open_device(cli)?;
+    let bar = progress(cases.len());
+    let mut notify = |text: &str| {
+        match &bar {
+            Some(bar) => bar.set_message(text.to_owned()),
+            None => eprintln!("{:6.1} s  {text}", start.elapsed().as_secs_f64()),
+        }
+        if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { Ok(()) }
+    };
+    let mut session = Session::new(&gpu, suite, &mut notify);
+    let mut outcome = Ok(());
+    for case in cases {
+        outcome = session.perform(case);
+        if outcome.is_err() {
+            break;
+        }
+        if let Some(bar) = &bar {
+            bar.inc(1);
+        }
+    }
+    session.overview();
+    let (rows, plots) = (session.rows, session.plots);
+    if let Some(bar) = &bar {
+        bar.finish_and_clear();
+    }
+    let head = head(options, &gpu, start.elapsed().as_secs_f64());
+    let object = verify::json(&head, &rows);
+    write(&options.out.join("report.html"), &verify::html(&head, &rows, &plots))?;
+    write(&options.out.join("verify.json"), &format!("{object:#}\n"))?;
+    if cli.json {
+        say!("{object}");
+    } else if options.markdown {
+        say!("{}", verify::markdown(&head, &rows).trim_end());
+    } else {
+        say!("{}", verify::table(&rows));
+    }
+    outcome?;
+    verdict(&rows, &options.out)
+}
+
+fn list(cases: &[&Case], as_json: bool) {
+    if as_json {
+        let list: Vec<_> = cases
+            .iter()
+            .map(|case| {
+                json!({ "id": case.id, "title": case.title, "group": case.group, "quick": case.quick,
+                        "source": case.source })
+            })
+            .collect();
+        say!("{}", json!({ "cases": list }));
+        return;
+    }
+    let width = cases.iter().map(|case| case.id.len()).max().unwrap_or(0);
+    for case in cases {
+        say!("{:width$}  {:5}  {}", case.id, if case.quick { "quick" } else { "full" }, case.title);
+    }
+}
+
+/// A bar on a terminal; plain lines elsewhere.
+fn progress(cases: usize) -> Option<ProgressBar> {
+    std::io::stderr().is_terminal().then(|| {
+        let bar = ProgressBar::new(cases as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:32} {pos}/{len}  {elapsed}  {msg}") {
+            bar.set_style(style);
+        }
+        bar
+    })
+}
+
+fn head(options: &VerifyOptions, gpu: &Gpu, seconds: f64) -> Head {
+    let suite = if options.full { "--full" } else { "--quick" };
+    let filter = if options.filter.is_empty() { String::new() } else { format!(" --filter {}", options.filter) };
+    let driver = format!("{} {}", gpu.info.driver, gpu.info.driver_info);
+    Head {
+        version: env!("CARGO_PKG_VERSION"),
+        command: format!("brisance verify {suite}{filter}"),
+        device: format!("{} ({}, {})", gpu.info.name, gpu.info.backend, driver.trim()),
+        software: gpu.is_software(),
+        seconds,
+    }
+}
+
+fn write(path: &Path, text: &str) -> Result<()> {
+    atomic::write(path, |out| out.write_all(text.as_bytes()))
+}
+
+/// The error of a verification whose gates do not all hold.
+fn verdict(rows: &[Row], folder: &Path) -> Result<()> {
+    let failed: Vec<String> = rows
+        .iter()
+        .filter(|row| row.verdict() == Verdict::Fail)
+        .map(|row| format!("{} {} {}", row.case, row.setting, row.quantity).replace("  ", " "))
+        .collect();
+    if failed.is_empty() {
+        return Ok(());
+    }
+    let (count, page) = (failed.len(), folder.join("report.html"));
+    Err(Error::Expectation(format!("{count} gates failed: {}; see {}", failed.join(", "), page.display())))
+}

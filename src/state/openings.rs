@@ -1,0 +1,168 @@
+//! What lies beyond the sides of the domain: one table of rules, and the rule of every slot of the ring.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{Grid, constants};
+use crate::scene::{Boundary, GasState, InletRule, Scene, TimedState};
+
+/// Rules that the table has room for.
+pub use crate::scene::MAX_OPENINGS;
+
+/// How fast a free outlet forgets what came in from far away, in sound crossings of the domain \[1\].
+const FREE_DRIFT: f64 = 0.25;
+
+/// One rule. Mirror of `Opening` in `shaders/shared/opening.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Opening {
+    /// Density \[kg m^-3\] and momentum \[kg m^-2 s^-1\] of the state beyond; total density of a reservoir.
+    pub flow: [f32; 4],
+    /// Total energy per volume of that state \[J m^-3\].
+    pub energy: f32,
+    /// Pressure of that state, far or total pressure \[Pa\].
+    pub pressure: f32,
+    /// What is prescribed, `RULE_*` of [`constants::RULES`].
+    pub rule: u32,
+    /// Attenuation \[1\], or relaxation over the length of the domain \[m^-1\].
+    pub share: f32,
+    /// First knot of the table of times.
+    pub first: u32,
+    /// Knots of the table of times, 0 for a constant state.
+    pub knots: u32,
+    /// Fills the last 16 bytes.
+    pub unused: [u32; 2],
+}
+
+/// One entry of a table of times. Mirror of `Knot` in `shaders/openings.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Knot {
+    /// Velocity \[m s^-1\].
+    pub velocity: [f32; 3],
+    /// When \[s\].
+    pub time: f32,
+    /// Density \[kg m^-3\].
+    pub density: f32,
+    /// Pressure \[Pa\].
+    pub pressure: f32,
+    /// Fills the last 16 bytes.
+    pub unused: [u32; 2],
+}
+
+/// The table of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Openings {
+    /// Rules of all sides that let gas through.
+    pub table: Vec<Opening>,
+    /// Tables of times, one after the other.
+    pub knots: Vec<Knot>,
+    /// For each side and each of its rules, the place in the table; none for walls.
+    places: [Vec<Option<u32>>; 6],
+}
+
+impl Openings {
+    /// The rules of a scene.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Openings {
+        let mut openings = Openings::default();
+        for (index, side) in scene.boundary.sides().into_iter().enumerate() {
+            for rule in side.rules() {
+                let place = openings.add(scene, rule, scene.domain.size[index / 2]);
+                openings.places[index].push(place);
+            }
+        }
+        openings
+    }
+
+    /// Puts a rule into the table.
+    fn add(&mut self, scene: &Scene, rule: &Boundary, length: f64) -> Option<u32> {
+        let of_state = |name: &str, state: &GasState| {
+            let [density, x, y, z, energy] = state.conserved(scene.gas.gamma).map(|v| v as f32);
+            let flow = [density, x, y, z];
+            Opening { flow, energy, pressure: state.pressure as f32, rule: constants::rule(name), ..Opening::default() }
+        };
+        let still = |density: f64, pressure: f64| GasState { density, velocity: [0.0; 3], pressure };
+        let mut opening = match rule {
+            Boundary::Wall | Boundary::Periodic | Boundary::Patched(_) => return None,
+            Boundary::Inlet(state) => of_state("FIXED", state),
+            Boundary::SubsonicInlet(inflow) => {
+                let state = GasState { density: inflow.density, velocity: inflow.velocity, pressure: 0.0 };
+                of_state("SUBSONIC", &state)
+            }
+            Boundary::TotalInlet(total) => of_state("TOTAL", &still(total.density, total.pressure)),
+            Boundary::Outlet => {
+                let share = (FREE_DRIFT / length) as f32;
+                Opening { rule: constants::rule("FREE"), share, ..Opening::default() }
+            }
+            Boundary::PressureOutlet(outlet) => of_state("PRESSURE", &still(1.0, outlet.pressure)),
+            Boundary::AttenuatedOutlet(outlet) => {
+                let (density, velocity, pressure) = (outlet.density, outlet.velocity, outlet.pressure);
+                of_state("ATTENUATED", &GasState { density, velocity, pressure })
+            }
+            Boundary::FarField(state) => of_state("FAR", state),
+            Boundary::TimedInlet(inlet) => {
+                let name = match inlet.rule {
+                    InletRule::Fixed => "FIXED",
+                    InletRule::Subsonic => "SUBSONIC",
+                    InletRule::Total => "TOTAL",
+                };
+                let first = self.knots.len() as u32;
+                self.knots.extend(inlet.table.iter().map(knot));
+                let start = inlet.table.first().map_or(still(1.0, 1.0), |state| GasState {
+                    density: state.density,
+                    velocity: state.velocity,
+                    pressure: state.pressure,
+                });
+                Opening { first, knots: inlet.table.len() as u32, ..of_state(name, &start) }
+            }
+        };
+        match rule {
+            Boundary::AttenuatedOutlet(outlet) => opening.share = outlet.attenuation as f32,
+            Boundary::PressureOutlet(outlet) => opening.share = (outlet.relaxation / length) as f32,
+            _ => {}
+        }
+        self.table.push(opening);
+        Some(self.table.len() as u32 - 1)
+    }
+
+    /// Word of a slot outside of the domain: WALL behind any wall, else GHOST with the place of its rule. Behind two sides a
+    /// prescribed state comes first. Slots beyond periodic sides are never read.
+    #[must_use]
+    pub fn word(&self, scene: &Scene, grid: &Grid, cell: [i32; 3]) -> u32 {
+        let inside: [u32; 3] = std::array::from_fn(|d| cell[d].clamp(0, grid.cells[d] as i32 - 1) as u32);
+        let behind = (0..grid.dimension as usize).filter(|&d| cell[d] != inside[d] as i32);
+        let places = behind.map(|axis| {
+            let side = 2 * axis + usize::from(cell[axis] >= 0);
+            let rule = scene.boundary.sides()[side].rule_at(scene.domain.face_center(side, inside));
+            self.places[side].get(rule).copied().flatten()
+        });
+        let Some(places) = places.collect::<Option<Vec<u32>>>() else { return constants::WALL };
+        let prescribed = |place: &&u32| self.table[**place as usize].rule <= constants::rule("SUBSONIC");
+        let place = places.iter().find(prescribed).or(places.first());
+        place.map_or(constants::WALL, |place| constants::GHOST | (place << constants::RULE_SHIFT))
+    }
+
+    /// Whether any state changes in time.
+    #[must_use]
+    pub fn timed(&self) -> bool {
+        !self.knots.is_empty()
+    }
+
+    /// The table with the length that the device expects.
+    #[must_use]
+    pub fn padded(&self) -> Vec<Opening> {
+        let mut table = self.table.clone();
+        table.resize(MAX_OPENINGS, Opening::default());
+        table
+    }
+}
+
+fn knot(state: &TimedState) -> Knot {
+    Knot {
+        velocity: state.velocity.map(|v| v as f32),
+        time: state.time as f32,
+        density: state.density as f32,
+        pressure: state.pressure as f32,
+        unused: [0; 2],
+    }
+}

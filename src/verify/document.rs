@@ -1,0 +1,132 @@
+//! The result as files: a page that needs nothing else, an object for programs, a table for the documentation.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+use serde_json::json;
+
+use super::plot::{Plot, escape};
+use super::row::{Row, Verdict};
+use super::table::{HEADS, entries, summary};
+use super::{Case, cases};
+
+/// What a document says about the verification as a whole.
+#[derive(Clone, Debug, Serialize)]
+pub struct Head {
+    /// Version of the program.
+    pub version: &'static str,
+    /// The command line.
+    pub command: String,
+    /// Name and driver of the device.
+    pub device: String,
+    /// Whether the device is a processor in the role of a GPU.
+    pub software: bool,
+    /// Wall time \[s\].
+    pub seconds: f64,
+}
+
+/// Looks of the page, also on paper.
+const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;color:#111;background:#fff;max-width:78rem;margin:2rem auto;padding:0 1rem}\
+h1{font-size:1.6rem}h2{margin-top:2.2rem;border-bottom:1px solid #999}h3{margin-bottom:.2rem}\
+table{border-collapse:collapse;width:100%;font-size:.8rem;margin:.6rem 0}th,td{border-bottom:1px solid #ddd;padding:.15rem .5rem;\
+text-align:left;vertical-align:top}th{background:#f2f2f2}.good{color:#00591f;font-weight:600}.pass{color:#00591f}\
+.known{color:#7a4b00;font-weight:600}\
+.fail{color:#fff;background:#b00020;font-weight:700}.plots{display:flex;flex-wrap:wrap;gap:.6rem}.plots svg{width:36rem;max-width:100%}\
+@media print{body{font-size:9pt;margin:0;max-width:none}.plots svg{width:48%}h2,h3{break-after:avoid}tr,svg{break-inside:avoid}\
+th{background:none;border-bottom:1px solid #000}.fail{color:#000;background:none;border:2px solid #000}}";
+
+fn class(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Good => "good",
+        Verdict::Pass => "pass",
+        Verdict::Known => "known",
+        Verdict::Fail => "fail",
+        Verdict::Reported => "",
+    }
+}
+
+/// Cases that have rows, with them.
+fn by_case(rows: &[Row]) -> impl Iterator<Item = (&'static Case, Vec<&Row>)> {
+    let own = |case: &'static Case| (case, rows.iter().filter(|row| row.case == case.id).collect::<Vec<_>>());
+    cases().map(own).filter(|(_, rows)| !rows.is_empty())
+}
+
+/// The result as one HTML page without anything outside of it.
+#[must_use]
+pub fn html(head: &Head, rows: &[Row], plots: &[(&'static str, Plot)]) -> String {
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Brisance: verification</title>\n\
+         <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head><body>\n\
+         <h1>Verification of Brisance {}</h1>\n<p><code>{}</code> on {} in {:.0} s. {}.</p>\n",
+        head.version,
+        escape(&head.command),
+        escape(&head.device),
+        head.seconds,
+        summary(rows)
+    );
+    page.push_str(
+        "<p>PCG: iterations of the pressure solve per step, mean and most. Courant: largest acoustic Courant number of the run, and \
+         the iterations that suffice there. A gate marked good is that of a sharp method.</p>\n",
+    );
+    let of = |id: &str| plots.iter().filter(|(own, _)| *own == id).map(|(_, plot)| plot.svg()).collect::<String>();
+    let _ = writeln!(page, "<div class=\"plots\">{}</div>", of(""));
+    let mut group = "";
+    for (case, own) in by_case(rows) {
+        // Writing to a String cannot fail.
+        if case.group != group {
+            group = case.group;
+            let _ = writeln!(page, "<h2>{}</h2>", escape(group));
+        }
+        let (id, title, source) = (escape(case.id), escape(case.title), escape(case.source));
+        let _ = writeln!(page, "<h3 id=\"{id}\">{title}</h3><p><code>{id}</code>. {source}</p>");
+        let heads: String = HEADS[1..].iter().map(|text| format!("<th>{text}</th>")).collect();
+        let _ = writeln!(page, "<table><thead><tr>{heads}</tr></thead><tbody>");
+        for row in own {
+            let cell = |(k, text): (usize, &String)| match k {
+                6 => format!("<td class=\"{}\">{}</td>", class(row.verdict()), escape(text)),
+                _ => format!("<td>{}</td>", escape(text)),
+            };
+            let cells: String = entries(row)[1..].iter().enumerate().map(cell).collect();
+            let _ = writeln!(page, "<tr>{cells}</tr>");
+        }
+        let _ = writeln!(page, "</tbody></table>\n<div class=\"plots\">{}</div>", of(case.id));
+    }
+    page + "</body></html>\n"
+}
+
+/// The result as an object.
+#[must_use]
+pub fn json(head: &Head, rows: &[Row]) -> serde_json::Value {
+    let row = |row: &Row| {
+        let mut object = json!(row);
+        object["verdict"] = json!(row.verdict());
+        object
+    };
+    let case = |(case, rows): (&Case, Vec<&Row>)| {
+        let rows: Vec<_> = rows.into_iter().map(row).collect();
+        json!({ "id": case.id, "title": case.title, "group": case.group, "source": case.source, "rows": rows })
+    };
+    let passed = rows.iter().all(|row| row.verdict() != Verdict::Fail);
+    let cases: Vec<_> = by_case(rows).map(case).collect();
+    json!({ "verification": head, "passed": passed, "summary": summary(rows), "cases": cases })
+}
+
+/// The result as a table in Markdown, one per case.
+#[must_use]
+pub fn markdown(head: &Head, rows: &[Row]) -> String {
+    let mut text = format!("`{}` on {}, {:.0} s: {}.\n", head.command, head.device, head.seconds, summary(rows));
+    let mut group = "";
+    for (case, own) in by_case(rows) {
+        if case.group != group {
+            group = case.group;
+            let _ = write!(text, "\n## {group}\n");
+        }
+        let _ = write!(text, "\n### {}\n\n`{}`. {}\n\n", case.title, case.id, case.source);
+        let _ = writeln!(text, "| {} |\n|{}", HEADS[1..].join(" | "), "---|".repeat(HEADS.len() - 1));
+        for row in own {
+            let entries = entries(row)[1..].iter().map(|entry| entry.replace('|', "\\|")).collect::<Vec<_>>();
+            let _ = writeln!(text, "| {} |", entries.join(" | "));
+        }
+    }
+    text
+}

@@ -1,0 +1,77 @@
+//! Verification: a registry of cases that run shipped scenes and compare them with numbers from elsewhere.
+//!
+//! A [`Case`] runs scenes through a [`Session`] and leaves rows and plots there. Adding one is a `Case` in the list of a
+//! module, or a new module with a list and its line in [`cases`]; rows on positivity and on the solver come by themselves.
+//!
+//! ```ignore
+//! Case { id: "wedge", title: "..", group: "2D gas", quick: true, source: "..", run: wedge }
+//!
+//! fn wedge(session: &mut Session<'_>) -> Result<()> {
+//!     let run = session.run("validation/wedge.toml", Setting::standard(200), &[])?;
+//!     let angle = shock_angle(&run.snapshot);
+//!     session.check(&run, "shock angle [deg]", angle).reference(32.24, "theta-beta-M relation").pass(..);
+//!     session.plot(Plot::new("..", "x", "y").line("ours", points));
+//!     Ok(())
+//! }
+//! ```
+
+mod blast_2d;
+mod blasts;
+mod document;
+pub mod muscl;
+mod plot;
+mod profile;
+mod row;
+mod session;
+mod table;
+mod tube_errors;
+mod tubes;
+mod waves;
+
+pub use document::{Head, html, json, markdown};
+pub use plot::{Plot, Style};
+pub use profile::Profile;
+pub use row::{Limit, Row, Solver, Verdict, short};
+pub use session::{Integrator, Run, Session, Setting, Suite, pair_name};
+pub use table::table;
+
+use crate::Result;
+
+/// One entry of the registry.
+#[derive(Debug)]
+pub struct Case {
+    /// Name on the command line and in tables, unique.
+    pub id: &'static str,
+    /// One line for people.
+    pub title: &'static str,
+    /// Heading in the report.
+    pub group: &'static str,
+    /// Whether the quick suite has it.
+    pub quick: bool,
+    /// Where the problem and its numbers come from.
+    pub source: &'static str,
+    /// Runs it.
+    pub run: fn(&mut Session<'_>) -> Result<()>,
+}
+
+/// All cases, in the order of the report.
+pub fn cases() -> impl Iterator<Item = &'static Case> {
+    [tubes::CASES, blasts::CASES, waves::CASES, blast_2d::CASES].into_iter().flatten()
+}
+
+/// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.
+#[must_use]
+pub fn select(suite: Suite, filter: &str) -> Vec<&'static Case> {
+    let filter = filter.to_lowercase();
+    let named =
+        |case: &Case| [case.id, case.title, case.group].iter().any(|text| text.to_lowercase().contains(&filter));
+    cases().filter(|case| (case.quick || suite == Suite::Full) && named(case)).collect()
+}
+
+/// Conjugate gradient iterations that suffice for a relative residual in a uniform gas: half of sqrt(k) ln(2 / residual) with
+/// the condition k = 1 + 4 d C^2 of the scaled operator, C = c dt / dx. For 1e-7 this is 8.4 sqrt(k).
+/// [Saad, Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128]
+#[must_use]
+pub fn iteration_bound(dimension: u32, courant: f64, residual: f64) -> f64 {
+    0.5 * (1.0 + 4.0 * f64::from(dimension) * courant * courant).sqrt() * (2.0 / residual).ln()
+}

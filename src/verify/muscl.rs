@@ -1,0 +1,151 @@
+//! An independent 1D solver for references: second-order MUSCL with the HLLC flux, explicit, in double precision, on the CPU.
+//! It shares nothing with the method under test but the start of the scene.
+//! [van Leer 1979; Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 2009, sections 10.4 and 13.4]
+
+use super::profile::Profile;
+use crate::scene::{Boundary, Scene};
+
+/// Fraction of the explicit time step.
+const COURANT: f64 = 0.4;
+/// Cells beyond each end.
+const GHOSTS: usize = 2;
+
+/// Density, momentum and energy per volume, or their fluxes.
+type Flow = [f64; 3];
+/// Density, velocity, pressure.
+type Primitive = [f64; 3];
+
+/// The gas at the end of a 1D scene. Walls reflect; every other end lets through what reaches it.
+#[must_use]
+pub fn solve(scene: &Scene) -> Profile {
+    let start = scene.initial_gas().into_iter().map(|cell| [cell[0], cell[1], cell[4]]);
+    let walls = [&scene.boundary.x_min, &scene.boundary.x_max].map(|side| *side == Boundary::Wall);
+    let mut tube = Tube { gamma: scene.gas.gamma, spacing: scene.domain.spacing(), walls, cells: start.collect() };
+    let mut time = 0.0;
+    while time < scene.time.until {
+        let dt = tube.time_step().min(scene.time.until - time);
+        tube.step(dt);
+        time = if dt == scene.time.until - time { scene.time.until } else { time + dt };
+    }
+    let mut state = [const { Vec::new() }; 3];
+    for cell in &tube.cells {
+        for (values, value) in state.iter_mut().zip(tube.primitive(cell)) {
+            values.push(value);
+        }
+    }
+    Profile { origin: scene.domain.origin[0], spacing: tube.spacing, state }
+}
+
+struct Tube {
+    gamma: f64,
+    spacing: f64,
+    walls: [bool; 2],
+    cells: Vec<Flow>,
+}
+
+impl Tube {
+    fn primitive(&self, &[density, momentum, energy]: &Flow) -> Primitive {
+        let velocity = momentum / density;
+        [density, velocity, (self.gamma - 1.0) * (energy - 0.5 * momentum * velocity)]
+    }
+
+    fn time_step(&self) -> f64 {
+        let speed = |cell: &Flow| {
+            let [density, velocity, pressure] = self.primitive(cell);
+            velocity.abs() + (self.gamma * pressure / density).sqrt()
+        };
+        COURANT * self.spacing / self.cells.iter().map(speed).fold(0.0, f64::max)
+    }
+
+    /// Heun's method: the mean of the start and of two Euler steps.
+    fn step(&mut self, dt: f64) {
+        let start = self.cells.clone();
+        self.euler_step(dt);
+        self.euler_step(dt);
+        for (cell, old) in self.cells.iter_mut().zip(&start) {
+            *cell = std::array::from_fn(|k| 0.5 * (cell[k] + old[k]));
+        }
+    }
+
+    fn euler_step(&mut self, dt: f64) {
+        let states = self.padded();
+        let slopes: Vec<Primitive> = states.windows(3).map(limited_slope).collect();
+        let face = |k: usize| {
+            let left = std::array::from_fn(|i| states[k][i] + 0.5 * slopes[k - 1][i]);
+            let right = std::array::from_fn(|i| states[k + 1][i] - 0.5 * slopes[k][i]);
+            self.hllc(left, right)
+        };
+        let fluxes: Vec<Flow> = (1..states.len() - 2).map(face).collect();
+        let ratio = dt / self.spacing;
+        for (cell, pair) in self.cells.iter_mut().zip(fluxes.windows(2)) {
+            *cell = std::array::from_fn(|k| cell[k] - ratio * (pair[1][k] - pair[0][k]));
+        }
+    }
+
+    /// The cells with those beyond the ends.
+    fn padded(&self) -> Vec<Primitive> {
+        let inner = self.cells.iter().map(|cell| self.primitive(cell)).collect::<Vec<_>>();
+        let ghost = |wall: bool, depth: usize, from_low: bool| {
+            let at = |k: usize| if from_low { inner[k] } else { inner[inner.len() - 1 - k] };
+            if wall { [at(depth)[0], -at(depth)[1], at(depth)[2]] } else { at(0) }
+        };
+        let low = (0..GHOSTS).rev().map(|depth| ghost(self.walls[0], depth, true));
+        let high = (0..GHOSTS).map(|depth| ghost(self.walls[1], depth, false));
+        low.chain(inner.iter().copied()).chain(high).collect()
+    }
+
+    /// [Toro, section 10.4, with the wave speeds of 10.5.1 by Davis and Einfeldt]
+    fn hllc(&self, left: Primitive, right: Primitive) -> Flow {
+        let sound = |state: Primitive| (self.gamma * state[2] / state[0]).sqrt();
+        let (roots, sounds) = ([left[0].sqrt(), right[0].sqrt()], [sound(left), sound(right)]);
+        let mean = |a: f64, b: f64| (roots[0] * a + roots[1] * b) / (roots[0] + roots[1]);
+        let speed = mean(left[1], right[1]);
+        let jump = 0.5 * roots[0] * roots[1] / (roots[0] + roots[1]).powi(2) * (right[1] - left[1]).powi(2);
+        let spread = (mean(sounds[0].powi(2), sounds[1].powi(2)) + jump).sqrt();
+        let slow = (left[1] - sounds[0]).min(speed - spread);
+        let fast = (right[1] + sounds[1]).max(speed + spread);
+        if slow >= 0.0 {
+            return self.flux(left);
+        }
+        if fast <= 0.0 {
+            return self.flux(right);
+        }
+        let (push_left, push_right) = (left[0] * (slow - left[1]), right[0] * (fast - right[1]));
+        let middle = (right[2] - left[2] + left[1] * push_left - right[1] * push_right) / (push_left - push_right);
+        if middle >= 0.0 { self.beside(left, slow, middle) } else { self.beside(right, fast, middle) }
+    }
+
+    /// Flux of the state between the contact, which moves at `middle`, and the wave at `speed` into `outer`. [Toro, eqs. 10.38, 10.39]
+    fn beside(&self, outer: Primitive, speed: f64, middle: f64) -> Flow {
+        let [density, velocity, pressure] = outer;
+        let flow = self.conserved(outer);
+        let compressed = density * (speed - velocity) / (speed - middle);
+        let work = middle + pressure / (density * (speed - velocity));
+        let energy = compressed * (flow[2] / density + (middle - velocity) * work);
+        let star = [compressed, compressed * middle, energy];
+        let flux = self.flux(outer);
+        std::array::from_fn(|k| flux[k] + speed * (star[k] - flow[k]))
+    }
+
+    fn conserved(&self, [density, velocity, pressure]: Primitive) -> Flow {
+        [density, density * velocity, pressure / (self.gamma - 1.0) + 0.5 * density * velocity * velocity]
+    }
+
+    fn flux(&self, state: Primitive) -> Flow {
+        let [mass, momentum, energy] = self.conserved(state);
+        let [_, velocity, pressure] = state;
+        [mass * velocity, momentum * velocity + pressure, (energy + pressure) * velocity]
+    }
+}
+
+/// Monotonised central differences. [van Leer 1977]
+fn limited_slope(states: &[Primitive]) -> Primitive {
+    std::array::from_fn(|k| {
+        let (low, high) = (states[1][k] - states[0][k], states[2][k] - states[1][k]);
+        if low * high <= 0.0 {
+            return 0.0;
+        }
+        let size = (2.0 * low.abs()).min(2.0 * high.abs()).min(0.5 * (low + high).abs());
+        size * low.signum()
+    })
+}

@@ -1,0 +1,276 @@
+//! A verification at work: cases run scenes through it and leave rows and plots.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::plot::{Plot, Style};
+use super::profile::Profile;
+use super::row::{Limit, Row, Solver};
+use super::{Case, iteration_bound, muscl};
+use crate::Result;
+use crate::diagnostics::StepRecord;
+use crate::expect::Summary;
+use crate::gpu::Gpu;
+use crate::scene::{Pair, Scene};
+use crate::simulation::Simulation;
+use crate::snapshot::Snapshot;
+
+/// Squared deviations below this are rounding, not error.
+const ROUNDING: f64 = 1e-12;
+
+/// How much to run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Suite {
+    /// Minutes on two processor cores.
+    Quick,
+    /// Everything.
+    Full,
+}
+
+/// Time integration of the gas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Integrator {
+    /// That of the paper.
+    Paper,
+    /// Advection feels the pressure of the step before.
+    Predictor,
+}
+
+impl Integrator {
+    /// Name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Integrator::Paper => "paper",
+            Integrator::Predictor => "predictor",
+        }
+    }
+
+    fn overrides(self) -> Vec<String> {
+        vec![format!("numerics.predictor={}", self == Integrator::Predictor)]
+    }
+}
+
+/// Name of an element pair in tables and scene files.
+#[must_use]
+pub fn pair_name(pair: Pair) -> &'static str {
+    match pair {
+        Pair::B1b0 => "b1b0",
+        Pair::B2b1 => "b2b1",
+    }
+}
+
+/// How to run a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Setting {
+    /// Element pair.
+    pub pair: Pair,
+    /// Time integration.
+    pub integrator: Integrator,
+    /// Cells along the longest axis; those of the scene if 0.
+    pub cells: u32,
+}
+
+impl Setting {
+    /// The defaults of the method at a resolution.
+    #[must_use]
+    pub fn standard(cells: u32) -> Self {
+        Setting { pair: Pair::default(), integrator: Integrator::Predictor, cells }
+    }
+}
+
+/// A finished run.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The scene as it was run.
+    pub scene: Scene,
+    /// The end.
+    pub snapshot: Snapshot,
+    /// The steps.
+    pub records: Vec<StepRecord>,
+    /// What the steps amount to.
+    pub summary: Summary,
+    /// Pair, integrator and cells, for tables.
+    pub label: String,
+    /// What the solver took.
+    pub solver: Solver,
+    /// Most iterations of a step as a share of its bound.
+    pub solver_load: f64,
+}
+
+/// Rows and plots of the cases so far, and what they share.
+pub struct Session<'a> {
+    gpu: &'a Gpu,
+    /// How much to run.
+    pub suite: Suite,
+    /// Called before each run with its name; an error ends the verification.
+    notify: &'a mut dyn FnMut(&str) -> Result<()>,
+    references: BTreeMap<String, Arc<Profile>>,
+    case: &'static str,
+    /// Runs of the case: label, lowest density, lowest pressure, share of the iteration bound.
+    health: Vec<(Solver, [f64; 3])>,
+    /// Deviations of eq. (38) over the cells, by title.
+    curves: Vec<(String, Vec<[f64; 2]>)>,
+    /// All lines.
+    pub rows: Vec<Row>,
+    /// All plots, with the case they belong to; an empty one stands for the whole.
+    pub plots: Vec<(&'static str, Plot)>,
+}
+
+impl<'a> Session<'a> {
+    /// An empty session.
+    pub fn new(gpu: &'a Gpu, suite: Suite, notify: &'a mut dyn FnMut(&str) -> Result<()>) -> Self {
+        Session {
+            gpu,
+            suite,
+            notify,
+            references: BTreeMap::new(),
+            case: "",
+            health: Vec::new(),
+            curves: Vec::new(),
+            rows: Vec::new(),
+            plots: Vec::new(),
+        }
+    }
+
+    /// Runs a case to its end. A run that diverges is a failed row, not the end of the session.
+    ///
+    /// # Errors
+    /// Driver errors, wrong scenes, interruption.
+    pub fn perform(&mut self, case: &'static Case) -> Result<()> {
+        self.case = case.id;
+        self.health.clear();
+        match (case.run)(self) {
+            Err(error @ crate::Error::Diverged { .. }) => {
+                self.push(&format!("runs to the end: {error}"), 0.0).source("method").pass(Limit::AtLeast(1.0));
+            }
+            Err(error) => return Err(error),
+            Ok(()) => {}
+        }
+        self.report_health();
+        Ok(())
+    }
+
+    /// Runs a shipped scene (path below `scenes/`) with overrides of the form `key=value`.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`]; a wrong override.
+    pub fn run(&mut self, path: &str, setting: Setting, overrides: &[String]) -> Result<Run> {
+        let Setting { pair, integrator, cells } = setting;
+        let mut all = vec![format!("numerics.pair={}", pair_name(pair))];
+        all.extend(integrator.overrides().into_iter().chain(overrides.iter().cloned()));
+        let mut scene = Scene::shipped(path, &all)?;
+        if cells > 0 {
+            scene = scene.with_resolution(cells)?;
+        }
+        let size = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join("x");
+        let label = format!("{} {} {size}", pair_name(pair), integrator.name());
+        (self.notify)(&format!("{}: {label}", self.case))?;
+        let mut simulation = Simulation::new(self.gpu, &scene)?;
+        let records = simulation.advance_to(scene.time.until)?;
+        let snapshot = simulation.snapshot()?;
+        let run = Run::new(scene, snapshot, records, label);
+        let summary = &run.summary;
+        self.health.push((run.solver, [summary.min_density, summary.min_pressure, run.solver_load]));
+        Ok(run)
+    }
+
+    /// Adds a row about a run.
+    pub fn check(&mut self, run: &Run, quantity: &str, ours: f64) -> &mut Row {
+        let (setting, solver) = (run.label.clone(), run.solver);
+        let row = self.push(quantity, ours);
+        row.setting = setting;
+        row.solver = Some(solver);
+        row
+    }
+
+    /// Adds a row about several runs.
+    pub fn push(&mut self, quantity: &str, ours: f64) -> &mut Row {
+        let (setting, source) = (String::new(), String::new());
+        let row = Row {
+            case: self.case,
+            setting,
+            quantity: quantity.to_owned(),
+            reference: None,
+            source,
+            ours,
+            pass: None,
+            good: None,
+            known: None,
+            solver: None,
+        };
+        self.rows.push(row);
+        let last = self.rows.len() - 1;
+        &mut self.rows[last]
+    }
+
+    /// Adds a plot to the case.
+    pub fn plot(&mut self, plot: Plot) {
+        self.plots.push((self.case, plot));
+    }
+
+    /// Keeps errors over cells for [`Session::overview`]; those of mere rounding are left out.
+    pub(super) fn curve(&mut self, title: &str, points: Vec<[f64; 2]>) {
+        if points.iter().all(|point| point[1] > ROUNDING) {
+            self.curves.push((title.to_owned(), points));
+        }
+    }
+
+    /// Adds the plot of all errors over cells, as [Cao et al. 2022, fig. 16 left].
+    pub fn overview(&mut self) {
+        let empty = Plot::new("Squared density deviation, eq. (38), of the default method", "cells", "deviation");
+        let curves = std::mem::take(&mut self.curves).into_iter();
+        let plot = curves.fold(empty.logarithmic(), |plot, (title, points)| plot.with(title, Style::Both, points));
+        self.plots.insert(0, ("", plot));
+    }
+
+    /// End of a 1D scene by the independent solver of [`muscl`]; computed once per session.
+    ///
+    /// # Errors
+    /// A scene that cannot have so many cells.
+    pub fn fine_reference(&mut self, scene: &Scene, cells: u32) -> Result<Arc<Profile>> {
+        let key = format!("{} {cells} {}", scene.title, scene.time.until);
+        if let Some(found) = self.references.get(&key) {
+            return Ok(Arc::clone(found));
+        }
+        (self.notify)(&format!("{}: MUSCL-HLLC reference {cells}", self.case))?;
+        let profile = Arc::new(muscl::solve(&scene.with_resolution(cells)?));
+        self.references.insert(key, Arc::clone(&profile));
+        Ok(profile)
+    }
+
+    /// Rows that every case gets: nothing negative anywhere, and a solver that takes no longer than it must.
+    fn report_health(&mut self) {
+        if self.health.is_empty() {
+            return;
+        }
+        let least = |k: usize| self.health.iter().map(|(_, own)| own[k]).fold(f64::INFINITY, f64::min);
+        let (density, pressure) = (least(0), least(1));
+        let hardest = self.health.iter().max_by(|a, b| a.1[2].total_cmp(&b.1[2])).copied();
+        self.push("lowest density of all runs", density).source("physics").pass(Limit::Above(0.0));
+        self.push("lowest pressure of all runs", pressure).source("physics").pass(Limit::Above(0.0));
+        if let Some((solver, [_, _, load])) = hardest {
+            let row = self.push("PCG iterations over bound, worst step", load);
+            row.source("conjugate gradients, 1 + 4 d C^2").pass(Limit::AtMost(1.0)).solver = Some(solver);
+        }
+    }
+}
+
+impl Run {
+    fn new(scene: Scene, snapshot: Snapshot, records: Vec<StepRecord>, label: String) -> Self {
+        let mut summary = Summary::default();
+        summary.add(&records);
+        let bound = |courant: f64| iteration_bound(scene.domain.dimension, courant, scene.numerics.tolerance);
+        let courant = records.iter().map(|record| f64::from(record.courant)).fold(0.0, f64::max);
+        let load = records.iter().map(|record| f64::from(record.iterations) / bound(record.courant.into()));
+        let solver_load = load.fold(0.0, f64::max);
+        let solver = Solver {
+            steps: summary.steps,
+            mean_iterations: summary.iterations as f64 / summary.steps.max(1) as f64,
+            max_iterations: summary.max_iterations,
+            courant,
+            bound: bound(courant),
+        };
+        Run { scene, snapshot, records, summary, label, solver, solver_load }
+    }
+}
