@@ -61,7 +61,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     put(2u, at, lane, workgroup_sum4(lane, crossed));
     put(3u, at, lane, workgroup_sum4(lane, heat));
     put(4u, at, lane, workgroup_max4(lane, extremes));
-    put(5u, at, lane, workgroup_max4(lane, vec4f(speed.x, speed.y * control.dt / params.spacing, 0.0, 0.0)));
+    put(5u, at, lane, workgroup_max4(lane, vec4f(speed.x, speed.y * control.duration / params.spacing, 0.0, 0.0)));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -107,7 +107,7 @@ fn totals_record(@builtin(local_invocation_index) lane: u32) {
         if lane == 0u { history[base + 2u + block] = value; }
     }
     if lane != 0u { return; }
-    history[base] = vec4f(control.dt, control.residual, bitcast<f32>(control.step), bitcast<f32>(control.iterations));
+    history[base] = vec4f(control.duration, control.residual, bitcast<f32>(control.step), bitcast<f32>(control.iterations));
     history[base + 1u] = vec4f(bitcast<f32>(control.substeps | (control.extra << 12u)), bitcast<f32>(atomicLoad(&control.limited)),
         bitcast<f32>(atomicLoad(&control.floored)), bitcast<f32>(atomicLoad(&control.clamped)));
 }

@@ -6,6 +6,7 @@
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/control.wgsl"
+#include "shared/ars.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -34,14 +35,16 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     let least = max(FLOOR_SHARE * before, RESOLVED_SHARE * total);
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
+    // What the first of two solves loses counts more than once in the second [shared/ars.wgsl].
+    let booked = select(1.0, 1.0 + ARS_KEPT, ARS && control.stage == 0u) * cell_volume();
     atomicAdd(&control.floored, 1u);
     if total < least {
         energy[slot] = least;
-        if LEDGER { owed_energy[slot] -= (least - total) * cell_volume(); }
+        if LEDGER { owed_energy[slot] -= (least - total) * booked; }
         flow = vec4f(flow.x, vec3f(0.0));
     } else {
         flow = vec4f(flow.x, flow.yzw * sqrt((total - least) / kinetic));
     }
-    if LEDGER { owed_flow[slot] += (conserved[slot] - flow) * cell_volume(); }
+    if LEDGER { owed_flow[slot] += (conserved[slot] - flow) * booked; }
     conserved[slot] = flow;
 }

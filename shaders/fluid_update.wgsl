@@ -10,6 +10,7 @@
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
 #include "shared/interior.wgsl"
+#include "shared/carrier.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -93,14 +94,20 @@ fn interior_impulse(slot: u32) -> vec3f {
     return impulse;
 }
 
+// Velocity of the face between two GAS cells.
+fn face_velocity(n: u32, low: u32, high: u32) -> f32 {
+    let a = conserved[low];
+    let b = conserved[high];
+    if CONSISTENT { return carried_velocity(n, node[low], a.x, node[high], b.x); }
+    return (a[n + 1u] + b[n + 1u]) / (a.x + b.x);
+}
+
 fn interior_heat(slot: u32) -> f32 {
     var heat = 0.0;
-    let here = conserved[slot];
     for (var n = 0u; n < DIM; n++) {
-        let low = conserved[slot - step_of(n)];
-        let high = conserved[slot + step_of(n)];
-        heat += interior_face(slot, n) * (low[n + 1u] + here[n + 1u]) / (low.x + here.x)
-            - interior_face(slot + step_of(n), n) * (here[n + 1u] + high[n + 1u]) / (here.x + high.x);
+        let s = step_of(n);
+        heat += interior_face(slot, n) * face_velocity(n, slot - s, slot)
+            - interior_face(slot + s, n) * face_velocity(n, slot, slot + s);
     }
     return heat;
 }
@@ -166,10 +173,7 @@ fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     let p = face_pressure(c, n, up);
     let here = conserved[slot];
     let far = select(c - axis(n), c + axis(n), up);
-    if beyond == GAS {
-        let other = conserved[slot_of(far)];
-        return p * (here[n + 1u] + other[n + 1u]) / (here.x + other.x);
-    }
+    if beyond == GAS { return p * face_velocity(n, slot_of(min(c, far)), slot_of(max(c, far))); }
     // Open: the velocity that the solve saw there.
     let ring = slot_of(far);
     let face = OpenFace(energy[2u * params.slots + ring], energy[params.slots + ring]);

@@ -1,6 +1,7 @@
 // gas_advection: where does the gas carry itself?
 // Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
 // TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
+// ARS: one stage before each of the two solves, see shared/ars.wgsl.
 // Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
 #include "shared/index.wgsl"
@@ -9,16 +10,18 @@
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/control.wgsl"
+#include "shared/ars.wgsl"
 #include "shared/reconstruct.wgsl"
 #include "shared/flux.wgsl"
+#include "shared/carrier.wgsl"
 
 override SECOND: bool;  // stage of the Runge-Kutta scheme
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // first half: U1, second half: U*
-@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // thirds: now, U1, U*
+@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // U1, U*; with ARS a third part: the kept state
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // now, U1, U*; with ARS the kept state
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
@@ -27,7 +30,7 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 const KEPT = 0.1;
 
 fn source(slot: u32) -> Gas {
-    if SECOND { return Gas(work[slot], energy[params.slots + slot]); }
+    if SECOND && !ARS { return Gas(work[slot], energy[params.slots + slot]); }
     return Gas(conserved[slot], energy[slot]);
 }
 
@@ -44,11 +47,44 @@ fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
     return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first));
 }
 
+// Carrier of an open slot; beyond an outlet that of the nearest cell.
+fn open_carrier(c: vec3i) -> vec4f {
+    if !inside(c) {
+        let opening = opening_of(cells[slot_of(nearest_ring(c))]);
+        if opening.rule <= RULE_SUBSONIC { return vec4f(velocity_of(opening.flow), 0.0); }
+    }
+    return node[slot_of(nearest_inside(c))];
+}
+
+// Fluxes by the carrier through the face between `near` and `far`. Without bodies only open faces pass anything.
+fn carried_face(near: vec3i, far: vec3i, behind: vec3i, beyond: vec3i, n: u32, up: bool) -> Fluxes {
+    var out: Fluxes;
+    let far_word = cells[slot_of(far)];
+    if !is_open(far_word) { return out; }
+    let here = source(slot_of(near));
+    let own = node[slot_of(near)];
+    let next = open_gas(far, n);
+    let other = open_carrier(far);
+    var last = next;
+    var first = here;
+    let alpha = select(carrier_spread(other[n], own[n]), carrier_spread(own[n], other[n]), up);
+    if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond, n); }
+    if is_open(cells[slot_of(behind)]) { first = open_gas(behind, n); }
+    var carried = other[n];
+    if kind_of(far_word) == GAS {
+        if up { carried = carried_velocity(n, own, here.flow.x, other, next.flow.x); }
+        else { carried = carried_velocity(n, other, next.flow.x, own, here.flow.x); }
+    }
+    if up { return carried_fluxes(first, here, next, last, carried, alpha); }
+    return carried_fluxes(last, next, here, first, carried, alpha);
+}
+
 // Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
 fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     let far = select(near - axis(n), near + axis(n), up);
     let behind = select(near + axis(n), near - axis(n), up);
     let beyond = select(near - 2 * axis(n), near + 2 * axis(n), up);
+    if CONSISTENT { return carried_face(near, far, behind, beyond, n, up); }
     let near_slot = slot_of(near);
     let here = source(near_slot);
     let far_word = cells[slot_of(far)];
@@ -82,7 +118,7 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
 struct Change { high: Gas, low: Gas }
 
 fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
-    let scale = sign * control.dt / params.spacing;
+    let scale = sign * control.dt * select(1.0, ARS_SECOND, ARS && SECOND) / params.spacing;
     let blend = max(part, 0.0);
     let drain = 1.0 + min(part, 0.0);
     let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, part == 1.0);
@@ -115,13 +151,23 @@ fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
     return change;
 }
 
+// Fluxes deep inside the gas, through the face above slot b.
+fn interior_fluxes(n: u32, b_slot: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxes {
+    if !CONSISTENT { return face_fluxes_of(n, a, b, c, d); }
+    let s = step_of(n);
+    let low = node[b_slot];
+    let high = node[b_slot + s];
+    let alpha = carrier_spread(low[n], high[n]);
+    return carried_fluxes(a, b, c, d, carried_velocity(n, low, b.flow.x, high, c.flow.x), alpha);
+}
+
 // The same through both faces across one axis, far from walls, bodies and open sides, where nothing has to be asked.
 fn add_axis(change: ptr<function, Change>, slot: u32, n: u32, here: Gas) {
     let s = step_of(n);
     let b = source(slot - s);
     let c = source(slot + s);
-    add_face(change, face_fluxes_of(n, source(slot - 2u * s), b, here, c), 1.0, 1.0);
-    add_face(change, face_fluxes_of(n, b, here, c, source(slot + 2u * s)), 1.0, -1.0);
+    add_face(change, interior_fluxes(n, slot - s, source(slot - 2u * s), b, here, c), 1.0, 1.0);
+    add_face(change, interior_fluxes(n, slot, b, here, c, source(slot + 2u * s)), 1.0, -1.0);
 }
 
 fn drained_share(before: Gas, change: Change) -> f32 {
@@ -141,7 +187,10 @@ fn drained_share(before: Gas, change: Change) -> f32 {
 // leaves KEPT of what is there.
 fn allowed_share(before: Gas, change: Change) -> f32 {
     let low = Gas(before.flow + change.low.flow, before.energy + change.low.energy);
-    if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) { return drained_share(before, change); }
+    if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) {
+        if ARS && SECOND { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
+        return drained_share(before, change);
+    }
     let density = before.flow.x + change.high.flow.x;
     var share = 1.0;
     if density < KEPT * low.flow.x { share = (1.0 - KEPT) * low.flow.x / max(low.flow.x - density, 1e-30); }
@@ -155,8 +204,21 @@ fn allowed_share(before: Gas, change: Change) -> f32 {
     return 0.0;
 }
 
+// The state that the change of this stage is added to.
+fn start_of(slot: u32, here: Gas) -> Gas {
+    if !ARS || !SECOND { return here; }
+    return Gas(here.flow + ARS_KEPT * (here.flow - work[2u * params.slots + slot]),
+        here.energy + ARS_KEPT * (here.energy - energy[3u * params.slots + slot]));
+}
+
 fn write_result(slot: u32, before: Gas, change: Gas) {
-    if SECOND {
+    if ARS {
+        work[params.slots + slot] = before.flow + change.flow;
+        energy[2u * params.slots + slot] = before.energy + change.energy;
+        if SECOND { return; }
+        work[2u * params.slots + slot] = before.flow + ARS_CHANGE * change.flow;
+        energy[3u * params.slots + slot] = before.energy + ARS_CHANGE * change.energy;
+    } else if SECOND {
         work[params.slots + slot] = 0.5 * (conserved[slot] + before.flow + change.flow);
         energy[2u * params.slots + slot] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
@@ -165,7 +227,8 @@ fn write_result(slot: u32, before: Gas, change: Gas) {
     }
 }
 
-fn finish(slot: u32, before: Gas, change: Change) {
+fn finish(slot: u32, here: Gas, change: Change) {
+    let before = start_of(slot, here);
     if LIMITER {
         var share = 1.0;
         if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
@@ -198,12 +261,12 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     var b = source(max(first, s) - s);
     var here = source(first);
     var c = source(min(first + s, last));
-    var low = face_fluxes_of(n, a, b, here, c);
+    var low = interior_fluxes(n, max(first, s) - s, a, b, here, c);
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
         if slot > last { break; }
         let d = source(min(slot + 2u * s, last));
-        let high = face_fluxes_of(n, b, here, c, d);
+        let high = interior_fluxes(n, slot, b, here, c, d);
         if has(cells[slot], INTERIOR) {
             var change: Change;
             add_face(&change, low, 1.0, 1.0);
@@ -232,5 +295,5 @@ fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         if in_ring(c + axis(n)) { least = min(least, theta[slot_of(c + axis(n))]); }
     }
     if least == 1.0 { return; }
-    write_result(slot, source(slot), change_of(c, slot, true).high);
+    write_result(slot, start_of(slot, source(slot)), change_of(c, slot, true).high);
 }

@@ -18,7 +18,7 @@ struct Knot {
 @compute @workgroup_size(WORKGROUP)
 fn openings_now(@builtin(local_invocation_index) lane: u32) {
     if lane >= MAX_OPENINGS || openings[lane].knots == 0u { return; }
-    let time = control.time + 0.5 * control.dt;
+    let time = control.time + 0.5 * control.duration;
     let first = openings[lane].first;
     let last = first + openings[lane].knots - 1u;
     var next = first;

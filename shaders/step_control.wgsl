@@ -35,7 +35,7 @@ fn control_listed() {
 @compute @workgroup_size(1)
 fn control_limiter() {
     let now = atomicLoad(&control.limited);
-    open_phase(PHASE_LIMIT_EXTENTS, extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x > 0u && now > control.limited_before);
+    open_phase(PHASE_LIMIT_EXTENTS, now > control.limited_before);
     control.limited_before = now;
 }
 
@@ -49,9 +49,19 @@ fn control_solved() {
     let done = solving && pcg.outcome == PCG_CONVERGED && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_UPDATE_EXTENTS, done);
     if !done { return; }
-    control.iterations = pcg.iterations;
+    control.iterations = select(0u, control.iterations, control.stage > 0u) + pcg.iterations;
     control.residual = select(0.0, sqrt(max(pcg.rho, 0.0) / pcg.reference), pcg.reference > 0.0);
-    control.phase = PHASE_SUBSTEP;
+    control.phase = select(PHASE_SUBSTEP, PHASE_BETWEEN, ARS && control.stage == 0u);
+}
+
+// After the first of two solves and its updates: opens the second advection and solve.
+@compute @workgroup_size(1)
+fn control_second() {
+    let due = control.phase == PHASE_BETWEEN && atomicLoad(&control.fault) == NO_FAULT;
+    open_phase(PHASE_SECOND_EXTENTS, due);
+    if !due { return; }
+    control.stage = 1u;
+    control.phase = PHASE_SOLVE;
 }
 
 // Before each recorded sub-step. `again`: the particles have moved since the last P2G.
@@ -72,9 +82,9 @@ fn control_finish() {
     if !done { return; }
     control.phase = PHASE_IDLE;
     control.step += 1u;
-    control.remaining -= control.dt;
+    control.remaining -= control.duration;
     // Compensated: many small steps must not lose their sum. [Kahan 1965]
-    let step = control.dt + control.time_error;
+    let step = control.duration + control.time_error;
     let time = control.time + step;
     control.time_error = step - (time - control.time);
     control.time = time;

@@ -8,6 +8,7 @@
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/control.wgsl"
+#include "shared/ars.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/extents.wgsl"
 
@@ -125,11 +126,13 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
         dt = min(dt, params.cfl * params.spacing / max(largest.z, 1e-30));
         dt = min(dt, f32(params.max_substeps) * elastic_step);
     }
-    control.dt_previous = dt;
     // Reach the asked time exactly, without a tiny last step.
     if dt >= control.remaining * (1.0 - 1e-5) { dt = control.remaining; }
     else if dt > 0.5 * control.remaining { dt = 0.5 * control.remaining; }
-    control.dt = dt;
+    control.duration = dt;
+    control.dt_previous = dt; // growth counts from the step as taken: steps that alternate between short and long blow up
+    control.dt = select(dt, ARS_SHARE * dt, ARS);
+    control.stage = 0u;
     control.substeps = 0u;
     if SOLIDS { control.substeps = u32(ceil(max(1.0, dt / elastic_step - 1e-4))); }
     control.substep = 0u;

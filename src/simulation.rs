@@ -6,8 +6,8 @@ use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::{ParticleSample, Snapshot};
 use crate::stage::{
-    CoupledSolve, FluidUpdate, G2p, GasAdvection, InterfaceStage, IntermediatePressure, MpmGridUpdate, P2g,
-    ParticleSort, Parts, TimeStep, Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, FluidUpdate, G2p, GasAdvection, InterfaceStage, IntermediatePressure,
+    MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::{self, NO_FAULT, STAGES};
 use crate::state::{Control, HISTORY, State};
@@ -22,14 +22,18 @@ pub struct Simulation {
     particle_sort: Option<ParticleSort>,
     p2g: Option<P2g>,
     interface: InterfaceStage,
+    carrier: CarrierVelocity,
     gas_advection: GasAdvection,
     intermediate_pressure: IntermediatePressure,
     coupled_solve: CoupledSolve,
     fluid_update: FluidUpdate,
     mpm_grid_update: Option<MpmGridUpdate>,
     g2p: Option<G2p>,
+    odd_even: Option<OddEven>,
     totals: Totals,
     gamma: f64,
+    /// Pressure solves per step.
+    solves: u32,
     time: f64,
     step: u64,
     /// Iterations and sub-steps that are recorded per step; a step that needs more goes on in the next recording.
@@ -62,14 +66,17 @@ impl Simulation {
             particle_sort: solids.then(|| ParticleSort::new(parts)).transpose()?,
             p2g: solids.then(|| P2g::new(parts, transfer)).transpose()?,
             interface: InterfaceStage::new(parts)?,
+            carrier: CarrierVelocity::new(parts, scene.consistent())?,
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
             coupled_solve,
             fluid_update: FluidUpdate::new(parts)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
             g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
+            odd_even: (scene.numerics.filter > 0.0).then(|| OddEven::new(parts, scene.numerics.filter)).transpose()?,
             totals: Totals::new(parts)?,
             gamma: scene.gas.gamma,
+            solves: scene.solves(),
             time: 0.0,
             step: 0,
             recorded: (FIRST_ITERATIONS, 1),
@@ -99,18 +106,43 @@ impl Simulation {
         }
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
         self.time_step.record_listed(pass);
-        self.gas_advection.record(pass, state, &self.time_step); // (3) eqs. 10-12
-        self.intermediate_pressure.record(pass, state); // (4) eqs. 9 and 17
-        self.coupled_solve.record_setup(pass, state);
-        self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
-        self.time_step.record_solved(pass);
-        self.coupled_solve.record_solution(pass, state);
-        self.fluid_update.record(pass, state); // eqs. 14 and 3, local gradients
+        self.record_advection(pass, 0, Carried::Now, "BEGIN"); // (3) eqs. 10-12
+        if self.solves == 1 {
+            self.record_advection(pass, 1, Carried::First, "BEGIN");
+            self.record_pressure(pass, "BEGIN");
+        } else {
+            self.record_pressure(pass, "BEGIN");
+            self.time_step.record_second(pass); // [Ascher, Ruuth & Spiteri 1997]
+            self.record_advection(pass, 1, Carried::Now, "SECOND");
+            self.record_pressure(pass, "SECOND");
+        }
         self.coupled_solve.record_solid(pass, state); // eq. 36
         for substep in 0..self.recorded.1 {
             self.record_substep(pass, substep);
         }
         self.time_step.record_finish(pass);
+        if let Some(odd_even) = &self.odd_even {
+            odd_even.record(pass, state);
+        }
+    }
+
+    /// One stage of the advection.
+    fn record_advection(&self, pass: &mut Pass, stage: usize, source: Carried, phase: &str) {
+        pass.stage("gas_advection");
+        self.carrier.record(pass, &self.state, source, phase);
+        self.gas_advection.record(pass, &self.state, &self.time_step, stage, phase);
+    }
+
+    /// The implicit part: solve and update of the gas.
+    fn record_pressure(&self, pass: &mut Pass, phase: &str) {
+        let state = &self.state;
+        self.carrier.record(pass, state, Carried::Star, phase);
+        self.intermediate_pressure.record(pass, state, phase); // (4) eqs. 9 and 17
+        self.coupled_solve.record_setup(pass, state, phase);
+        self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
+        self.time_step.record_solved(pass);
+        self.coupled_solve.record_solution(pass, state);
+        self.fluid_update.record(pass, state, &self.carrier); // eqs. 14 and 3, local gradients
     }
 
     /// One elastic sub-step. The first recorded one may be the first of a step or the continuation of a long one.
@@ -197,7 +229,8 @@ impl Simulation {
         let most = newest.iter().map(|record| (record.iterations, record.substeps));
         let (iterations, substeps) = most.fold((1, 1), |a, b| (a.0.max(b.0), a.1.max(b.1)));
         let unfinished = if control.phase == 0 { (0, 0) } else { (self.recorded.0 * 2, self.recorded.1 * 2) };
-        let iterations = (iterations + 2).max(unfinished.0).min(self.state.params.max_iterations + 1);
+        let iterations =
+            (iterations.div_ceil(self.solves) + 2).max(unfinished.0).min(self.state.params.max_iterations + 1);
         let substeps = substeps.max(unfinished.1).min(self.state.params.max_substeps.max(1));
         self.recorded = (iterations, if self.state.has_solids() { substeps } else { 1 });
         Ok(control.remaining <= 0.0 && control.phase == 0)

@@ -1,12 +1,14 @@
 // What the device decides about the run: time step, phase, failure, counts. Mirror of src/state/control.rs (Control).
 
 struct Control {
-    dt: f32,                    // [s] current step
-    dt_previous: f32,           // [s] what the bounds allowed last, before it was shortened to meet a time
+    dt: f32,                    // [s] what one solve spans
+    duration: f32,              // [s] current step: dt, or with ARS the span of both its solves
+    dt_previous: f32,           // [s] the step before
     remaining: f32,             // [s] to the time the host asked for
-    phase: u32,                 // PHASE_IDLE, PHASE_SOLVE, PHASE_SUBSTEP
+    phase: u32,                 // PHASE_IDLE, PHASE_SOLVE, PHASE_BETWEEN, PHASE_SUBSTEP
     substeps: u32,              // elastic sub-steps of this step
     substep: u32,               // next one to run
+    stage: u32,                 // solves of this step that are done
     step: u32,                  // finished steps since the start of the run
     fault: atomic<u32>,         // smallest stage << 27 | slot that met an impossible value; NO_FAULT if none
     limited: atomic<u32>,       // cells where the flux limiter acted, this step

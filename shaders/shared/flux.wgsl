@@ -13,6 +13,21 @@ fn unpacked(flux: vec4f, energy: f32) -> Gas {
     return Gas(flux, energy);
 }
 
+// The same with one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`,
+// at least upwind.
+fn carried_fluxes(a: Gas, b: Gas, c: Gas, d: Gas, carried: f32, alpha: f32) -> Fluxes {
+    let spread = max(alpha, abs(carried));
+    let up = 0.5 * (carried + spread);
+    let down = 0.5 * (carried - spread);
+    var out: Fluxes;
+    let flow = up * weno3_vector(packed(a), packed(b), packed(c)) + down * weno3_vector(packed(d), packed(c), packed(b));
+    var energy = 0.0;
+    if DIM == 3u { energy = up * weno3(a.energy, b.energy, c.energy) + down * weno3(d.energy, c.energy, b.energy); }
+    out.high = unpacked(flow, energy);
+    if LIMITER { out.low = Gas(up * b.flow + down * c.flow, up * b.energy + down * c.energy); }
+    return out;
+}
+
 fn face_fluxes_of(n: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxes {
     let ua = a.flow[n + 1u] / a.flow.x;
     let ub = b.flow[n + 1u] / b.flow.x;

@@ -10,6 +10,7 @@ macro_rules! sources {
 /// All embedded shaders: path below `shaders/`, text.
 #[rustfmt::skip]
 pub const SOURCES: &[(&str, &str)] = sources![
+    "carrier.wgsl",
     "diagnostics.wgsl",
     "field.wgsl",
     "fluid_floor.wgsl",
@@ -24,6 +25,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "materials/neo_hookean.wgsl",
     "materials/von_mises.wgsl",
     "mpm_grid_update.wgsl",
+    "odd_even.wgsl",
     "openings.wgsl",
     "p2g.wgsl",
     "p2g_scatter.wgsl",
@@ -31,8 +33,10 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "points.wgsl",
     "reduce.wgsl",
     "scan.wgsl",
+    "shared/ars.wgsl",
     "shared/boundary.wgsl",
     "shared/bspline.wgsl",
+    "shared/carrier.wgsl",
     "shared/cell.wgsl",
     "shared/color.wgsl",
     "shared/columns.wgsl",

@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::check_shape;
 use super::source::{Finding, walk};
-use super::{GasState, Scene};
+use super::{GasState, Integrator, Scene};
 use crate::material::kind_names;
 
 /// Cells per active axis at least: the advection stencil needs this many.
@@ -285,10 +285,33 @@ impl Check<'_> {
                 "give a number above 0 and below 1; single precision reaches about 1e-6",
             );
         }
+        if !(0.0..=1.0).contains(&numerics.filter) {
+            self.add("numerics.filter", format!("{} is out of range", numerics.filter), "give a number from 0 to 1");
+        }
         self.count("numerics.max_iterations", numerics.max_iterations, 1, 100_000);
         self.fraction("numerics.solid_threshold", numerics.solid_threshold, 1.0);
         self.fraction("numerics.elastic_cfl", numerics.elastic_cfl, 1.0);
+        if self.scene.consistent() && !self.scene.bodies.is_empty() {
+            let help = "give \"cell\", or \"auto\", which chooses for the scene";
+            self.add("numerics.face_velocity", "\"consistent\" carries gas only, and this scene has bodies", help);
+        }
+        if self.scene.solves() == 2 {
+            self.ars222();
+        }
         self.count("numerics.max_substeps", numerics.max_substeps, 1, 10_000);
+    }
+
+    /// What two solves per step cannot do.
+    fn ars222(&mut self) {
+        let key = "numerics.integrator";
+        if !self.scene.bodies.is_empty() {
+            let help = "give \"predictor\", or \"auto\", which chooses for the scene";
+            self.add(key, "\"ars222\" moves gas only, and this scene has bodies", help);
+        }
+        if self.scene.time.cfl > Integrator::ARS_CFL {
+            let message = format!("\"ars222\" with time.cfl = {}", self.scene.time.cfl);
+            self.add(key, message, format!("give a time.cfl of at most {}", Integrator::ARS_CFL));
+        }
     }
 
     fn output(&mut self) {

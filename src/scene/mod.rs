@@ -11,6 +11,7 @@ mod check_boundary;
 mod check_shape;
 mod distance;
 mod fill;
+mod integrator;
 mod load;
 mod settings;
 mod shape;
@@ -35,6 +36,7 @@ pub use boundary::{
 };
 pub use check_boundary::MAX_OPENINGS;
 pub use fill::Seed;
+pub use integrator::{FaceVelocity, Integrator};
 pub use settings::{
     Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Output, Pair, Power, RenderMode,
     RenderSettings, Time, Transfer,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::vector;
+use super::{FaceVelocity, Integrator, vector};
 
 /// How long, and how finely in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,8 +53,12 @@ pub struct Numerics {
     pub tolerance: f64,
     /// The pressure solve gives up after this many iterations.
     pub max_iterations: u32,
-    /// Advect with the pressure of the step before (consistent predictor).
-    pub predictor: bool,
+    /// Time integration of the gas.
+    pub integrator: Integrator,
+    /// Velocity that carries the gas through its faces.
+    pub face_velocity: FaceVelocity,
+    /// Share of the mode alternating from cell to cell that a conservative filter removes per step, 0 to 1.
+    pub filter: f64,
     /// Pressure unknowns where gas and solid meet.
     pub interface: InterfacePressure,
     /// A cell is solid when bodies fill more than this fraction of it, above 0 and at most 1.
@@ -83,7 +87,9 @@ impl Default for Numerics {
             pair: Pair::default(),
             tolerance: 1e-5,
             max_iterations: 500,
-            predictor: true,
+            integrator: Integrator::default(),
+            face_velocity: FaceVelocity::default(),
+            filter: 0.0,
             interface: InterfacePressure::default(),
             solid_threshold: 0.5,
             film: Film::default(),

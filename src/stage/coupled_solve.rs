@@ -90,23 +90,23 @@ impl CoupledSolve {
         })
     }
 
-    /// Masses, right-hand side and diagonal; opens the iteration.
-    pub fn record_setup(&self, pass: &mut Pass, state: &State) {
+    /// Masses, right-hand side and diagonal; opens the iteration. In a phase.
+    pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("coupled_solve");
         if let Some(predictor) = &self.predictor {
-            pass.dispatch(predictor, &slots(state, "BEGIN"));
+            pass.dispatch(predictor, &slots(state, phase));
         }
-        pass.dispatch(&self.open, &extent(state, "BEGIN", Entry::Listed));
-        record_both(pass, state, "BEGIN", &self.masses);
+        pass.dispatch(&self.open, &extent(state, phase, Entry::Listed));
+        record_both(pass, state, phase, &self.masses);
         for [plain, listed] in [&self.forces_of_pressure, &self.velocities] {
-            pass.dispatch(plain, &extent(state, "BEGIN", self.vertices.nodes.0));
-            pass.dispatch(listed, &extent(state, "BEGIN", Entry::Listed));
+            pass.dispatch(plain, &extent(state, phase, self.vertices.nodes.0));
+            pass.dispatch(listed, &extent(state, phase, Entry::Listed));
         }
         for (kernel, entry) in &self.vertices.setup {
-            pass.dispatch(kernel, &extent(state, "BEGIN", *entry));
+            pass.dispatch(kernel, &extent(state, phase, *entry));
         }
-        pass.dispatch(&self.reference, &extent(state, "BEGIN", Entry::Reduce));
-        self.pcg.begin(pass, &extent(state, "BEGIN", Entry::Reduce), &extent(state, "BEGIN", Entry::Single));
+        pass.dispatch(&self.reference, &extent(state, phase, Entry::Reduce));
+        self.pcg.begin(pass, &extent(state, phase, Entry::Reduce), &extent(state, phase, Entry::Single));
     }
 
     /// Iterations; those after convergence do nothing.

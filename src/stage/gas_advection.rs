@@ -8,7 +8,7 @@ use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
 
-/// Kernels of the stage: two Runge-Kutta stages, each with its correction by the limiter.
+/// Kernels of the stage: two Runge-Kutta stages, each with its correction by the limiter; with two solves one before each.
 #[derive(Debug)]
 pub struct GasAdvection {
     stages: [RungeKuttaStage; 2],
@@ -46,16 +46,14 @@ impl GasAdvection {
         Ok(Self { stages: [stage(0.0)?, stage(1.0)?] })
     }
 
-    /// Advances the conserved variables by their own motion.
-    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep) {
-        pass.stage("gas_advection");
-        for stage in &self.stages {
-            pass.dispatch(&stage.interior, &extent(state, "BEGIN", Entry::Marched));
-            pass.dispatch(&stage.listed, &extent(state, "BEGIN", Entry::Listed));
-            if let Some(limited) = &stage.limited {
-                control.record_limiter(pass);
-                pass.dispatch(limited, &slots(state, "LIMIT"));
-            }
+    /// One of the two stages, 0 or 1, in a phase: both belong to one advection, or with two solves one to each.
+    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: &str) {
+        let kernels = &self.stages[stage];
+        pass.dispatch(&kernels.interior, &extent(state, phase, Entry::Marched));
+        pass.dispatch(&kernels.listed, &extent(state, phase, Entry::Listed));
+        if let Some(limited) = &kernels.limited {
+            control.record_limiter(pass);
+            pass.dispatch(limited, &slots(state, "LIMIT"));
         }
     }
 }

@@ -31,12 +31,12 @@ impl IntermediatePressure {
         })
     }
 
-    /// Cell pressures, then vertex pressures and stiffness.
-    pub fn record(&self, pass: &mut Pass, state: &State) {
+    /// Cell pressures, then vertex pressures and stiffness, in a phase.
+    pub fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("intermediate_pressure");
-        record_both(pass, state, "BEGIN", &self.cells);
-        pass.dispatch(&self.open_faces, &extent(state, "BEGIN", Entry::Listed));
-        pass.dispatch(&self.clear, &extent(state, "BEGIN", Entry::Reduce));
-        record_both(pass, state, "BEGIN", &self.vertices);
+        record_both(pass, state, phase, &self.cells);
+        pass.dispatch(&self.open_faces, &extent(state, phase, Entry::Listed));
+        pass.dispatch(&self.clear, &extent(state, phase, Entry::Reduce));
+        record_both(pass, state, phase, &self.vertices);
     }
 }

@@ -6,6 +6,7 @@
 //! | `particle_sort` | which particles touch which cell? |
 //! | `p2g` | what do the solids look like on the grid? |
 //! | `interface` | where do gas and solid meet? |
+//! | `carrier` | which velocity carries the gas through its faces? |
 //! | `gas_advection` | where does the gas carry itself? |
 //! | `intermediate_pressure` | which pressure does the advected gas have? |
 //! | `coupled_solve` | which pressure and velocity satisfy both sides? |
@@ -16,6 +17,7 @@
 //! Stages do not know each other. They communicate through the buffers of [`crate::state::State`] only, in the order written
 //! in [`crate::simulation::Simulation::record_step`].
 
+mod carrier;
 mod coupled_solve;
 mod fluid_update;
 mod g2p;
@@ -23,12 +25,14 @@ mod gas_advection;
 mod interface;
 mod intermediate_pressure;
 mod mpm_grid_update;
+mod odd_even;
 mod p2g;
 mod particle_sort;
 mod time_step;
 mod totals;
 pub mod traffic;
 
+pub use carrier::{Carried, CarrierVelocity};
 pub use coupled_solve::CoupledSolve;
 pub use fluid_update::FluidUpdate;
 pub use g2p::G2p;
@@ -36,6 +40,7 @@ pub use gas_advection::GasAdvection;
 pub use interface::InterfaceStage;
 pub use intermediate_pressure::IntermediatePressure;
 pub use mpm_grid_update::MpmGridUpdate;
+pub use odd_even::OddEven;
 pub use p2g::{P2g, Transfer};
 pub use particle_sort::ParticleSort;
 pub use time_step::TimeStep;

@@ -17,6 +17,7 @@ pub struct TimeStep {
     listed: Bound,
     limiter: Bound,
     solved: Bound,
+    second: Bound,
     substep: Bound,
     finish: Bound,
 }
@@ -44,6 +45,7 @@ impl TimeStep {
             listed: control("control_listed")?,
             limiter: control("control_limiter")?,
             solved: control("control_solved")?,
+            second: control("control_second")?,
             substep: control("control_substep")?,
             finish: control("control_finish")?,
         })
@@ -83,6 +85,11 @@ impl TimeStep {
     /// Opens the updates if the solve has finished.
     pub fn record_solved(&self, pass: &mut Pass) {
         pass.dispatch(&self.solved, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Opens the second advection and solve if the first is done.
+    pub fn record_second(&self, pass: &mut Pass) {
+        pass.dispatch(&self.second, &Extent::Groups([1, 1, 1]));
     }
 
     /// Opens one elastic sub-step if one is due.

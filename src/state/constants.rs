@@ -43,7 +43,7 @@ pub const SCAN_DISPATCHES: usize = 6;
 /// Entries of a phase in the table of extents.
 pub const PHASE_WIDTH: usize = 8 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
-pub const PHASES: [&str; 7] = ["BEGIN", "LIMIT", "UPDATE", "SUBSTEP", "AGAIN", "FIRST", "END"];
+pub const PHASES: [&str; 8] = ["BEGIN", "LIMIT", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END"];
 
 /// Entries of a phase in the table of extents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,7 +122,7 @@ pub fn source() -> String {
     for (value, name) in ["INTERFACE_RESOLVED", "INTERFACE_H", "INTERFACE_SINGLE"].iter().enumerate() {
         put(name, value as u32);
     }
-    for (value, name) in ["PHASE_IDLE", "PHASE_SOLVE", "PHASE_SUBSTEP"].iter().enumerate() {
+    for (value, name) in ["PHASE_IDLE", "PHASE_SOLVE", "PHASE_BETWEEN", "PHASE_SUBSTEP"].iter().enumerate() {
         put(name, value as u32);
     }
     for (value, name) in STAGES.iter().enumerate() {

@@ -6,18 +6,22 @@ use bytemuck::{Pod, Zeroable};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct Control {
-    /// Current step \[s\].
+    /// What one solve spans \[s\].
     pub dt: f32,
-    /// What the bounds allowed last, before it was shortened to meet a time \[s\].
+    /// Current step: `dt`, or with two solves the span of both \[s\].
+    pub duration: f32,
+    /// The step before \[s\].
     pub dt_previous: f32,
     /// Time left to the target \[s\].
     pub remaining: f32,
-    /// 0 idle, 1 solving, 2 sub-stepping.
+    /// 0 idle, 1 solving, 2 between two solves, 3 sub-stepping.
     pub phase: u32,
     /// Elastic sub-steps of this step.
     pub substeps: u32,
     /// Next one to run.
     pub substep: u32,
+    /// Solves of this step that are done.
+    pub stage: u32,
     /// Finished steps.
     pub step: u32,
     /// Smallest stage << 27 | slot that met an impossible value.
@@ -34,7 +38,7 @@ pub struct Control {
     pub escaped: u32,
     /// Vertices that carry P, h and Q apart, this step.
     pub extra: u32,
-    /// Iterations of the last solve.
+    /// Iterations of all solves of the last step.
     pub iterations: u32,
     /// Relative residual of the last solve.
     pub residual: f32,

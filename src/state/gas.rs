@@ -8,9 +8,9 @@ use crate::gpu::{Buffer, Gpu};
 pub struct GasState {
     /// Density and momentum now; in SOLID slots owed gas, in GHOST and WALL slots what has crossed the boundary.
     pub conserved: Buffer<[f32; 4]>,
-    /// Total energy per volume: now, then two scratch thirds (stages of advection; cell pressure of the predictor).
+    /// Total energy per volume: now, then two scratch parts (stages of advection; cell pressure of the predictor); the kept state.
     pub energy: Buffer<f32>,
-    /// Two halves of scratch: stages of advection; forces of gas nodes and of solid nodes; integer sums of p2g.
+    /// Two parts of scratch: stages of advection; forces of gas nodes and of solid nodes; integer sums of p2g; the kept state.
     pub work: Buffer<[f32; 4]>,
     /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\].
     pub owed_flow: Buffer<[f32; 4]>,
@@ -19,15 +19,15 @@ pub struct GasState {
 }
 
 impl GasState {
-    /// Allocates for a number of slots.
+    /// Allocates for a number of slots; `kept` states beside the present one outlive a solve: 1 with two solves per step, else 0.
     ///
     /// # Errors
     /// If the device has no room.
-    pub fn new(gpu: &Gpu, slots: usize) -> Result<Self> {
+    pub fn new(gpu: &Gpu, slots: usize, kept: usize) -> Result<Self> {
         Ok(Self {
             conserved: Buffer::new(gpu, "conserved", slots)?,
-            energy: Buffer::new(gpu, "energy", 3 * slots)?,
-            work: Buffer::new(gpu, "work", 2 * slots)?,
+            energy: Buffer::new(gpu, "energy", (3 + kept) * slots)?,
+            work: Buffer::new(gpu, "work", (2 + kept) * slots)?,
             owed_flow: Buffer::new(gpu, "owed_flow", slots)?,
             owed_energy: Buffer::new(gpu, "owed_energy", slots)?,
         })

@@ -45,12 +45,16 @@ impl MemoryPlan {
         let solid = if particles == 0 { 1 } else { slots };
         let capacity = extra_capacity(slots as usize, particles, dimension) as u64;
         let unknowns = slots + 2 * capacity;
+        let kept = u64::from(scene.solves() == 2);
         let mut plan = Self {
             cells: scene.domain.cells.iter().map(|&n| u64::from(n)).product(),
             particles: count,
             buffers: Vec::new(),
         };
-        plan.add("gas", &[("conserved", slots, 16), ("energy", 3 * slots, 4), ("work", 2 * slots, 16)]);
+        plan.add(
+            "gas",
+            &[("conserved", slots, 16), ("energy", (3 + kept) * slots, 4), ("work", (2 + kept) * slots, 16)],
+        );
         plan.add("gas", &[("owed_flow", slots, 16), ("owed_energy", slots, 4)]);
         plan.add(
             "interface",
@@ -61,7 +65,10 @@ impl MemoryPlan {
         plan.add("pressure", &[("inverse_diagonal", unknowns, 4)]);
         plan.add("particles", &[("position", count, 16), ("velocity", count, 16), ("affine", 3 * count, 16)]);
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);
-        plan.add("nodes", &[("node", solid, 16), ("cell_start", solid + 1, 4)]);
+        plan.add(
+            "nodes",
+            &[("node", if scene.consistent() { slots } else { solid }, 16), ("cell_start", solid + 1, 4)],
+        );
         let scan = Scan::planned_bytes(slots as u32 + 1);
         plan.add("interface", &[("list scan", scan, 1)]);
         if particles > 0 {

@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::{Grid, constants};
 use crate::gpu::WORKGROUP;
 use crate::numerics::Scan;
-use crate::scene::{Boundary, InterfacePressure, Pair, Power, Scene};
+use crate::scene::{Boundary, Integrator, InterfacePressure, Pair, Power, Scene};
 
 /// Mirror of `Params` in `shaders/shared/params.wgsl`.
 #[repr(C)]
@@ -140,7 +140,7 @@ impl Params {
             ambient_density: scene.gas.ambient.density as f32,
             ambient_pressure: scene.gas.ambient.pressure as f32,
             cfl: time.cfl as f32,
-            max_courant: time.max_courant as f32,
+            max_courant: scene.max_courant() as f32,
             max_growth: time.max_growth as f32,
             fixed_step: time.fixed_step.unwrap_or(0.0) as f32,
             elastic_cfl: numerics.elastic_cfl as f32,
@@ -181,7 +181,9 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
             f64::from(scene.materials.values().fold(0, |used, material| used | 1 << material.kind_index())),
         ),
         ("QUADRATIC", flag(numerics.pair == Pair::B2b1)),
-        ("PREDICTOR", flag(numerics.predictor)),
+        ("PREDICTOR", flag(scene.integrator() != Integrator::Paper)),
+        ("CONSISTENT", flag(scene.consistent())),
+        ("ARS", flag(scene.solves() == 2)),
         ("LIMITER", flag(numerics.limiter)),
         ("BLENDING", flag(numerics.blending)),
         ("LEDGER", flag(numerics.ledger)),

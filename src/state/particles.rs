@@ -76,11 +76,11 @@ impl ParticleStart {
 }
 
 impl Particles {
-    /// Allocates and uploads.
+    /// Allocates and uploads. `carrier`: gas without bodies also wants room per slot in `node`.
     ///
     /// # Errors
     /// If the device has no room.
-    pub fn new(gpu: &Gpu, slots: usize, start: &ParticleStart) -> Result<Self> {
+    pub fn new(gpu: &Gpu, slots: usize, start: &ParticleStart, carrier: bool) -> Result<Self> {
         let count = start.len();
         let solid_slots = if start.is_empty() { 1 } else { slots };
         let particles = Self {
@@ -92,7 +92,7 @@ impl Particles {
             stress: Buffer::new(gpu, "stress", 2 * count)?,
             order: Buffer::new(gpu, "order", count)?,
             cell_start: Buffer::new(gpu, "cell_start", solid_slots + 1)?,
-            node: Buffer::new(gpu, "node", solid_slots)?,
+            node: Buffer::new(gpu, "node", if carrier { slots } else { solid_slots })?,
         };
         Ok(particles)
     }

@@ -47,7 +47,37 @@ fn gas_with_open_sides_and_a_block_quadratic() {
 
 #[test]
 fn gas_without_predictor() {
-    channel(&["numerics.predictor=false"]);
+    channel(&["numerics.integrator=paper"]);
+}
+
+#[test]
+fn gas_carried_by_the_velocity_of_its_cells() {
+    channel(&["numerics.face_velocity=cell"]);
+}
+
+/// Steps so long that the first of two solves, too, needs more iterations than are recorded at first.
+#[test]
+fn two_solves_that_go_on_in_the_next_recording() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let quiet = [
+        "numerics.integrator=ars222",
+        "time.fixed_step=0.5",
+        "gas.ambient.velocity=[0.0,0.0]",
+        "boundary.x_min=wall",
+        "gravity=[0.0,0.0]",
+    ];
+    let mut twins = Twins::new(gpu, CHANNEL, &quiet, 0.01);
+    let (_, trace) = twins.step();
+    assert!(twins.recordings > 1, "the step fits into one recording");
+    twins.compare_pressure(&trace, 2e-5);
+    twins.compare_gas(2e-5);
+    twins.finish();
+}
+
+#[test]
+fn gas_with_two_solves() {
+    channel(&["numerics.integrator=ars222"]);
+    channel(&["numerics.integrator=auto", "numerics.pair=b2b1"]);
 }
 
 #[test]

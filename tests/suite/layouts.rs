@@ -80,11 +80,13 @@ fn control() {
         Control,
         [
             dt,
+            duration,
             dt_previous,
             remaining,
             phase,
             substeps,
             substep,
+            stage,
             step,
             fault,
             limited,

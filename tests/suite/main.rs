@@ -11,6 +11,7 @@ mod kernels;
 mod layering;
 mod layouts;
 mod numerics;
+mod quiet;
 mod reference;
 mod reference_exact;
 mod reference_operator;

@@ -1,7 +1,7 @@
 //! A simulation on the device and its CPU twin: same start, same steps, compared field by field.
 
 use brisance::gpu::{Buffer, Detail, Gpu, readback};
-use brisance::scene::{Boundary, Film, InterfacePressure, Pair, Power, Scene};
+use brisance::scene::{Boundary, Film, Integrator, InterfacePressure, Pair, Power, Scene};
 use brisance::simulation::Simulation;
 use glam::{DMat3, DVec3};
 
@@ -63,7 +63,9 @@ fn problem_of(scene: &Scene) -> Problem {
     problem.numerics.film_nearest = scene.numerics.film == Film::Nearest;
     problem.numerics.power_midpoint = scene.numerics.power == Power::Midpoint;
     problem.numerics.blending = scene.numerics.blending;
-    problem.numerics.predictor = scene.numerics.predictor;
+    problem.numerics.predictor = scene.integrator() != Integrator::Paper;
+    problem.numerics.consistent = scene.consistent();
+    problem.numerics.two_solves = scene.solves() == 2;
     problem
 }
 
@@ -73,6 +75,8 @@ pub(crate) struct Twins {
     simulation: Simulation,
     problem: Problem,
     state: State,
+    /// Recordings that the last step took.
+    pub(crate) recordings: usize,
     /// What differs more than rounding explains.
     failures: Vec<String>,
 }
@@ -123,13 +127,15 @@ impl Twins {
             }
         }
         twin::gas_advection::fill_ghosts(&problem, &state.cells.clone(), &mut state.gas);
-        Twins { gpu, simulation, problem, state, failures: Vec::new() }
+        Twins { gpu, simulation, problem, state, recordings: 0, failures: Vec::new() }
     }
 
     /// One step of both; the twin takes the device's dt, which must follow the twin's rule unless the scene fixes it.
     pub(crate) fn step(&mut self) -> (Report, Trace) {
         let mut records = Vec::new();
+        self.recordings = 0;
         while records.is_empty() {
+            self.recordings += 1;
             self.simulation.advance_timed(&mut records, Detail::Stages).unwrap_or_else(|error| panic!("{error}"));
         }
         let dt = f64::from(records[0].dt);

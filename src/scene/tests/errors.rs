@@ -136,6 +136,7 @@ fn settings() {
         ("[numerics]\ntolerance = 0.0\n", "numerics.tolerance"),
         ("[numerics]\nmax_iterations = 0\n", "numerics.max_iterations"),
         ("[numerics]\nsolid_threshold = 1.5\n", "numerics.solid_threshold"),
+        ("[numerics]\nfilter = 1.5\n", "numerics.filter"),
         ("[render]\nsize = [8, 720]\n", "render.size"),
         ("[render]\nrange = [1.0, 1.0]\n", "render.range"),
         ("[render]\ncamera = { eye = [0, 0, 1], target = [0, 0, 0] }\n", "render.camera.up"),

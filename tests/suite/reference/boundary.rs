@@ -28,8 +28,16 @@ fn rule_behind(problem: &Problem, c: [i32; 3]) -> (Side, usize) {
     *prescribed.unwrap_or(&rules[0])
 }
 
+/// Velocity that a rule prescribes in a ring cell.
+pub(crate) fn prescribed(problem: &Problem, c: [i32; 3]) -> Option<[f64; 3]> {
+    match rule_behind(problem, c).0 {
+        Side::Inlet { velocity, .. } | Side::Subsonic { velocity, .. } => Some(velocity),
+        _ => None,
+    }
+}
+
 /// Nearest cell of the domain.
-fn nearest(problem: &Problem, c: [i32; 3]) -> usize {
+pub(crate) fn nearest(problem: &Problem, c: [i32; 3]) -> usize {
     let grid = &problem.grid;
     grid.slot([0, 1, 2].map(|d| if grid.periodic[d] { c[d] } else { c[d].clamp(0, grid.cells[d] - 1) }))
 }
@@ -90,8 +98,10 @@ pub(crate) fn fill_ghosts(problem: &Problem, cells: &[u32], gas: &mut Gas) {
 /// Velocity of the node in a GHOST cell; none if only the gas cells around know it.
 pub(crate) fn node_velocity(problem: &Problem, cells: &[u32], star: &Gas, c: [i32; 3]) -> Option<[f64; 3]> {
     let near = nearest(problem, c);
+    if let Some(velocity) = prescribed(problem, c) {
+        return Some(velocity);
+    }
     match rule_behind(problem, c).0 {
-        Side::Inlet { velocity, .. } | Side::Subsonic { velocity, .. } => Some(velocity),
         _ if cells[near] != GAS => None,
         Side::Attenuated { .. } => Some(star.velocity(problem.grid.slot(c))),
         _ => Some(star.velocity(near)),

@@ -1,6 +1,7 @@
 //! Momentum and energy of the gas from the solved pressures; internal-energy floor, kinetic energy first.
 
 use super::boundary;
+use super::carrier::Carrier;
 use super::coupled_solve::{H, P, Solution};
 use super::element;
 use super::grid::{add, shift};
@@ -109,6 +110,7 @@ pub(crate) fn fluid_update(
         solution.solid_velocity.clone()
     };
     let mut work = pressure.clone();
+    let carrier = Carrier::new(problem, &interface.cells, &next);
     for axis in 0..grid.dimension {
         for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
             let slot = grid.slot(low);
@@ -116,7 +118,14 @@ pub(crate) fn fluid_update(
             work[axis][slot] = if closed {
                 solid_power(problem, solution, &solid, axis, low) / grid.area()
             } else {
-                pressure[axis][slot] * face_velocity(problem, interface, &next, star, axis, low)
+                let high = grid.slot(shift(low, axis, 1));
+                let velocity = match &carrier {
+                    Some(carrier) if interface.cells[slot] == GAS && interface.cells[high] == GAS => {
+                        carrier.between(&next, axis, slot, high)
+                    }
+                    _ => face_velocity(problem, interface, &next, star, axis, low),
+                };
+                pressure[axis][slot] * velocity
             };
         }
         for face in boundary::open_faces(problem, &interface.cells).into_iter().filter(|face| face.1 == axis) {

@@ -1,6 +1,7 @@
 //! Gas advection: WENO with two-point sub-stencils, local Lax-Friedrichs split by |u|, TVD-RK2, positivity limiter.
 
 pub(crate) use super::boundary::fill_ghosts;
+use super::carrier::Carrier;
 use super::grid::shift;
 use super::interface::Interface;
 use super::{GAS, GHOST, Gas, Problem, SOLID};
@@ -34,11 +35,25 @@ pub(crate) fn split_flux(stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f6
     (weno, first)
 }
 
+/// The same with one velocity of the face: a value from each side of the state itself.
+fn carried_flux(stencil: &[[f64; 5]; 4], carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
+    let (mut weno, mut first) = ([0.0; 5], [0.0; 5]);
+    let spread = carried.abs().max(alpha);
+    let (up, down) = (0.5 * (carried + spread), 0.5 * (carried - spread));
+    for k in 0..5 {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|i| stencil[i][k]);
+        weno[k] = up * reconstruct(a, b, c) + down * reconstruct(d, c, b);
+        first[k] = up * b + down * c;
+    }
+    (weno, first)
+}
+
 /// Both fluxes of one face, None where no gas touches it.
 pub(crate) fn face_flux(
     problem: &Problem,
     interface: &Interface,
     gas: &Gas,
+    carrier: Option<&Carrier>,
     axis: usize,
     low: [i32; 3],
 ) -> Option<([f64; 5], [f64; 5])> {
@@ -56,6 +71,19 @@ pub(crate) fn face_flux(
         return None;
     }
     let pick = |by: i32, otherwise: i32| gas.get(at(if readable(by) { by } else { otherwise }));
+    if let Some(carrier) = carrier {
+        if !readable(0) || !readable(1) {
+            return Some(([0.0; 5], [0.0; 5]));
+        }
+        let speed = |by: i32| carrier.velocity[at(by)][axis];
+        let alpha = if speed(1) > speed(0) { speed(0).abs().max(speed(1).abs()) } else { 0.0 };
+        let carried = match (kind(0), kind(1)) {
+            (GAS, GAS) => carrier.between(gas, axis, at(0), at(1)),
+            (GAS, _) => speed(1),
+            _ => speed(0),
+        };
+        return Some(carried_flux(&[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], carried, alpha));
+    }
     if readable(0) && readable(1) {
         return Some(split_flux(&[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], axis));
     }
@@ -76,9 +104,10 @@ pub(crate) fn fluxes(problem: &Problem, interface: &Interface, gas: &Gas) -> (Fl
     let empty = || vec![[0.0; 5]; grid.slots()];
     let mut weno = [empty(), empty(), empty()];
     let mut first = [empty(), empty(), empty()];
+    let carrier = Carrier::new(problem, &interface.cells, gas);
     for axis in 0..grid.dimension {
         for low in grid.faces(axis) {
-            if let Some((high_order, low_order)) = face_flux(problem, interface, gas, axis, low) {
+            if let Some((high_order, low_order)) = face_flux(problem, interface, gas, carrier.as_ref(), axis, low) {
                 weno[axis][grid.slot(low)] = high_order;
                 first[axis][grid.slot(low)] = low_order;
             }
@@ -114,8 +143,8 @@ pub(crate) fn admissible(first: [f64; 5], weno: [f64; 5]) -> f64 {
     0.0
 }
 
-/// Fluxes after the limiter, and how many cells it touched.
-pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, dt: f64) -> (Fluxes, usize) {
+/// Fluxes of `gas` after the limiter, which looks at their change of `start`, and how many cells it touched.
+pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, start: &Gas, dt: f64) -> (Fluxes, usize) {
     let grid = &problem.grid;
     let (mut weno, first) = fluxes(problem, interface, gas);
     if !problem.numerics.limiter {
@@ -126,7 +155,7 @@ pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, dt: f
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] == GAS {
-            theta[slot] = admissible(updated(problem, gas, &first, c, dt), updated(problem, gas, &weno, c, dt));
+            theta[slot] = admissible(updated(problem, start, &first, c, dt), updated(problem, start, &weno, c, dt));
             touched += usize::from(theta[slot] < 1.0);
         }
     }
@@ -143,22 +172,22 @@ pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, dt: f
     (weno, touched)
 }
 
-/// One forward Euler stage; books what enters solid cells on the ledger with `share` of the step.
-fn stage(
+/// One forward Euler stage: adds what `gas` carries to `start`; books what enters solid cells on the ledger with `share` of the step.
+pub(crate) fn stage(
     problem: &Problem,
     interface: &Interface,
-    gas: &Gas,
+    [gas, start]: [&Gas; 2],
     dt: f64,
     share: f64,
     ledger: &mut [[f64; 5]],
 ) -> (Gas, usize) {
     let grid = &problem.grid;
-    let (through, touched) = limited(problem, interface, gas, dt);
-    let mut next = gas.clone();
+    let (through, touched) = limited(problem, interface, gas, start, dt);
+    let mut next = start.clone();
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] == GAS {
-            next.set(slot, updated(problem, gas, &through, c, dt));
+            next.set(slot, updated(problem, start, &through, c, dt));
         } else if interface.cells[slot] == SOLID {
             let scale = share * dt * grid.area();
             for (axis, through) in through.iter().enumerate().take(grid.dimension) {
@@ -189,9 +218,9 @@ pub(crate) fn advect(
     let grid = &problem.grid;
     let mut before = gas.clone();
     fill_ghosts(problem, &interface.cells, &mut before);
-    let (mut one, touched_one) = stage(problem, interface, &before, dt, 0.5, ledger);
+    let (mut one, touched_one) = stage(problem, interface, [&before, &before], dt, 0.5, ledger);
     fill_ghosts(problem, &interface.cells, &mut one);
-    let (two, touched_two) = stage(problem, interface, &one, dt, 0.5, ledger);
+    let (two, touched_two) = stage(problem, interface, [&one, &one], dt, 0.5, ledger);
     let mut after = two.clone();
     for slot in (0..grid.slots()).filter(|slot| interface.cells[*slot] == GAS) {
         let (a, b) = (before.get(slot), two.get(slot));

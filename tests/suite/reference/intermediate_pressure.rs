@@ -1,5 +1,6 @@
 //! Pressure, node masses and node velocities of the gas after advection.
 
+use super::carrier::Carrier;
 use super::element;
 use super::grid::{add, shift};
 use super::interface::{self, Interface};
@@ -44,9 +45,16 @@ pub(crate) fn face_velocity(
 }
 
 /// Factor on the cell pressure by the consistent predictor.
-pub(crate) fn predicted(problem: &Problem, interface: &Interface, star: &Gas, cell: [i32; 3], dt: f64) -> f64 {
-    let mut divergence = 0.0;
-    for axis in 0..problem.grid.dimension {
+pub(crate) fn predicted(
+    problem: &Problem,
+    interface: &Interface,
+    star: &Gas,
+    carrier: Option<&Carrier>,
+    cell: [i32; 3],
+    dt: f64,
+) -> f64 {
+    let mut divergence = carrier.map_or(0.0, |c| c.corrected_divergence(problem, &interface.cells, cell));
+    for axis in (0..problem.grid.dimension).filter(|_| carrier.is_none()) {
         let below = face_velocity(problem, interface, star, star, axis, shift(cell, axis, -1));
         divergence += face_velocity(problem, interface, star, star, axis, cell) - below;
     }
@@ -95,13 +103,18 @@ pub(crate) fn intermediate(
     let mut pressure = vec![0.0; grid.slots()];
     let mut predicted_pressure = vec![0.0; grid.slots()];
     let mut node_mass = vec![0.0; grid.slots()];
+    let carrier = Carrier::new(problem, &interface.cells, advected);
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] != GAS {
             continue;
         }
         pressure[slot] = star.pressure(slot, problem.gamma);
-        let factor = if problem.numerics.predictor { predicted(problem, interface, advected, c, dt) } else { 1.0 };
+        let factor = if problem.numerics.predictor {
+            predicted(problem, interface, advected, carrier.as_ref(), c, dt)
+        } else {
+            1.0
+        };
         predicted_pressure[slot] = factor * pressure[slot];
         for off in grid.offsets(-1, 1) {
             let share = element::node_weight(grid, problem.numerics.pair, off) * grid.volume();

@@ -1,6 +1,8 @@
 //! CPU twins: one step as plain loops over slices in f64. Same stages, same index space as the GPU code.
 
+pub(crate) mod ars222;
 pub(crate) mod boundary;
+pub(crate) mod carrier;
 pub(crate) mod coupled_solve;
 pub(crate) mod element;
 pub(crate) mod fluid_update;
@@ -79,6 +81,10 @@ pub(crate) struct Numerics {
     pub(crate) tolerance: f64,
     pub(crate) max_iterations: usize,
     pub(crate) predictor: bool,
+    /// ARS(2,2,2): two solves per step; gas only.
+    pub(crate) two_solves: bool,
+    /// Gas is carried by what the solve sees of its velocity; gas only.
+    pub(crate) consistent: bool,
     pub(crate) shared: Shared,
     pub(crate) solid_threshold: f64,
     /// Film traction from the nearest gas vertex; otherwise from the solid's own ghost pressure.
@@ -104,6 +110,8 @@ impl Default for Numerics {
             tolerance: 1e-5,
             max_iterations: 500,
             predictor: true,
+            two_solves: false,
+            consistent: false,
             shared: Shared::Resolved,
             solid_threshold: 0.5,
             film_nearest: true,
@@ -229,7 +237,7 @@ pub(crate) struct State {
     pub(crate) time: f64,
     /// What free outlets know of themselves.
     pub(crate) open: boundary::Memory,
-    /// Last step by rule, 0 before the first.
+    /// The step before, 0 before the first.
     pub(crate) previous_dt: f64,
 }
 

@@ -4,7 +4,7 @@ use super::coupled_solve::{Inputs, Solution, coupled_solve};
 use super::p2g::Nodes;
 use super::{Problem, State};
 use super::{
-    boundary, fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g,
+    ars222, boundary, fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g,
     particle_sort, time_step,
 };
 
@@ -41,6 +41,10 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     ledger::change_kinds(problem, state, &kinds, &bins);
     let faces = interface::interface(problem, kinds, &bins, &nodes);
 
+    if problem.numerics.two_solves {
+        let (report, solution) = ars222::two_solves(problem, &faces, (&bins, &nodes), state, dt);
+        return (report, Trace { solution, nodes, shared: faces.shared });
+    }
     let (advected, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
     let star = gas_advection::with_gravity(problem, &faces.cells, &advected, dt);
     let intermediate = intermediate_pressure::intermediate(problem, &faces, (&advected, &star), &state.open, dt);
@@ -93,8 +97,8 @@ pub(crate) fn advance_to(problem: &Problem, state: &mut State, time: f64) -> Vec
     let mut reports = Vec::new();
     while state.time < time * (1.0 - 1e-12) {
         let rule = time_step::time_step(problem, state);
-        state.previous_dt = rule;
-        reports.push(step(problem, state, rule.min(time - state.time)));
+        state.previous_dt = rule.min(time - state.time);
+        reports.push(step(problem, state, state.previous_dt));
     }
     reports
 }

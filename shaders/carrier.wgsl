@@ -1,0 +1,105 @@
+// carrier: which velocity carries the gas through its faces, so that what the solve calls free of divergence compresses nothing?
+// The solve sees a velocity averaged over the other axes; with the unaveraged one, motion that it cannot see would compress the
+// cells step after step. Reads gas, cells. Writes the carrier (node, in scenes without bodies) of GAS cells: per component the
+// velocity averaged with (1, 2, 1) / 4 along every other axis, and in w the sum of its differences across the faces.
+#include "shared/index.wgsl"
+#include "shared/listed.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
+
+override SOURCE: u32;   // 0: the state now, 1: U1, 2: U*
+
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
+@group(0) @binding(4) var<storage, read> work: array<vec4f>;
+@group(0) @binding(5) var<storage, read> extra: array<u32>;
+@group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
+
+fn source(slot: u32) -> vec4f {
+    if SOURCE == 1u { return work[slot]; }
+    if SOURCE == 2u { return work[params.slots + slot]; }
+    return conserved[slot];
+}
+
+// Velocity at an offset from GAS cell c: of the gas there, or of what an inlet prescribes, or of the nearest gas in the block.
+fn velocity_at(c: vec3i, offset: vec3i, own: vec3f) -> vec3f {
+    let at = c + offset;
+    let kind = kind_of(cells[slot_of(at)]);
+    if kind == GAS { return velocity_of(source(slot_of(at))); }
+    if kind == GHOST {
+        let opening = opening_of(cells[slot_of(at)]);
+        if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow); }
+    }
+    var sum = vec3f(0.0);
+    var count = 0.0;
+    for (var a = 0u; a < DIM; a++) {
+        let nearer = offset - offset[a] * axis(a);
+        if all(nearer == offset) || all(nearer == vec3i(0)) { continue; }
+        if kind_of(cells[slot_of(c + nearer)]) == GAS {
+            sum += velocity_of(source(slot_of(c + nearer)));
+            count += 1.0;
+        }
+    }
+    return select(own, sum / max(count, 1.0), count > 0.0);
+}
+
+// Share of a neighbour in the average across axis n.
+fn across_share(offset: vec3i, n: u32) -> f32 {
+    var share = 1.0;
+    for (var a = 0u; a < DIM; a++) {
+        if a == n { share *= f32(offset[a] == 0); } else { share *= select(0.25, 0.5, offset[a] == 0); }
+    }
+    return share;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, groups, lane));
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
+    let c = cell_of(slot);
+    let own = velocity_of(source(slot));
+    var sum = vec3f(0.0);
+    for (var k = 0u; k < block_size(); k++) {
+        let offset = block_offset(k);
+        let share = vec3f(across_share(offset, 0u), across_share(offset, 1u), across_share(offset, 2u)) * vec3f(reach());
+        if all(share == vec3f(0.0)) { continue; }
+        if LISTED { sum += share * velocity_at(c, offset, own); }
+        else { sum += share * velocity_of(source(slot_of(c + offset))); }
+    }
+    node[slot] = vec4f(sum, 0.0);
+}
+
+// Mass-weighted carrier at the face between GAS cell c and its neighbour.
+fn face_mean(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
+    let far = select(c - axis(n), c + axis(n), up);
+    let other = slot_of(far);
+    if LISTED {
+        let kind = kind_of(cells[other]);
+        if kind == WALL { return 0.0; }
+        if kind != GAS {
+            let opening = opening_of(cells[other]);
+            if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow)[n]; }
+            return node[slot][n];
+        }
+    }
+    let a = source(slot).x;
+    let b = source(other).x;
+    return (a * node[slot][n] + b * node[other][n]) / (a + b);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                      @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, groups, lane));
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
+    let c = cell_of(slot);
+    var sum = 0.0;
+    for (var n = 0u; n < DIM; n++) { sum += face_mean(c, slot, n, true) - face_mean(c, slot, n, false); }
+    node[slot].w = sum;
+}

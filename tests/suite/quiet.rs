@@ -1,0 +1,212 @@
+//! Quiet stays quiet: noise on gas at rest in a closed box.
+
+use brisance::gpu::{Gpu, readback};
+use brisance::scene::Scene;
+use brisance::simulation::Simulation;
+
+use crate::common::{Random, gpu_or_skip};
+use crate::reference_exact::radial_density;
+
+/// A scene of gas at rest with rho = p = 1, and noise of 1e-3 on density, pressure and, over c, every velocity component.
+fn noisy(gpu: &Gpu, text: &str) -> Simulation {
+    let scene = Scene::parse(text, "noise.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let simulation = Simulation::new(gpu, &scene).unwrap();
+    let axes = scene.domain.axes();
+    let mut flow = readback::read(gpu, &simulation.state.gas.conserved).unwrap();
+    let mut energy = readback::read(gpu, &simulation.state.gas.energy).unwrap();
+    let mut random = Random(7);
+    for (u, e) in flow.iter_mut().zip(&mut energy).filter(|(u, _)| u[0] > 0.0) {
+        let mut next = || random.between(-1e-3, 1e-3);
+        let (density, pressure) = (1.0 + next(), 1.0 + next());
+        let mut v = [0.0; 3];
+        v[..axes].iter_mut().for_each(|v| *v = next() * 1.4_f32.sqrt());
+        *u = [density, density * v[0], density * v[1], density * v[2]];
+        *e = pressure / 0.4 + 0.5 * density * v.iter().map(|v| v * v).sum::<f32>();
+    }
+    simulation.state.gas.conserved.write(gpu, 0, &flow);
+    simulation.state.gas.energy.write(gpu, 0, &energy);
+    simulation
+}
+
+/// Largest |dp|/p and |u|/c after steps of s dx/c, from noise of 1e-3 on density, pressure and every velocity component;
+/// and the mean number of iterations.
+pub(crate) fn noise(gpu: &Gpu, dimension: usize, cells: u32, s: f64, steps: u32, numerics: &str) -> [f64; 3] {
+    let list = |value: String| vec![value; dimension].join(", ");
+    let sound = 1.4_f64.sqrt();
+    let step = s / f64::from(cells) / sound;
+    let text = format!(
+        "title = \"noise\"\n[domain]\ndimension = {dimension}\ncells = [{}]\nsize = [{}]\n\
+         [gas]\nambient = {{ density = 1.0, pressure = 1.0 }}\n[time]\nuntil = 1e3\nfixed_step = {step:e}\n[numerics]\n{numerics}",
+        list(cells.to_string()),
+        list("1.0".to_owned()),
+    );
+    let mut simulation = noisy(gpu, &text);
+    let records = simulation.advance_to(step * f64::from(steps)).unwrap_or_else(|error| panic!("s = {s}: {error}"));
+    let last = records.last().unwrap();
+    let pressure = f64::from((last.pressure[1] - 1.0).max(1.0 - last.pressure[0]));
+    let iterations = records.iter().map(|r| f64::from(r.iterations)).sum::<f64>() / records.len() as f64;
+    [pressure, f64::from(last.gas_speed) / sound, iterations]
+}
+
+fn print(title: &str, s: f64, [pressure, speed, iterations]: [f64; 3]) {
+    eprintln!("{title:28} s {s:4}: |dp|/p {pressure:.1e}, |u|/c {speed:.1e}, {iterations:.1} iterations");
+}
+
+#[test]
+fn rest_noise_does_not_grow_by_default() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (dimension, cells, s, steps) in [(2, 32, 0.5, 150), (2, 32, 5.0, 100), (3, 12, 2.0, 60)] {
+        let found = noise(&gpu, dimension, cells, s, steps, "");
+        print(&format!("default, {dimension}D {cells}"), s, found);
+        assert!(found[0] < 2e-3, "{dimension}D, s = {s}: {found:?}");
+    }
+    let cell = noise(&gpu, 2, 32, 5.0, 100, "face_velocity = \"cell\"\n");
+    print("cell, 2D 32", 5.0, cell);
+    assert!(cell[0] > 1e-2, "the velocity of the cells is quiet too, then the carrier is not needed: {cell:?}");
+}
+
+/// A closed box of gas at rest with a pressure that alternates from cell to cell: amplitude of the mode, and relative change of
+/// mass and energy, after 4 tiny steps.
+fn alternating(gpu: &Gpu, numerics: &str) -> [f64; 3] {
+    let text = format!(
+        "title = \"mode\"\n[domain]\ndimension = 2\ncells = [16, 16]\nsize = [1.0, 1.0]\n\
+         [gas]\nambient = {{ density = 1.0, pressure = 1.0 }}\n[time]\nuntil = 1.0\nfixed_step = 1e-5\n[numerics]\n{numerics}"
+    );
+    let scene = Scene::parse(&text, "mode.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(gpu, &scene).unwrap();
+    let grid = simulation.state.grid;
+    let sign = |x: i32, y: i32| if (x + y) % 2 == 0 { 1.0 } else { -1.0 };
+    let mut energy = readback::read(gpu, &simulation.state.gas.energy).unwrap();
+    for (x, y) in (0..16).flat_map(|y| (0..16).map(move |x| (x, y))) {
+        energy[grid.slot([x, y, 0])] *= 1.0 + 0.1 * sign(x, y) as f32;
+    }
+    simulation.state.gas.energy.write(gpu, 0, &energy);
+    let sums = |simulation: &Simulation| {
+        let snapshot = simulation.snapshot().unwrap();
+        let mass: f64 = snapshot.density.iter().map(|v| f64::from(*v)).sum();
+        let heat: f64 = snapshot.energy.iter().map(|v| f64::from(*v)).sum();
+        let inner = (4..12).flat_map(|y| (4..12).map(move |x| (x, y)));
+        let mode: f64 = inner.map(|(x, y)| sign(x, y) * f64::from(snapshot.pressure[(x + 16 * y) as usize])).sum();
+        [mode / 64.0, mass, heat]
+    };
+    let before = sums(&simulation);
+    simulation.advance_to(4e-5).unwrap();
+    let after = sums(&simulation);
+    [after[0] / before[0], (after[1] / before[1] - 1.0).abs(), (after[2] / before[2] - 1.0).abs()]
+}
+
+#[test]
+fn the_filter_removes_the_alternating_mode_and_conserves() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (share, numerics) in [(0.0, String::new()), (0.3, "filter = 0.3\n".to_owned())] {
+        let [left, mass, energy] = alternating(&gpu, &numerics);
+        eprintln!("filter {share}: {left:.4} of the mode left, mass {mass:.1e}, energy {energy:.1e}");
+        assert!((left - (1.0_f64 - share).powi(4)).abs() < 2e-3, "filter {share}: {left}");
+        assert!(mass < 1e-7 && energy < 1e-7, "{mass:e}, {energy:e}");
+    }
+}
+
+/// Two cold streams that collide: without the limiter the pressure is not positive for long.
+#[test]
+fn cold_colliding_streams_need_the_limiter() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let run = |numerics: &str| {
+        let text = format!(
+            "title = \"streams\"\n[domain]\ndimension = 1\ncells = [200]\nsize = [1.0]\n\
+             [gas]\ngamma = 1.6666666666666667\nambient = {{ density = 1.0, velocity = [-1.0], pressure = 1e-6 }}\n\
+             [[gas.regions]]\nshape = {{ half_space = {{ point = [0.5], normal = [1.0] }} }}\n\
+             density = 1.0\nvelocity = [1.0]\npressure = 1e-6\n\
+             [boundary]\nx_min = \"outlet\"\nx_max = \"outlet\"\n[time]\nuntil = 0.6\n[numerics]\n{numerics}"
+        );
+        let scene = Scene::parse(&text, "streams.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+        Simulation::new(&gpu, &scene).unwrap().advance_to(0.6)
+    };
+    for face in ["cell", "consistent"] {
+        let numerics = format!("face_velocity = \"{face}\"\n");
+        let records = run(&numerics).unwrap_or_else(|error| panic!("{face}: {error}"));
+        let limited: u32 = records.iter().map(|r| r.limited).sum();
+        let floored: u32 = records.iter().map(|r| r.floored).sum();
+        let lowest = records.iter().map(|r| r.pressure[0]).fold(f32::INFINITY, f32::min);
+        eprintln!("{face}: {} steps, {limited} limited, {floored} floored, lowest pressure {lowest:e}", records.len());
+        assert!(limited > 0 && lowest > 0.0, "{limited} limited, {lowest:e}");
+        let bare = run(&format!("{numerics}limiter = false\n"));
+        assert!(bare.is_err(), "{face}: the limiter is not needed");
+    }
+}
+
+/// Asks for times that are alternately near and far: steps of 1 and 19 dx/c in turn would blow up.
+#[test]
+fn short_and_long_steps_in_turn_stay_quiet() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let text = "title = \"turns\"\n[domain]\ndimension = 2\ncells = [24, 24]\nsize = [24.0, 24.0]\n\
+        [gas]\nambient = { density = 1.0, pressure = 1.0 }\n[time]\nuntil = 1e3\nmax_courant = 20.0\n";
+    let mut simulation = noisy(&gpu, text);
+    let (mut time, mut worst) = (0.0, 0.0_f32);
+    for turn in 0..24 {
+        time += if turn % 2 == 0 { 1.0 } else { 19.0 } / 1.4_f64.sqrt();
+        for record in simulation.advance_to(time).unwrap_or_else(|error| panic!("turn {turn}: {error}")) {
+            worst = worst.max(record.pressure[1] - 1.0).max(1.0 - record.pressure[0]);
+        }
+    }
+    eprintln!("{} steps, |dp|/p {worst:.1e}", simulation.step_count());
+    assert!(worst < 1e-2, "{worst:e}");
+}
+
+#[test]
+#[ignore = "minutes: the table of docs/method.md"]
+fn rest_noise_table() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (dimension, cells) in [(2, 64), (3, 24)] {
+        for s in [0.5, 2.0, 5.0, 20.0] {
+            for face in ["cell", "consistent"] {
+                let numerics = format!("face_velocity = \"{face}\"\n");
+                print(&format!("{face}, {dimension}D {cells}"), s, noise(&gpu, dimension, cells, s, 300, &numerics));
+            }
+            if s <= 2.0 {
+                let found = noise(&gpu, dimension, cells, s, 300, "integrator = \"ars222\"\n");
+                print(&format!("ars222, {dimension}D {cells}"), s, found);
+            }
+        }
+    }
+}
+
+/// L1 error of the density of a round explosion against the radial solution.
+fn round_error(gpu: &Gpu, dimension: usize, cells: u32, numerics: &str) -> f64 {
+    let list = |value: &str| vec![value; dimension].join(", ");
+    let text = format!(
+        "title = \"round\"\n[domain]\ndimension = {dimension}\ncells = [{}]\nsize = [{}]\n\
+         [gas]\nambient = {{ density = 0.125, pressure = 0.1 }}\n\
+         [[gas.regions]]\nshape = {{ sphere = {{ center = [{}], radius = 0.4 }} }}\ndensity = 1.0\npressure = 1.0\n\
+         [time]\nuntil = 0.25\n[numerics]\n{numerics}",
+        list(&cells.to_string()),
+        list("1.0"),
+        list("0.0"),
+    );
+    let scene = Scene::parse(&text, "round.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(gpu, &scene).unwrap();
+    simulation.advance_to(0.25).unwrap();
+    let density = simulation.snapshot().unwrap().density;
+    let reference = radial_density(2000, 1.8, dimension as i32 - 1, 0.25);
+    let side = cells as usize;
+    let difference = |(i, found): (usize, &f32)| {
+        let at = [i % side, i / side % side, i / (side * side)];
+        let square: f64 = at[..dimension].iter().map(|k| ((*k as f64 + 0.5) / side as f64).powi(2)).sum();
+        let place = square.sqrt() / 1.8 * 2000.0 - 0.5;
+        let low = place.floor().max(0.0) as usize;
+        let exact = reference[low] + (place - low as f64) * (reference[low + 1] - reference[low]);
+        (f64::from(*found) - exact).abs()
+    };
+    density.iter().enumerate().map(difference).sum::<f64>() / density.len() as f64
+}
+
+#[test]
+#[ignore = "a minute: the table of docs/method.md"]
+fn round_explosions() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (dimension, cells) in [(2, 32), (2, 64), (2, 128), (3, 32), (3, 48)] {
+        let error = |face: &str| round_error(&gpu, dimension, cells, &format!("face_velocity = \"{face}\"\n"));
+        let [cell, consistent] = [error("cell"), error("consistent")];
+        eprintln!("{dimension}D {cells} cells per unit: L1 {cell:.5} cell, {consistent:.5} consistent");
+        assert!(consistent < cell, "{consistent} {cell}");
+    }
+}

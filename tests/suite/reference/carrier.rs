@@ -1,0 +1,90 @@
+//! The velocity that carries the gas through its faces: what the pressure solve sees of it. Gas only.
+
+use super::grid::{add, shift};
+use super::{GAS, GHOST, Gas, Problem, WALL, boundary};
+
+/// Per cell: velocity averaged over the other axes, and the sum of its differences across the faces.
+pub(crate) struct Carrier {
+    pub(crate) velocity: Vec<[f64; 3]>,
+    divergence: Vec<f64>,
+}
+
+fn velocity_at(problem: &Problem, cells: &[u32], gas: &Gas, c: [i32; 3], offset: [i32; 3]) -> [f64; 3] {
+    let grid = &problem.grid;
+    let at = add(c, offset);
+    let slot = grid.slot(at);
+    if cells[slot] == GAS {
+        return gas.velocity(slot);
+    }
+    if let Some(velocity) = Some(at).filter(|_| cells[slot] == GHOST).and_then(|at| boundary::prescribed(problem, at)) {
+        return velocity;
+    }
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    for axis in (0..grid.dimension).filter(|axis| offset[*axis] != 0) {
+        let mut nearer = offset;
+        nearer[axis] = 0;
+        let slot = grid.slot(add(c, nearer));
+        if nearer != [0; 3] && cells[slot] == GAS {
+            let v = gas.velocity(slot);
+            sum = [0, 1, 2].map(|d| sum[d] + v[d]);
+            count += 1.0;
+        }
+    }
+    if count > 0.0 { sum.map(|s| s / count) } else { gas.velocity(grid.slot(c)) }
+}
+
+impl Carrier {
+    /// Of a state, or None where the cells' own velocities carry.
+    pub(crate) fn new(problem: &Problem, cells: &[u32], gas: &Gas) -> Option<Self> {
+        if !problem.numerics.consistent {
+            return None;
+        }
+        let grid = &problem.grid;
+        let mut carrier = Self { velocity: vec![[0.0; 3]; grid.slots()], divergence: vec![0.0; grid.slots()] };
+        let inside: Vec<_> = grid.interior().into_iter().filter(|c| cells[grid.slot(*c)] == GAS).collect();
+        for c in &inside {
+            for axis in 0..grid.dimension {
+                for offset in grid.offsets(-1, 1).into_iter().filter(|offset| offset[axis] == 0) {
+                    let others = (0..grid.dimension).filter(|d| *d != axis);
+                    let share: f64 = others.map(|d| if offset[d] == 0 { 0.5 } else { 0.25 }).product();
+                    carrier.velocity[grid.slot(*c)][axis] += share * velocity_at(problem, cells, gas, *c, offset)[axis];
+                }
+            }
+        }
+        for c in grid.all().into_iter().filter(|c| cells[grid.slot(*c)] == GHOST) {
+            let nearest = boundary::nearest(problem, c);
+            carrier.velocity[grid.slot(c)] = boundary::prescribed(problem, c).unwrap_or(carrier.velocity[nearest]);
+        }
+        let mut divergence = vec![0.0; grid.slots()];
+        for c in &inside {
+            for axis in 0..grid.dimension {
+                for normal in [-1, 1] {
+                    let (own, other) = (grid.slot(*c), grid.slot(shift(*c, axis, normal)));
+                    let face = match cells[other] {
+                        WALL => 0.0,
+                        GHOST => carrier.velocity[other][axis],
+                        _ => carrier.between(gas, axis, own, other),
+                    };
+                    divergence[own] += f64::from(normal) * face;
+                }
+            }
+        }
+        carrier.divergence = divergence;
+        Some(carrier)
+    }
+
+    /// Velocity of the face between two gas cells.
+    pub(crate) fn between(&self, gas: &Gas, axis: usize, low: usize, high: usize) -> f64 {
+        let (a, b) = (gas.conserved[low][0], gas.conserved[high][0]);
+        let mean = (a * self.velocity[low][axis] + b * self.velocity[high][axis]) / (a + b);
+        mean - 0.25 * (self.divergence[high] - self.divergence[low])
+    }
+
+    /// Sum of the differences of the face velocities of a gas cell.
+    pub(crate) fn corrected_divergence(&self, problem: &Problem, cells: &[u32], c: [i32; 3]) -> f64 {
+        let grid = &problem.grid;
+        let own = self.divergence[grid.slot(c)];
+        let neighbours = (0..grid.dimension).flat_map(|axis| [-1, 1].map(|by| grid.slot(shift(c, axis, by))));
+        own - neighbours.filter(|n| cells[*n] == GAS).map(|n| 0.25 * (self.divergence[n] - own)).sum::<f64>()
+    }
+}
