@@ -7,6 +7,7 @@
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
+#include "shared/interior.wgsl"
 
 override SOURCE: u32;   // 0: the state now, 1: U1, 2: U*
 
@@ -53,6 +54,23 @@ fn across_share(offset: vec3i, n: u32) -> f32 {
     return share;
 }
 
+fn component(at: u32, n: u32) -> f32 {
+    let gas = source(at);
+    return gas[n + 1u] / gas.x;
+}
+
+fn smooth_along(at: u32, n: u32, step: u32) -> f32 {
+    return 0.5 * component(at, n) + 0.25 * (component(at - step, n) + component(at + step, n));
+}
+
+// Velocity component n averaged across its axis, deep inside the gas.
+fn interior_average(at: u32, n: u32) -> f32 {
+    let t = across(n);
+    if DIM == 1u { return component(at, n); }
+    if DIM == 2u { return smooth_along(at, n, t.x + t.y); }
+    return 0.5 * smooth_along(at, n, t.x) + 0.25 * (smooth_along(at - t.y, n, t.x) + smooth_along(at + t.y, n, t.x));
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
@@ -60,15 +78,19 @@ fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if slot >= params.slots { return; }
     let word = cells[slot];
     if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
+    var sum = vec3f(0.0);
+    if !LISTED {
+        for (var n = 0u; n < DIM; n++) { sum[n] = interior_average(slot, n); }
+        node[slot] = vec4f(sum, 0.0);
+        return;
+    }
     let c = cell_of(slot);
     let own = velocity_of(source(slot));
-    var sum = vec3f(0.0);
     for (var k = 0u; k < block_size(); k++) {
         let offset = block_offset(k);
         let share = vec3f(across_share(offset, 0u), across_share(offset, 1u), across_share(offset, 2u)) * vec3f(reach());
         if all(share == vec3f(0.0)) { continue; }
-        if LISTED { sum += share * velocity_at(c, offset, own); }
-        else { sum += share * velocity_of(source(slot_of(c + offset))); }
+        sum += share * velocity_at(c, offset, own);
     }
     node[slot] = vec4f(sum, 0.0);
 }
@@ -77,14 +99,12 @@ fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
 fn face_mean(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     let far = select(c - axis(n), c + axis(n), up);
     let other = slot_of(far);
-    if LISTED {
-        let kind = kind_of(cells[other]);
-        if kind == WALL { return 0.0; }
-        if kind != GAS {
-            let opening = opening_of(cells[other]);
-            if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow)[n]; }
-            return node[slot][n];
-        }
+    let kind = kind_of(cells[other]);
+    if kind == WALL { return 0.0; }
+    if kind != GAS {
+        let opening = opening_of(cells[other]);
+        if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow)[n]; }
+        return node[slot][n];
     }
     let a = source(slot).x;
     let b = source(other).x;
@@ -98,8 +118,19 @@ fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(num_workgrou
     if slot >= params.slots { return; }
     let word = cells[slot];
     if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
-    let c = cell_of(slot);
     var sum = 0.0;
-    for (var n = 0u; n < DIM; n++) { sum += face_mean(c, slot, n, true) - face_mean(c, slot, n, false); }
+    if LISTED {
+        let c = cell_of(slot);
+        for (var n = 0u; n < DIM; n++) { sum += face_mean(c, slot, n, true) - face_mean(c, slot, n, false); }
+    } else {
+        let density = source(slot).x;
+        let own = node[slot];
+        for (var n = 0u; n < DIM; n++) {
+            let low = source(slot - step_of(n)).x;
+            let high = source(slot + step_of(n)).x;
+            sum += (density * own[n] + high * node[slot + step_of(n)][n]) / (density + high)
+                - (low * node[slot - step_of(n)][n] + density * own[n]) / (low + density);
+        }
+    }
     node[slot].w = sum;
 }
