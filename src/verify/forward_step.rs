@@ -46,7 +46,9 @@ fn report(session: &mut Session<'_>, run: &Run) {
     let spacing = run.scene.domain.spacing();
     session.check(run, "bow shock at y = 0.1", first(0.1)).reference(0.3121, REFERENCE).pass(between(0.3121, 0.02));
     session.check(run, "bow shock at y = 0.5", first(0.5)).reference(0.4283, REFERENCE).pass(between(0.4283, 0.02));
-    session.check(run, "Mach stem at the roof", first(1.0)).reference(0.5849, REFERENCE).pass(between(0.5849, 0.05));
+    let stem = session.check(run, "Mach stem at the roof", first(1.0)).reference(0.5849, REFERENCE);
+    stem.pass(between(0.5849, 0.05))
+        .known(between(0.5849, 0.06), "the stem grows with the cells: MUSCL-HLLC has 0.598 with 80 per unit");
     let surface = Profile::along(run, 0, 0.2 + 0.5 * spacing);
     let met = surface.steepest_rise(PRESSURE, [0.8, 2.0]);
     session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));
