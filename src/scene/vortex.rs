@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn impossible_vortices_are_refused() {
-        for (key, place) in [("strength=9", "gas.vortices[0].strength"), ("radius=0", "gas.vortices[0].radius")] {
+        for (key, place) in [("strength=11", "gas.vortices[0].strength"), ("radius=0", "gas.vortices[0].radius")] {
             let text = Scene::shipped("validation/isentropic_vortex.toml", &[format!("gas.vortices[0].{key}")]);
             let message = text.unwrap_err().to_string();
             assert!(message.contains(place), "{message}");
