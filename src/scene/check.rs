@@ -186,6 +186,10 @@ impl Check<'_> {
             self.planar(format!("gas.waves[{index}].velocity"), wave.velocity);
         }
         self.findings.extend(super::wave::finding(gas));
+        for (index, vortex) in gas.vortices.iter().enumerate() {
+            self.planar(format!("gas.vortices[{index}].center"), vortex.center);
+        }
+        self.findings.extend(super::vortex::findings(gas));
     }
 
     fn materials(&mut self) {

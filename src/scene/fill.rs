@@ -25,12 +25,12 @@ pub struct Seed {
 impl Scene {
     /// Density, momentum and energy per volume of every cell, x fastest, without padding.
     ///
-    /// A cell that the surface of a region crosses, and every cell under waves, holds the mean over 4^dimension points; every other
-    /// cell is exact.
+    /// A cell that the surface of a region crosses, and every cell under waves or vortices, holds the mean over 4^dimension
+    /// points; every other cell is exact.
     #[must_use]
     pub fn initial_gas(&self) -> Vec<[f64; 5]> {
         let gamma = self.gas.gamma;
-        if !self.gas.waves.is_empty() {
+        if !self.gas.waves.is_empty() || !self.gas.vortices.is_empty() {
             return self.each_cell(|center| self.mean_over(center, |point| self.gas_at(point).conserved(gamma)));
         }
         let ambient = self.gas.ambient.conserved(gamma);
@@ -167,6 +167,9 @@ impl Scene {
         let mut state = last.map_or(self.gas.ambient, |region| region.state);
         for wave in &self.gas.waves {
             wave.add(&mut state, point);
+        }
+        for vortex in &self.gas.vortices {
+            vortex.add(&mut state, self.gas.gamma, point);
         }
         state
     }

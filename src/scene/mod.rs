@@ -19,6 +19,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod vector;
+mod vortex;
 mod wave;
 
 use std::collections::BTreeMap;
@@ -42,6 +43,7 @@ pub use settings::{
     RenderSettings, Time, Transfer,
 };
 pub use shape::Shape;
+pub use vortex::Vortex;
 pub use wave::Wave;
 
 /// One experiment.
@@ -127,6 +129,9 @@ pub struct Gas {
     /// Waves on top of that.
     #[serde(default)]
     pub waves: Vec<Wave>,
+    /// Vortices on top of that.
+    #[serde(default)]
+    pub vortices: Vec<Vortex>,
 }
 
 fn default_gamma() -> f64 {
@@ -334,6 +339,7 @@ impl Scene {
             && self.bodies.is_empty()
             && self.obstacles.is_empty()
             && self.gas.waves.is_empty()
+            && self.gas.vortices.is_empty()
             && self.gravity == [0.0; 3];
         let [region] = &self.gas.regions[..] else { return None };
         let inside = |x: f64| region.shape.distance([x, 0.0, 0.0]) < 0.0;

@@ -17,12 +17,20 @@
 
 mod blast_2d;
 mod blasts;
+mod buoyancy;
 mod document;
+mod explosions;
+mod forward_step;
+pub mod gasdynamics;
+mod jet;
 pub mod muscl;
+mod plane;
+mod plane_flows;
 mod plot;
 mod profile;
 mod row;
 mod session;
+mod steady;
 mod table;
 mod tube_errors;
 mod tubes;
@@ -56,7 +64,9 @@ pub struct Case {
 
 /// All cases, in the order of the report.
 pub fn cases() -> impl Iterator<Item = &'static Case> {
-    [tubes::CASES, blasts::CASES, waves::CASES, blast_2d::CASES].into_iter().flatten()
+    let lines = [tubes::CASES, blasts::CASES, waves::CASES];
+    let spaces = [blast_2d::CASES, explosions::CASES, forward_step::CASES, steady::CASES, jet::CASES];
+    lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES]).flatten()
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.

@@ -1,5 +1,6 @@
 //! An independent 1D solver for references: second-order MUSCL with the HLLC flux, explicit, in double precision, on the CPU.
-//! It shares nothing with the method under test but the start of the scene.
+//! It shares nothing with the method under test but the start of the scene. Waves around a line or a point are 1D too: their cells are
+//! rings and shells, whose faces grow with the radius.
 //! [van Leer 1979; Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 2009, sections 10.4 and 13.4]
 
 use super::profile::Profile;
@@ -20,25 +21,33 @@ type Primitive = [f64; 3];
 pub fn solve(scene: &Scene) -> Profile {
     let start = scene.initial_gas().into_iter().map(|cell| [cell[0], cell[1], cell[4]]);
     let walls = [&scene.boundary.x_min, &scene.boundary.x_max].map(|side| *side == Boundary::Wall);
-    let mut tube = Tube { gamma: scene.gas.gamma, spacing: scene.domain.spacing(), walls, cells: start.collect() };
-    let mut time = 0.0;
-    while time < scene.time.until {
-        let dt = tube.time_step().min(scene.time.until - time);
-        tube.step(dt);
-        time = if dt == scene.time.until - time { scene.time.until } else { time + dt };
-    }
-    let mut state = [const { Vec::new() }; 3];
-    for cell in &tube.cells {
-        for (values, value) in state.iter_mut().zip(tube.primitive(cell)) {
-            values.push(value);
-        }
-    }
-    Profile { origin: scene.domain.origin[0], spacing: tube.spacing, state }
+    let (gamma, spacing) = (scene.gas.gamma, scene.domain.spacing());
+    let mut tube = Tube { gamma, spacing, symmetry: 0, walls, cells: start.collect() };
+    tube.advance(scene.time.until);
+    Profile { origin: scene.domain.origin[0], spacing, state: tube.columns() }
+}
+
+/// The gas at the end of a scene that starts round about the origin, over the radius: around a line in 2D, a point in 3D. It reaches to
+/// the end of the domain in x, where everything is let through.
+#[must_use]
+pub fn solve_radial(scene: &Scene, cells: u32) -> Profile {
+    let domain = &scene.domain;
+    let (gamma, spacing) = (scene.gas.gamma, (domain.origin[0] + domain.size[0]) / f64::from(cells));
+    let start = (0..cells).map(|cell| {
+        let state = scene.gas_at([(f64::from(cell) + 0.5) * spacing, 0.0, 0.0]).conserved(gamma);
+        [state[0], state[1], state[4]]
+    });
+    let symmetry = domain.dimension.saturating_sub(1) as i32;
+    let mut tube = Tube { gamma, spacing, symmetry, walls: [true, false], cells: start.collect() };
+    tube.advance(scene.time.until);
+    Profile { origin: 0.0, spacing, state: tube.columns() }
 }
 
 struct Tube {
     gamma: f64,
     spacing: f64,
+    /// 0 between planes, 1 around a line, 2 around a point: faces grow with this power of the radius.
+    symmetry: i32,
     walls: [bool; 2],
     cells: Vec<Flow>,
 }
@@ -47,6 +56,21 @@ impl Tube {
     fn primitive(&self, &[density, momentum, energy]: &Flow) -> Primitive {
         let velocity = momentum / density;
         [density, velocity, (self.gamma - 1.0) * (energy - 0.5 * momentum * velocity)]
+    }
+
+    fn advance(&mut self, until: f64) {
+        let mut time = 0.0;
+        while time < until {
+            let dt = self.time_step().min(until - time);
+            self.step(dt);
+            time = if dt == until - time { until } else { time + dt };
+        }
+    }
+
+    /// Density, velocity and pressure of all cells.
+    fn columns(&self) -> [Vec<f64>; 3] {
+        let cells = self.cells.iter().map(|cell| self.primitive(cell)).collect::<Vec<_>>();
+        [0, 1, 2].map(|k| cells.iter().map(|cell| cell[k]).collect())
     }
 
     fn time_step(&self) -> f64 {
@@ -76,9 +100,16 @@ impl Tube {
             self.hllc(left, right)
         };
         let fluxes: Vec<Flow> = (1..states.len() - 2).map(face).collect();
-        let ratio = dt / self.spacing;
-        for (cell, pair) in self.cells.iter_mut().zip(fluxes.windows(2)) {
-            *cell = std::array::from_fn(|k| cell[k] - ratio * (pair[1][k] - pair[0][k]));
+        let pressures: Vec<f64> = states.iter().skip(GHOSTS).map(|state| state[2]).collect();
+        let (spacing, power) = (self.spacing, self.symmetry);
+        for (index, (cell, pair)) in self.cells.iter_mut().zip(fluxes.windows(2)).enumerate() {
+            let faces = [index, index + 1].map(|face| face as f64 * spacing);
+            let [low, high] = faces.map(|radius| radius.powi(power));
+            let volume = (faces[1].powi(power + 1) - faces[0].powi(power + 1)) / f64::from(power + 1);
+            let ratio = dt / volume;
+            *cell = std::array::from_fn(|k| cell[k] - ratio * (high * pair[1][k] - low * pair[0][k]));
+            // the flanks of a ring or shell push outward
+            cell[1] += ratio * (high - low) * pressures[index];
         }
     }
 

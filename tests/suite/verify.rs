@@ -164,6 +164,24 @@ fn the_independent_solver_keeps_mass_between_walls() {
 }
 
 #[test]
+fn the_radial_solver_finds_round_shocks() {
+    // shocks on 4000 cells; what is inside has not been reached, or only just
+    for (path, place) in [("gas/circular_shock.toml", 0.8134), ("validation/spherical_explosion.toml", 0.7933)] {
+        let scene = Scene::shipped(path, &[]).unwrap();
+        let profile = muscl::solve_radial(&scene, 400);
+        let found = profile.crossings(2, 0.1515).next_back().unwrap();
+        assert!((found - place).abs() < 0.003, "{path}: {found}");
+        // the power of the radius that a wave spreads over, and unit density inside 0.4
+        let power = scene.domain.dimension as i32;
+        let shell =
+            |k: usize| (profile.spacing * (k + 1) as f64).powi(power) - (profile.spacing * k as f64).powi(power);
+        let mass: f64 = (0..profile.cells()).map(|k| shell(k) * profile.state[0][k]).sum();
+        let expected = 0.125 + 0.875 * 0.4_f64.powi(power);
+        assert!((mass - expected).abs() < 1e-6, "{path}: {mass} {expected}");
+    }
+}
+
+#[test]
 fn the_iteration_bound_is_that_of_conjugate_gradients() {
     assert!((verify::iteration_bound(1, 0.0, 1e-7) - 8.4).abs() < 0.01);
     assert!((verify::iteration_bound(2, 1.0, 1e-7) - 3.0 * 8.405).abs() < 0.01);

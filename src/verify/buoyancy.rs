@@ -1,0 +1,90 @@
+//! Gas under gravity: at rest, and a bubble that rises.
+
+use super::Case;
+use super::plot::{Plot, Style};
+use super::profile::{PRESSURE, Profile};
+use super::row::Limit;
+use super::session::{Run, Session, Setting, Suite};
+use crate::Result;
+
+const GROUP: &str = "Gas under gravity";
+
+/// The cases of this module.
+pub(super) const CASES: &[Case] = &[
+    Case {
+        id: "hydrostatic_column",
+        title: "Hydrostatic column",
+        group: GROUP,
+        quick: true,
+        source: "Exact: what is in balance stays at rest.",
+        run: column,
+    },
+    Case {
+        id: "hot_bubble",
+        title: "Start of a hot bubble",
+        group: GROUP,
+        quick: true,
+        source: "Potential flow, added mass of a cylinder; G. K. Batchelor, An Introduction to Fluid Dynamics, 1967, section 6.8.",
+        run: bubble,
+    },
+];
+
+/// Why the column moves.
+const COLUMN: &str = "odd-even waves start at floor and roof and grow to this; at an acoustic Courant number of 0.5 they grow ten times slower";
+
+fn column(session: &mut Session<'_>) -> Result<()> {
+    let run = session.run("validation/hydrostatic_column.toml", Setting::standard(0), &[])?;
+    let fall = (-run.scene.gravity[1] * run.scene.domain.size[1]).sqrt();
+    let row = session.check(&run, "largest speed over sqrt(gravity height)", run.summary.max_speed / fall);
+    row.reference(0.0, "exact").pass(Limit::AtMost(1e-3)).known(Limit::AtMost(0.2), COLUMN);
+    let line = Profile::along(&run, 1, 0.1);
+    let start: Vec<[f64; 2]> =
+        line.points(PRESSURE).iter().map(|[y, _]| [*y, run.scene.gas_at([0.1, *y, 0.0]).pressure]).collect();
+    let plot = Plot::new("Hydrostatic column: pressure", "height", "pressure").with("exact", Style::Reference, start);
+    session.plot(plot.with(run.label.clone(), Style::Marks, line.points(PRESSURE)));
+    Ok(())
+}
+
+/// Two runs, the second twice as long: sound that the sudden start sends out gives the bubble a speed of its own, which the difference
+/// does not contain.
+fn bubble(session: &mut Session<'_>) -> Result<()> {
+    let ratios: &[f64] = if session.suite == Suite::Quick { &[0.5] } else { &[0.5, 0.1] };
+    for &ratio in ratios {
+        let acceleration = (1.0 - ratio) / (1.0 + ratio);
+        let density = format!("gas.regions[0].density={}", 1.4 * ratio);
+        let mut climbs = Vec::new();
+        let mut last = None;
+        for part in [0.5, 1.0] {
+            let gravity: f64 = 1e-4;
+            let until = part * (0.2 / (acceleration * gravity)).sqrt();
+            let all = [density.clone(), format!("time.until={until}")];
+            let run = session.run("validation/hot_bubble.toml", Setting::standard(0), &all)?;
+            climbs.push(centroid(&run));
+            last = Some((run, gravity, until));
+        }
+        if let Some((run, gravity, until)) = last {
+            let half = 0.5 * until;
+            let ours = (climbs[1] - 2.0 * climbs[0]) / (half * half * gravity);
+            let name = format!("acceleration over gravity, density ratio {ratio}");
+            session.check(&run, &name, ours).reference(acceleration, "added mass").within(0.1);
+        }
+    }
+    Ok(())
+}
+
+/// Height of the middle of the lighter gas.
+fn centroid(run: &Run) -> f64 {
+    let outside = run.scene.gas.ambient.density;
+    let [nx, ..] = run.scene.domain.cells;
+    let (mut sum, mut weight) = (0.0, 0.0);
+    for (cell, density) in run.snapshot.density.iter().enumerate() {
+        let missing = outside - f64::from(*density);
+        // sound and stratification change the density by less
+        if missing > 0.01 * outside {
+            let center = run.scene.domain.cell_center([cell as u32 % nx, cell as u32 / nx, 0]);
+            sum += missing * center[1];
+            weight += missing;
+        }
+    }
+    sum / weight
+}

@@ -1,0 +1,68 @@
+//! The forward-facing step in a wind tunnel at Mach 3.
+
+use super::plot::{Plot, Style};
+use super::profile::{DENSITY, PRESSURE, Profile};
+use super::row::Limit;
+use super::session::{Integrator, Run, Session, Setting, Suite};
+use super::{Case, gasdynamics};
+use crate::Result;
+use crate::scene::Pair;
+
+/// Who computed the positions, on 320 cells per unit.
+const REFERENCE: &str = "MUSCL-HLLC, 320 per unit";
+/// Pressure at which shocks are looked for.
+const LEVEL: f64 = 4.0;
+
+/// The cases of this module.
+pub(super) const CASES: &[Case] = &[Case {
+    id: "forward_step",
+    title: "Forward-facing step at Mach 3",
+    group: "Supersonic flow in 2D",
+    quick: true,
+    source: "P. Woodward, P. Colella, J. Comput. Phys. 54 (1984) 115; positions at t = 4 of an independent MUSCL-HLLC solver with 80, \
+             160 and 320 cells per unit, no fix at the corner; Rayleigh's pitot formula.",
+    run: step,
+}];
+
+fn step(session: &mut Session<'_>) -> Result<()> {
+    let standard = |pair, cells| Setting { pair, integrator: Integrator::Predictor, cells };
+    let settings = match session.suite {
+        Suite::Quick => vec![standard(Pair::B1b0, 120)],
+        Suite::Full => vec![standard(Pair::B1b0, 120), standard(Pair::B1b0, 240), standard(Pair::B2b1, 240)],
+    };
+    for setting in settings {
+        let run = session.run("validation/forward_step.toml", setting, &[])?;
+        report(session, &run);
+        session.plot(along_tunnel(&run));
+    }
+    Ok(())
+}
+
+/// Positions at t = 4. The gates are those for 80 cells per unit; half as many may miss by twice as much.
+fn report(session: &mut Session<'_>, run: &Run) {
+    let wide = 80.0 * run.scene.domain.spacing();
+    let between = |value: f64, width: f64| Limit::Between(value - wide * width, value + wide * width);
+    let first = |y: f64| Profile::along(run, 0, y).crossings(PRESSURE, LEVEL).next().unwrap_or(f64::NAN);
+    let spacing = run.scene.domain.spacing();
+    session.check(run, "bow shock at y = 0.1", first(0.1)).reference(0.3121, REFERENCE).pass(between(0.3121, 0.02));
+    session.check(run, "bow shock at y = 0.5", first(0.5)).reference(0.4283, REFERENCE).pass(between(0.4283, 0.02));
+    let stem = session.check(run, "Mach stem at the roof", first(1.0)).reference(0.5849, REFERENCE);
+    stem.pass(between(0.5849, 0.05))
+        .known(between(0.5849, 0.06), "the stem grows with the cells: MUSCL-HLLC has 0.598 with 80 per unit");
+    let surface = Profile::along(run, 0, 0.2 + 0.5 * spacing);
+    let met = surface.steepest_rise(PRESSURE, [0.8, 2.0]);
+    session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));
+    let face = Profile::along(run, 1, 0.6 - 0.5 * spacing).extremes(PRESSURE, [0.0, 0.2])[1];
+    let pitot = gasdynamics::pitot_pressure(run.scene.gas.gamma, 3.0);
+    session.check(run, "highest pressure at the face", face).reference(pitot, "Rayleigh pitot").within(0.02);
+}
+
+/// Density along the middle of the tunnel.
+fn along_tunnel(run: &Run) -> Plot {
+    let line = Profile::along(run, 0, 0.5);
+    // at x = 0.5, 1, 1.5, 2, 2.5
+    let reference = vec![[0.5, 4.560], [1.0, 2.412], [1.5, 1.829], [2.0, 2.915], [2.5, 2.303]];
+    Plot::new(format!("{}, y = 0.5", run.scene.title), "x", "density")
+        .with(run.label.clone(), Style::Line, line.points(DENSITY))
+        .with("MUSCL-HLLC, 160 per unit", Style::Marks, reference)
+}

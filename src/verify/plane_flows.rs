@@ -1,0 +1,161 @@
+//! Unsteady flow in the plane: a vortex that must not change, four shocks, a double Mach reflection.
+
+use super::Case;
+use super::plane::fitted_line;
+use super::plot::{Plot, Style};
+use super::profile::{DENSITY, PRESSURE, Profile};
+use super::row::Limit;
+use super::session::{Integrator, Run, Session, Setting, Suite, pair_name};
+use crate::Result;
+use crate::riemann::ExactRiemann;
+use crate::scene::Pair;
+
+const GROUP: &str = "Unsteady flow in 2D";
+
+/// The cases of this module.
+pub(super) const CASES: &[Case] = &[
+    Case {
+        id: "isentropic_vortex",
+        title: "Isentropic vortex",
+        group: GROUP,
+        quick: true,
+        source: "C.-W. Shu, ICASE report 97-65 (1997); exact.",
+        run: vortex,
+    },
+    Case {
+        id: "riemann_2d",
+        title: "2D Riemann problem, configuration 3",
+        group: GROUP,
+        quick: true,
+        source: "P. D. Lax, X.-D. Liu, SIAM J. Sci. Comput. 19 (1998) 319; exact Riemann solution at the edges.",
+        run: riemann,
+    },
+    Case {
+        id: "double_mach_reflection",
+        title: "Double Mach reflection",
+        group: GROUP,
+        quick: true,
+        source: "P. Woodward, P. Colella, J. Comput. Phys. 54 (1984) 115; positions of an independent MUSCL-HLLC solver with 480 cells per unit.",
+        run: double_mach,
+    },
+];
+
+fn vortex(session: &mut Session<'_>) -> Result<()> {
+    let cells: &[u32] = if session.suite == Suite::Quick { &[32, 64] } else { &[32, 64, 128] };
+    let exact = 0.493_807;
+    let mut plot = Plot::new("Isentropic vortex: L2 density error", "cells", "error").logarithmic();
+    let pairs: &[Pair] = if session.suite == Suite::Quick { &[Pair::B1b0] } else { &[Pair::B1b0, Pair::B2b1] };
+    for &pair in pairs {
+        let mut errors: Vec<[f64; 2]> = Vec::new();
+        for &cells in cells {
+            let setting = Setting { pair, integrator: Integrator::Predictor, cells };
+            let run = session.run("validation/isentropic_vortex.toml", setting, &[])?;
+            let start = run.scene.initial_gas();
+            let square = run.snapshot.density.iter().zip(&start).map(|(now, then)| (f64::from(*now) - then[0]).powi(2));
+            let error = (square.sum::<f64>() / start.len() as f64).sqrt();
+            session.check(&run, "L2 density error", error).source("exact");
+            let lowest = run.snapshot.density.iter().copied().fold(f32::NAN, f32::min);
+            let row = session.check(&run, "lowest density", lowest.into()).reference(exact, "exact");
+            if cells == 128 {
+                row.pass(Limit::AtMost(exact + 0.05 * (1.0 - exact)));
+            }
+            if setting == Setting::standard(64) {
+                session.plot(vortex_plot(&run));
+            }
+            errors.push([f64::from(cells), error]);
+        }
+        for two in errors.windows(2) {
+            let order = (two[0][1] / two[1][1]).log2();
+            let row = session.push(&format!("order from {} to {} cells", two[0][0], two[1][0]), order);
+            row.source("second order").setting = pair_name(pair).to_owned();
+            if two[1][0] == 128.0 {
+                row.pass(Limit::AtLeast(1.8));
+            }
+        }
+        plot = plot.with(pair_name(pair), Style::Both, errors);
+    }
+    session.plot(plot);
+    Ok(())
+}
+
+/// Density through the middle, now and at the start.
+fn vortex_plot(run: &Run) -> Plot {
+    let line = Profile::along(run, 0, 0.0);
+    let exact = (0..200).map(|k| {
+        let x = -5.0 + 0.05 * f64::from(k);
+        [x, run.scene.gas_at([x, 0.0, 0.0]).density]
+    });
+    Plot::new("Isentropic vortex after one passage, y = 0", "x", "density")
+        .with("exact", Style::Reference, exact.collect())
+        .with(run.label.clone(), Style::Marks, line.points(DENSITY))
+}
+
+fn riemann(session: &mut Session<'_>) -> Result<()> {
+    let cells: &[u32] = if session.suite == Suite::Quick { &[100] } else { &[100, 200] };
+    for &cells in cells {
+        let run = session.run("validation/riemann_2d.toml", Setting::standard(cells), &[])?;
+        let (spacing, time) = (run.scene.domain.spacing(), run.snapshot.time);
+        let (inner, corner) = ((1.5, 0.0, 1.5), (0.138, 1.206, 0.029));
+        let top = ExactRiemann::new(1.4, (0.5323, 1.206, 0.3), inner);
+        let bottom = ExactRiemann::new(1.4, corner, (0.5323, 0.0, 0.3));
+        for (name, exact, y) in [("top", top, 1.0), ("bottom", bottom, 0.0)] {
+            let place = 0.5 + exact.wave_speeds()[0] * time;
+            let line = Profile::along(&run, 0, y);
+            let behind = exact.star_pressure;
+            let ahead = if name == "top" { 0.3 } else { 0.029 };
+            let found = line.crossings(PRESSURE, 0.5 * (ahead + behind)).next().unwrap_or(f64::NAN);
+            let row = session.check(&run, &format!("left shock at the {name}"), found);
+            row.reference(place, "exact Riemann solution").pass(Limit::Between(place - spacing, place + spacing));
+        }
+        let n = cells as usize;
+        let density = |x: usize, y: usize| f64::from(run.snapshot.density[y * n + x]);
+        let differences = (0..n).flat_map(|y| (0..y).map(move |x| (density(x, y) - density(y, x)).abs()));
+        let largest = differences.fold(0.0, f64::max);
+        session
+            .check(&run, "largest asymmetry about the diagonal", largest)
+            .source("symmetry")
+            .pass(Limit::AtMost(1e-3));
+        let diagonal = (0..n).map(|k| [(k as f64 + 0.5) * spacing, density(k, k)]).collect();
+        let plot = Plot::new("2D Riemann problem: density on the diagonal", "x", "density");
+        session.plot(plot.with(run.label.clone(), Style::Line, diagonal));
+    }
+    Ok(())
+}
+
+/// Where the published values come from.
+const REFERENCE: &str = "MUSCL-HLLC, 480 per unit";
+
+fn double_mach(session: &mut Session<'_>) -> Result<()> {
+    let cells: &[u32] = if session.suite == Suite::Quick { &[208] } else { &[208, 416] };
+    for &cells in cells {
+        let run = session.run("validation/double_mach_reflection.toml", Setting::standard(cells), &[])?;
+        // gates are those for 120 cells per unit
+        let wide = (120.0 * run.scene.domain.spacing()).max(1.0);
+        let front = |y: f64| {
+            let line = Profile::along(&run, 0, y);
+            line.crossings(PRESSURE, 40.0).next_back().unwrap_or(f64::NAN)
+        };
+        let exact = |y: f64| 1.0 / 6.0 + (y + 20.0 * run.snapshot.time) / 3_f64.sqrt();
+        let off = (front(0.8) - exact(0.8)).abs() / run.scene.domain.spacing();
+        session.check(&run, "incident shock at y = 0.8, cells off", off).source("exact").pass(Limit::AtMost(1.0));
+        let row = session.check(&run, "foot of the Mach stem", front(0.0)).reference(2.789, REFERENCE);
+        row.pass(Limit::Between(2.789 - 0.02 * wide, 2.789 + 0.02 * wide));
+        let height = triple_point(front, exact);
+        let row = session.check(&run, "height of the triple point", height).reference(0.4365, REFERENCE);
+        row.pass(Limit::Between(0.4365 - 0.03 * wide, 0.4365 + 0.03 * wide));
+        let heights = (0..100).map(|k| 0.01 * f64::from(k));
+        let plot = Plot::new("Double Mach reflection: foremost shock", "x", "y");
+        let incident = heights.clone().map(|y| [exact(y), y]).collect();
+        let plot = plot.with("incident shock", Style::Reference, incident);
+        session.plot(plot.with(run.label.clone(), Style::Marks, heights.map(|y| [front(y), y]).collect()));
+    }
+    Ok(())
+}
+
+/// Height where the stem, as a straight line from its upper half, meets the incident shock.
+fn triple_point(front: impl Fn(f64) -> f64, incident: impl Fn(f64) -> f64) -> f64 {
+    let points: Vec<[f64; 2]> = (0..15).map(|k| 0.22 + 0.01 * f64::from(k)).map(|y| [y, front(y)]).collect();
+    let [slope, offset] = fitted_line(&points);
+    let rate = incident(1.0) - incident(0.0);
+    (incident(0.0) - offset) / (slope - rate)
+}

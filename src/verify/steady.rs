@@ -1,0 +1,220 @@
+//! Steady supersonic streams with closed formulas: wedge, corners, reflection, blunt body.
+
+use super::Case;
+use super::gasdynamics::{self, ObliqueShock, prandtl_meyer};
+use super::plane::{fitted_line, upper_crossings};
+use super::plot::{Plot, Style};
+use super::profile::{DENSITY, PRESSURE, Profile};
+use super::row::Limit;
+use super::session::{Run, Session, Setting, Suite};
+use crate::Result;
+
+const GROUP: &str = "Supersonic flow in 2D";
+/// Ratio of specific heats of all scenes here.
+const AIR: f64 = 1.4;
+/// Mach number of the stream but in the reflection.
+const MACH: f64 = 3.0;
+/// Where oblique shocks come from.
+const OBLIQUE: &str = "theta-beta-M relation";
+
+/// The cases of this module.
+pub(super) const CASES: &[Case] = &[
+    Case {
+        id: "compression_corner",
+        title: "Supersonic compression corner",
+        group: GROUP,
+        quick: true,
+        source: "Oblique shock relations, NACA report 1135 (1953).",
+        run: compression,
+    },
+    Case {
+        id: "wedge",
+        title: "Supersonic wedge",
+        group: GROUP,
+        quick: true,
+        source: "Oblique shock relations, NACA report 1135 (1953). The ramp is a staircase of cells.",
+        run: wedge,
+    },
+    Case {
+        id: "expansion_corner",
+        title: "Supersonic expansion corner",
+        group: GROUP,
+        quick: false,
+        source: "Prandtl-Meyer function, NACA report 1135 (1953).",
+        run: expansion,
+    },
+    Case {
+        id: "regular_reflection",
+        title: "Regular reflection of an oblique shock",
+        group: GROUP,
+        quick: false,
+        source: "H. C. Yee, R. F. Warming, A. Harten, AIAA paper 83-1943 (1983); exact oblique shock relations.",
+        run: reflection,
+    },
+    Case {
+        id: "cylinder",
+        title: "Bow shock ahead of a cylinder",
+        group: GROUP,
+        quick: true,
+        source: "Rayleigh's pitot formula, NACA report 1135 (1953); stand-off of a shock-fitted second-order solution on 120 x 120 cells.",
+        run: cylinder,
+    },
+];
+
+/// Resolutions of a case: the second in the full suite only.
+fn runs(session: &mut Session<'_>, path: &str, cells: [u32; 2]) -> Result<Vec<Run>> {
+    let count = if session.suite == Suite::Quick { 1 } else { 2 };
+    cells.iter().take(count).map(|cells| session.run(path, Setting::standard(*cells), &[])).collect()
+}
+
+/// Angle of a shock to the x axis, from where the pressure passes half its jump between two x \[deg\].
+fn shock_angle(run: &Run, pressure: f64, range: [f64; 2]) -> f64 {
+    let points = upper_crossings(run, PRESSURE, 0.5 * (1.0 + pressure), range);
+    fitted_line(&points)[0].atan().to_degrees()
+}
+
+fn compression(session: &mut Session<'_>) -> Result<()> {
+    let turn = 15_f64.to_radians();
+    let Some(exact) = ObliqueShock::weak(AIR, MACH, turn) else { return Ok(()) };
+    for run in runs(session, "validation/compression_corner.toml", [100, 200])? {
+        let angle = shock_angle(&run, exact.pressure, [0.3, 0.9]) + 15.0;
+        let goal = exact.angle.to_degrees();
+        let row = session.check(&run, "shock angle to the stream, degrees", angle).reference(goal, OBLIQUE);
+        row.pass(Limit::Between(goal - 0.5, goal + 0.5));
+        let wall = Profile::along(&run, 0, 0.0);
+        let range = [0.3, 0.9];
+        let pressure = wall.mean(PRESSURE, range);
+        session.check(&run, "pressure at the wall", pressure).reference(exact.pressure, OBLIQUE).within(0.01);
+        let density = Profile::along(&run, 1, 0.8).mean(DENSITY, [0.06, 0.16]) / 1.4;
+        session.check(&run, "density ratio behind", density).reference(exact.density, OBLIQUE).within(0.01);
+        session.plot(wall_plot(&run, &wall, exact.pressure));
+    }
+    Ok(())
+}
+
+/// Why the wedge misses its gates.
+const STAIRCASE: &str =
+    "gas is held up at every step of the staircase, the wedge seems thicker; the compression corner has none";
+
+fn wedge(session: &mut Session<'_>) -> Result<()> {
+    let turn = 15_f64.to_radians();
+    let Some(exact) = ObliqueShock::weak(AIR, MACH, turn) else { return Ok(()) };
+    for run in runs(session, "validation/wedge.toml", [100, 200])? {
+        let angle = shock_angle(&run, exact.pressure, [0.35, 0.8]);
+        let goal = exact.angle.to_degrees();
+        let row = session.check(&run, "shock angle, degrees", angle).reference(goal, OBLIQUE);
+        let steeper = if run.scene.domain.cells[0] < 200 { 3.2 } else { 2.0 };
+        row.pass(Limit::Between(goal - 0.5, goal + 0.5)).known(Limit::Between(goal, goal + steeper), STAIRCASE);
+        let ramp = ramp_pressure(&run, [0.4, 0.9]);
+        let mean = ramp.iter().map(|point| point[1]).sum::<f64>() / ramp.len() as f64;
+        session
+            .check(&run, "mean pressure on the ramp", mean)
+            .reference(exact.pressure, OBLIQUE)
+            .within(0.03)
+            .known(Limit::Between(exact.pressure, 1.05 * exact.pressure), STAIRCASE);
+        let spread = ramp.iter().map(|point| (point[1] / mean - 1.0).powi(2)).sum::<f64>() / ramp.len() as f64;
+        session.check(&run, "its unevenness, rms over mean", spread.sqrt()).source("reported");
+        let plot = Plot::new("Supersonic wedge: pressure on the ramp", "x", "pressure");
+        let line = vec![[0.1, exact.pressure], [1.0, exact.pressure]];
+        session.plot(plot.with(OBLIQUE, Style::Reference, line).with(run.label.clone(), Style::Marks, ramp));
+    }
+    Ok(())
+}
+
+/// Pressure in the first gas cell of every column between two x.
+fn ramp_pressure(run: &Run, [low, high]: [f64; 2]) -> Vec<[f64; 2]> {
+    let columns = (0..run.scene.domain.cells[0]).map(|column| run.scene.domain.cell_center([column, 0, 0])[0]);
+    let first = |x: f64| Profile::along(run, 1, x).state[PRESSURE].iter().copied().find(|p| p.is_finite());
+    columns.filter(|x| (low..=high).contains(x)).filter_map(|x| Some([x, first(x)?])).collect()
+}
+
+fn wall_plot(run: &Run, wall: &Profile, exact: f64) -> Plot {
+    Plot::new(format!("{}: pressure at the wall", run.scene.title), "x", "pressure")
+        .with("exact", Style::Reference, vec![[0.0, exact], [run.scene.domain.size[0], exact]])
+        .with(run.label.clone(), Style::Marks, wall.points(PRESSURE))
+}
+
+fn expansion(session: &mut Session<'_>) -> Result<()> {
+    let behind = gasdynamics::expanded_mach(AIR, MACH, 15_f64.to_radians());
+    let exact = gasdynamics::total_pressure(AIR, MACH) / gasdynamics::total_pressure(AIR, behind);
+    for run in runs(session, "validation/expansion_corner.toml", [100, 200])? {
+        let wall = Profile::along(&run, 0, 0.0);
+        let pressure = wall.mean(PRESSURE, [0.5, 0.9]);
+        session.check(&run, "pressure at the wall", pressure).reference(exact, "Prandtl-Meyer").within(0.01);
+        // a characteristic in the middle of the fan, where the stream has turned by 7.5 degrees
+        let turned = 7.5_f64.to_radians();
+        let mach = gasdynamics::expanded_mach(AIR, MACH, turned);
+        let level = gasdynamics::total_pressure(AIR, MACH) / gasdynamics::total_pressure(AIR, mach);
+        let goal = ((1.0 / mach).asin() + turned).to_degrees();
+        let points = upper_crossings(&run, PRESSURE, level, [0.3, 0.9]);
+        let angle = fitted_line(&points)[0].atan().to_degrees();
+        let row = session.check(&run, "middle of the fan, degrees", angle).reference(goal, "Prandtl-Meyer");
+        row.pass(Limit::Between(goal - 1.0, goal + 1.0));
+        session.plot(fan_plot(&run, behind));
+    }
+    Ok(())
+}
+
+/// Pressure over the height in the fan at x = 0.8, ours and exact.
+fn fan_plot(run: &Run, behind: f64) -> Plot {
+    let x = 0.8;
+    let exact = (0..=60).map(|k| {
+        let mach = MACH + (behind - MACH) * f64::from(k) / 60.0;
+        let turned = prandtl_meyer(AIR, mach) - prandtl_meyer(AIR, MACH);
+        let angle = (1.0 / mach).asin() + 15_f64.to_radians() - turned;
+        [x * angle.tan(), gasdynamics::total_pressure(AIR, MACH) / gasdynamics::total_pressure(AIR, mach)]
+    });
+    Plot::new("Prandtl-Meyer fan at x = 0.8", "height", "pressure")
+        .with("exact", Style::Reference, exact.collect())
+        .with(run.label.clone(), Style::Marks, Profile::along(run, 1, x).points(PRESSURE))
+}
+
+fn reflection(session: &mut Session<'_>) -> Result<()> {
+    let ahead = 2.9;
+    let incident = ObliqueShock::at_angle(AIR, ahead, 29_f64.to_radians());
+    let Some(reflected) = ObliqueShock::weak(AIR, incident.mach, incident.deflection) else { return Ok(()) };
+    let before = incident.pressure / AIR;
+    let exact = before * reflected.pressure;
+    for run in runs(session, "validation/regular_reflection.toml", [120, 240])? {
+        let wall = Profile::along(&run, 0, 0.0);
+        let pressure = wall.mean(PRESSURE, [2.6, 3.8]);
+        session.check(&run, "pressure behind", pressure).reference(exact, OBLIQUE).within(0.01);
+        let density = wall.mean(DENSITY, [2.6, 3.8]);
+        let goal = incident.density * reflected.density;
+        session.check(&run, "density behind", density).reference(goal, OBLIQUE).within(0.01);
+        let place = 1.0 / incident.angle.tan();
+        let met = wall.nearest_crossing(PRESSURE, 0.5 * (1.0 / AIR + exact), place);
+        session.check(&run, "half of the rise at the wall", met).reference(place, OBLIQUE);
+        let [slope, offset] = fitted_line(&upper_crossings(&run, PRESSURE, 0.5 * (1.0 / AIR + before), [0.4, 1.4]));
+        let row = session.check(&run, "incident shock, extended to the wall", -offset / slope);
+        row.reference(place, OBLIQUE).pass(Limit::Between(place - 0.03, place + 0.03));
+        let points = upper_crossings(&run, PRESSURE, 0.5 * (before + exact), [2.4, 3.4]);
+        let angle = fitted_line(&points)[0].atan().to_degrees();
+        let goal = (reflected.angle - incident.deflection).to_degrees();
+        session.check(&run, "reflected shock to the wall, degrees", angle).reference(goal, OBLIQUE);
+        session.plot(wall_plot(&run, &wall, exact));
+    }
+    Ok(())
+}
+
+/// Distance of the bow shock from the nose over the radius: shock-fitted solution.
+const STAND_OFF: f64 = 0.6988;
+
+fn cylinder(session: &mut Session<'_>) -> Result<()> {
+    let pitot = gasdynamics::pitot_pressure(AIR, MACH);
+    for run in runs(session, "validation/cylinder.toml", [60, 120])? {
+        let line = Profile::along(&run, 0, 0.0);
+        let level = 0.5 * (1.0 + gasdynamics::normal_shock_pressure(AIR, MACH));
+        let found = -1.0 - line.crossings(PRESSURE, level).next().unwrap_or(f64::NAN);
+        let row = session.check(&run, "stand-off over radius", found).reference(STAND_OFF, "shock-fitted solution");
+        // the gate is for 30 cells per radius; half as many may miss by twice as much
+        row.within(0.05 * 30.0 * run.scene.domain.spacing());
+        let nose = line.extremes(PRESSURE, [-1.0 - 3.0 * line.spacing, -1.0])[1];
+        session.check(&run, "pressure at the nose", nose).reference(pitot, "Rayleigh pitot").within(0.02);
+        let marks = vec![[-1.0 - STAND_OFF, 1.0], [-1.0 - STAND_OFF, pitot], [-1.0, pitot]];
+        let plot = Plot::new("Bow shock: pressure ahead of the nose", "x", "pressure");
+        let plot = plot.with("shock and pitot pressure", Style::Reference, marks);
+        session.plot(plot.with(run.label.clone(), Style::Marks, line.points(PRESSURE)));
+    }
+    Ok(())
+}
