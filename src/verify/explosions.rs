@@ -125,7 +125,7 @@ fn report_round(session: &mut Session<'_>, run: &Run, radial: &Profile) {
 }
 
 /// Differences of single precision in the order of sums, grown over the run.
-const ROUNDING: f64 = 1e-4;
+const ROUNDING: f64 = 1e-5;
 
 /// Cell of an index along each axis.
 fn cell_of(run: &Run, index: [usize; 3]) -> usize {

@@ -24,6 +24,10 @@ pub(super) const CASES: &[Case] = &[Case {
     run: step,
 }];
 
+/// Why the pressure at the face may be too high.
+const FACE: &str =
+    "the carrier `consistent` overshoots at the face; with `cell` it is 11.92 there with 40 cells per unit";
+
 fn step(session: &mut Session<'_>) -> Result<()> {
     let standard = |pair, cells| Setting { pair, integrator: Integrator::Predictor, cells };
     let settings = match session.suite {
@@ -54,7 +58,11 @@ fn report(session: &mut Session<'_>, run: &Run) {
     session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));
     let face = Profile::along(run, 1, 0.6 - 0.5 * spacing).extremes(PRESSURE, [0.0, 0.2])[1];
     let pitot = gasdynamics::pitot_pressure(run.scene.gas.gamma, 3.0);
-    session.check(run, "highest pressure at the face", face).reference(pitot, "Rayleigh pitot").within(0.02);
+    session
+        .check(run, "highest pressure at the face", face)
+        .reference(pitot, "Rayleigh pitot")
+        .within(0.02)
+        .known(Limit::Between(pitot, 1.05 * pitot), FACE);
 }
 
 /// Density along the middle of the tunnel.

