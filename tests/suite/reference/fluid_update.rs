@@ -77,6 +77,15 @@ fn solid_power(problem: &Problem, solution: &Solution, velocity: &[[f64; 3]], ax
     power
 }
 
+/// Solid velocity that the interface power is taken with.
+fn working_velocity(problem: &Problem, solution: &Solution, before: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    if !problem.numerics.power_midpoint {
+        return solution.solid_velocity.clone();
+    }
+    let midpoint = |(old, new): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|d| 0.5 * (old[d] + new[d]));
+    before.iter().zip(&solution.solid_velocity).map(midpoint).collect()
+}
+
 /// The stage: gas after the pressure step. `before` is the solid velocity that entered the solve.
 pub(crate) fn fluid_update(
     problem: &Problem,
@@ -103,12 +112,7 @@ pub(crate) fn fluid_update(
             next.conserved[above][1 + axis] -= dt / grid.spacing * difference;
         }
     }
-    let midpoint = |i: usize| [0, 1, 2].map(|d| 0.5 * (before[i][d] + solution.solid_velocity[i][d]));
-    let solid: Vec<[f64; 3]> = if problem.numerics.power_midpoint {
-        (0..grid.slots()).map(midpoint).collect()
-    } else {
-        solution.solid_velocity.clone()
-    };
+    let solid = working_velocity(problem, solution, before);
     let mut work = pressure.clone();
     let carrier = Carrier::new(problem, &interface.cells, &next);
     for axis in 0..grid.dimension {
