@@ -134,3 +134,46 @@ fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(num_workgrou
     }
     node[slot].w = sum;
 }
+
+// Three cells next to each other along x: density and velocity.
+struct Row { density: vec3f, x: vec3f, y: vec3f }
+
+fn row_at(at: u32) -> Row {
+    let middle = clamp(at, 1u, params.slots - 2u);
+    let a = source(middle - 1u);
+    let b = source(middle);
+    let c = source(middle + 1u);
+    let density = vec3f(a.x, b.x, c.x);
+    return Row(density, vec3f(a.y, b.y, c.y) / density, vec3f(a.z, b.z, c.z) / density);
+}
+
+fn row_average(r: Row) -> f32 { return 0.5 * r.y.y + 0.25 * (r.y.x + r.y.z); }
+
+fn mean_of(a: f32, u: f32, b: f32, v: f32) -> f32 { return (a * u + b * v) / (a + b); }
+
+// Average and divergence at once, deep inside the gas in 2D: a column of params.march slots, each row of three read once.
+@compute @workgroup_size(WORKGROUP)
+fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let s = params.stride.x;
+    let thread = thread_index(group, groups, lane);
+    let first = (thread / s) * params.march * s + thread % s;
+    if first >= params.slots { return; }
+    var low = row_at(max(first, s) - s);
+    var here = row_at(first);
+    for (var k = 0u; k < params.march; k++) {
+        let slot = first + k * s;
+        if slot >= params.slots { break; }
+        let high = row_at(slot + s);
+        if has(cells[slot], INTERIOR) {
+            let x = 0.5 * here.x + 0.25 * (low.x + high.x);
+            let y = row_average(here);
+            let d = here.density;
+            let divergence = mean_of(d.y, x.y, d.z, x.z) - mean_of(d.x, x.x, d.y, x.y)
+                + mean_of(d.y, y, high.density.y, row_average(high)) - mean_of(low.density.y, row_average(low), d.y, y);
+            node[slot] = vec4f(x.y, y, 0.0, divergence);
+        }
+        low = here;
+        here = high;
+    }
+}

@@ -104,10 +104,22 @@ fn face_velocity(n: u32, low: u32, high: u32) -> f32 {
 
 fn interior_heat(slot: u32) -> f32 {
     var heat = 0.0;
+    let here = conserved[slot];
+    var own = vec4f(0.0);
+    if CONSISTENT { own = node[slot]; }
     for (var n = 0u; n < DIM; n++) {
-        let s = step_of(n);
-        heat += interior_face(slot, n) * face_velocity(n, slot - s, slot)
-            - interior_face(slot + s, n) * face_velocity(n, slot, slot + s);
+        let low = slot - step_of(n);
+        let high = slot + step_of(n);
+        var below: f32;
+        var above: f32;
+        if CONSISTENT {
+            below = carried_velocity(n, node[low], conserved[low].x, own, here.x);
+            above = carried_velocity(n, own, here.x, node[high], conserved[high].x);
+        } else {
+            below = (conserved[low][n + 1u] + here[n + 1u]) / (conserved[low].x + here.x);
+            above = (here[n + 1u] + conserved[high][n + 1u]) / (here.x + conserved[high].x);
+        }
+        heat += interior_face(slot, n) * below - interior_face(high, n) * above;
     }
     return heat;
 }

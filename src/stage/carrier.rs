@@ -1,9 +1,10 @@
 //! `carrier`: which velocity carries the gas through its faces? One that compresses only what the pressure solve can see.
 
-use super::{Parts, record_both};
-use crate::error::Result;
+use super::{Parts, extent};
+use crate::error::{Error, Result};
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
+use crate::state::constants::Entry;
 
 /// The state whose velocity carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,10 +17,10 @@ pub enum Carried {
     Star = 2,
 }
 
-/// Kernels of the stage, for each state: average, divergence.
+/// Kernels of the stage, for each state, in order.
 #[derive(Debug)]
 pub struct CarrierVelocity {
-    kernels: Option<[[[Bound; 2]; 2]; 3]>,
+    kernels: Option<[Vec<(Bound, Entry)>; 3]>,
 }
 
 impl CarrierVelocity {
@@ -28,11 +29,21 @@ impl CarrierVelocity {
     /// # Errors
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>, wanted: bool) -> Result<Self> {
-        let bind = |entry: &str, source: Carried| {
-            parts.both("carrier.wgsl", entry, &[], &[("SOURCE", f64::from(source as u32))])
-        };
-        let of = |source: Carried| -> Result<[[Bound; 2]; 2]> {
-            Ok([bind("carrier_average", source)?, bind("carrier_divergence", source)?])
+        let of = |source: Carried| -> Result<Vec<(Bound, Entry)>> {
+            let bind = |entry: &str, listed: f64| {
+                let switches = [("SOURCE", f64::from(source as u32)), ("LISTED", listed)];
+                parts.state.bind(parts.gpu, "carrier.wgsl", entry, &[], &switches)
+            };
+            let plain = if parts.state.grid.dimension == 2 {
+                [Some((bind("carrier_march", 0.0)?, Entry::Marched)), None]
+            } else {
+                let slots = |entry: &str| Ok::<_, Error>((bind(entry, 0.0)?, Entry::Slots));
+                [Some(slots("carrier_average")?), Some(slots("carrier_divergence")?)]
+            };
+            let [first, second] = plain;
+            let listed = |entry: &str| Ok::<_, Error>((bind(entry, 1.0)?, Entry::Listed));
+            let kernels = [first, Some(listed("carrier_average")?), second, Some(listed("carrier_divergence")?)];
+            Ok(kernels.into_iter().flatten().collect())
         };
         let all = || Ok([of(Carried::Now)?, of(Carried::First)?, of(Carried::Star)?]);
         Ok(Self { kernels: if wanted { Some(all()?) } else { None } })
@@ -41,8 +52,8 @@ impl CarrierVelocity {
     /// Carrier of a state, in a phase.
     pub fn record(&self, pass: &mut Pass, state: &State, source: Carried, phase: &str) {
         let Some(kernels) = &self.kernels else { return };
-        for both in &kernels[source as usize] {
-            record_both(pass, state, phase, both);
+        for (kernel, entry) in &kernels[source as usize] {
+            pass.dispatch(kernel, &extent(state, phase, *entry));
         }
     }
 }
