@@ -15,6 +15,8 @@ pub struct Traffic {
     pub slot: u32,
     /// Bytes per slot that bodies add.
     pub slot_with_solids: u32,
+    /// Bytes per slot that the consistent face velocity adds.
+    pub slot_with_carrier: u32,
     /// Bytes per particle.
     pub particle: u32,
 }
@@ -31,22 +33,29 @@ pub enum Per {
 }
 
 const fn row(stage: &'static str, per: Per, slot: u32, slot_with_solids: u32, particle: u32) -> Traffic {
-    Traffic { stage, per, slot, slot_with_solids, particle }
+    Traffic { stage, per, slot, slot_with_solids, slot_with_carrier: 0, particle }
 }
 
-/// The bytes of all stages; stages with several parts have several lines. Particle transfers are those of the gather form.
-pub const TRAFFIC: [Traffic; 15] = [
+const fn carrier(stage: &'static str, slot_with_carrier: u32) -> Traffic {
+    Traffic { stage, per: Per::Step, slot: 0, slot_with_solids: 0, slot_with_carrier, particle: 0 }
+}
+
+/// The bytes of all stages; stages with several parts have several lines. Particle transfers are those of the gather form in
+/// 3D, whose nine colors each read and write the nodes.
+pub const TRAFFIC: [Traffic; 17] = [
     row("time_step", Per::Step, 24, 0, 16),
     row("particle_sort", Per::Step, 0, 16, 88),
     row("particle_sort", Per::Substep, 0, 16, 88),
-    row("p2g", Per::Step, 0, 40, 136),
-    row("p2g", Per::Substep, 0, 36, 116),
+    row("p2g", Per::Substep, 0, 640, 108),
     row("interface", Per::Step, 0, 332, 264),
     row("gas_advection", Per::Step, 116, 32, 0),
+    carrier("gas_advection", 96),
+    carrier("intermediate_pressure", 4),
     row("intermediate_pressure", Per::Step, 84, 8, 0),
     row("coupled_solve", Per::Step, 116, 216, 0),
     row("coupled_solve", Per::Iteration, 64, 52, 0),
     row("fluid_update", Per::Step, 176, 32, 0),
+    carrier("fluid_update", 48),
     row("mpm_grid_update", Per::Substep, 0, 52, 0),
     row("g2p", Per::Substep, 0, 20, 288),
     row("totals", Per::Step, 44, 0, 0),
@@ -66,6 +75,8 @@ pub struct Load {
     pub iterations: u64,
     /// Elastic sub-steps of all steps.
     pub substeps: u64,
+    /// Whether the gas is carried by the consistent face velocity.
+    pub carrier: bool,
 }
 
 /// Bytes that a stage has moved in a run.
@@ -78,7 +89,9 @@ pub fn bytes(stage: &str, load: &Load) -> u64 {
             Per::Iteration => load.iterations,
             Per::Substep => load.substeps * solids,
         };
-        let slot = u64::from(row.slot) + solids * u64::from(row.slot_with_solids);
+        let slot = u64::from(row.slot)
+            + solids * u64::from(row.slot_with_solids)
+            + u64::from(load.carrier) * u64::from(row.slot_with_carrier);
         times * (slot * load.slots + u64::from(row.particle) * load.particles)
     };
     TRAFFIC.iter().filter(|row| row.stage == stage).map(of_row).sum()
