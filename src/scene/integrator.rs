@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Scene;
+use super::{Pair, Scene};
 
 /// Time integration of the gas.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -28,7 +28,8 @@ pub enum FaceVelocity {
     Cell,
     /// What the pressure solve sees of it: gas at rest stays quiet. Gas only.
     Consistent,
-    /// `consistent` in scenes of gas alone with one solve per step, else `cell`.
+    /// `consistent` in scenes of gas alone with one solve per step and the pair B1B0, else `cell`: with B2B1 the consistent one
+    /// rings behind strong shocks.
     #[default]
     Auto,
 }
@@ -64,7 +65,7 @@ impl Scene {
         match self.numerics.face_velocity {
             FaceVelocity::Cell => false,
             FaceVelocity::Consistent => true,
-            FaceVelocity::Auto => self.bodies.is_empty() && self.solves() == 1,
+            FaceVelocity::Auto => self.bodies.is_empty() && self.solves() == 1 && self.numerics.pair == Pair::B1b0,
         }
     }
 
