@@ -154,22 +154,37 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     }
 }
 
+// Pressures of the vertices of a face between gas and solid, whose low corner is `low`: first of `across`, then the other axis, fastest.
+fn interface_pressures(low: vec3i, a: u32, b: u32) -> vec4f {
+    var p = vec4f(0.0);
+    p.x = pressure[interface_index(slot_of(low))];
+    if DIM > 1u { p.y = pressure[interface_index(slot_of(low + axis(a)))]; }
+    if DIM > 2u {
+        p.z = pressure[interface_index(slot_of(low + axis(b)))];
+        p.w = pressure[interface_index(slot_of(low + axis(a) + axis(b)))];
+    }
+    return p;
+}
+
 // Power through a face between gas and solid: what the solid receives, with the mean of its old and new velocity.
 // `count`: block_size(), or 0 at other faces.
 fn interface_power(c: vec3i, n: u32, up: bool, count: u32) -> f32 {
     let beyond = select(c - axis(n), c + axis(n), up);
+    // The axes across, an inactive one last.
+    let a = select(0u, 1u, n == 0u);
+    let b = 3u - n - a;
+    let p = interface_pressures(select(c, beyond, up), a, b);
     var power = 0.0;
     for (var k = 0u; k < count; k++) {
-        let node_offset = block_offset(k);  // relative to the solid cell
-        if !face_holds(node_offset, n, !up) { continue; }
-        let at = slot_of(beyond + node_offset);
+        let offset = block_offset(k);  // of the node, relative to the solid cell
+        if !face_holds(offset, n, !up) { continue; }
+        let at = slot_of(beyond + offset);
         let share = select(1.0, 0.5, MIDPOINT_POWER);
         let v = node[at][n] - share * control.dt * work[params.slots + at][n];
-        for (var j = 0u; j < corner_count(); j++) {
-            let corner = corner_offset(j);
-            if (corner[n] == 1) == up { continue; }
-            power += pressure[interface_index(slot_of(beyond + corner))] * v * face_entry(true, n, node_offset, corner);
-        }
+        var mean = p.xz;
+        if DIM > 1u { mean = mean_entry(true, offset[a], false) * p.xz + mean_entry(true, offset[a], true) * p.yw; }
+        if DIM > 2u { mean.x = mean_entry(true, offset[b], false) * mean.x + mean_entry(true, offset[b], true) * mean.y; }
+        power += 0.5 * mean.x * v;
     }
     return power;
 }

@@ -76,7 +76,7 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if gas > 0u && gas == around && away_from_seam(c, -1, 2) { flags |= NODE_REGULAR; }
     if gas == block_size() { flags |= NODE_INTERIOR; }
     if solid > 0u { flags |= NODE_SOLID; }
-    if solid == block_size() { flags |= NODE_DEEP; }
+    if solid > 0u && solid == around { flags |= NODE_DEEP; }
     if solid > 0u && closed > 0u { flags |= NODE_FILM; }
     if is_vertex(c) { flags |= vertex_flags(c, slot); }
     cells[slot] = (cells[slot] & 0xffff000fu) | flags;
@@ -98,7 +98,7 @@ fn vertex_flags(v: vec3i, slot: u32) -> u32 {
     if gas > 0u { flags |= VERTEX_GAS; }
     if gas > 0u && gas == around && away_from_seam(v, -2, 1) { flags |= VERTEX_REGULAR; }
     if solid > 0u { flags |= VERTEX_SOLID; }
-    if solid == corner_count() { flags |= VERTEX_DEEP; }
+    if solid > 0u && solid == around { flags |= VERTEX_DEEP; }
     if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }
     return flags;
 }

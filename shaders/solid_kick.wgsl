@@ -25,6 +25,13 @@ fn solid_kick(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     if has(word, VERTEX_SOLID) { ghost[slot] = pressure[ghost_index(slot)] - ghost[slot]; }
 }
 
+// Whether a particle may look at a vertex in this step: it is near enough to give one of the nodes around the vertex mass.
+fn has_particles_near(v: vec3i) -> bool {
+    var mass = 0.0;
+    for (var k = 0u; k < corner_count(); k++) { mass += node[slot_of(v - corner_offset(k))].w; }
+    return mass > 0.0;
+}
+
 // Particles in GAS cells: a vertex without a solid cell takes the mean change of the solid vertices in its 5^DIM block.
 @compute @workgroup_size(WORKGROUP)
 fn solid_kick_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -35,9 +42,10 @@ fn solid_kick_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroup
     if !is_vertex(v) { return; }
     var sum = 0.0;
     var count = 0.0;
-    for (var z = -2 * reach().z; z <= 2 * reach().z; z++) {
-        for (var y = -2 * reach().y; y <= 2 * reach().y; y++) {
-            for (var x = -2; x <= 2; x++) {
+    let width = select(vec3i(-1), 2 * reach(), has_particles_near(v));  // -1: no turn of the loops
+    for (var z = -width.z; z <= width.z; z++) {
+        for (var y = -width.y; y <= width.y; y++) {
+            for (var x = -width.x; x <= width.x; x++) {
                 let near = v + vec3i(x, y, z);
                 if !is_vertex(near) || !has(cells[slot_of(near)], VERTEX_SOLID) { continue; }
                 sum += ghost[slot_of(near)];

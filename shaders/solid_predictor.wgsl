@@ -5,12 +5,15 @@
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
+#include "shared/system.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> energy: array<f32>;    // second third: predicted pressure of gas cells
 @group(0) @binding(4) var<storage, read> ghost: array<f32>;
 @group(0) @binding(5) var<storage, read_write> node: array<vec4f>;
+@group(0) @binding(6) var<storage, read_write> work: array<vec4f>;  // first part: film pressure at vertices of walls, per axis across
+@group(0) @binding(7) var<storage, read> extra: array<u32>;
 
 // How far along the wall the film looks for gas, in cells.
 const FILM_REACH = 16;
@@ -28,45 +31,93 @@ fn gas_pressure(v: vec3i) -> f32 {
     return sum / max(count, 1.0);
 }
 
-fn film_pressure(v: vec3i, n: u32) -> f32 {
+// Steps of unit length along the wall across axis n; at most four, in 2D two, in 1D none.
+fn along_wall(n: u32, k: u32) -> vec3i {
+    let a = axis((n + 1u + k / 2u) % 3u);
+    return select(-a, a, (k & 1u) == 1u);
+}
+
+// Directions in which there is gas at a distance, as bits.
+fn gas_at(v: vec3i, n: u32, far: i32) -> u32 {
+    var found = 0u;
+    for (var k = 0u; k < 4u; k++) {
+        let step = along_wall(n, k);
+        let near = v + far * step;
+        // An inactive axis leads out of the grid.
+        if is_vertex(near) && has(cells[slot_of(near)], VERTEX_GAS) { found |= 1u << k; }
+    }
+    return found;
+}
+
+fn nearest_gas(v: vec3i, n: u32) -> f32 {
     let slot = slot_of(v);
     if !FILM_NEAREST { return ghost[slot]; }
-    if has(cells[slot], VERTEX_GAS) { return gas_pressure(v); }
-    for (var far = 1; far <= FILM_REACH; far++) {
-        var sum = 0.0;
-        var count = 0.0;
-        for (var a = 0u; a < DIM; a++) {
-            if a == n { continue; }
-            for (var side = -1; side <= 1; side += 2) {
-                let near = v + side * far * axis(a);
-                if !is_vertex(near) || !has(cells[slot_of(near)], VERTEX_GAS) { continue; }
-                sum += gas_pressure(near);
-                count += 1.0;
-            }
-        }
-        if count > 0.0 { return sum / count; }
+    var far = 0;
+    var found = u32(has(cells[slot], VERTEX_GAS));
+    while found == 0u && far < FILM_REACH {
+        far++;
+        found = gas_at(v, n, far);
     }
-    return ghost[slot];
+    if found == 0u { return ghost[slot]; }
+    var sum = 0.0;
+    for (var k = 0u; k < 4u; k++) {
+        if ((found >> k) & 1u) == 1u { sum += gas_pressure(v + far * along_wall(n, k)); }
+    }
+    return sum / f32(countOneBits(found));
+}
+
+// Axes across which a vertex has a wall and a body, as bits.
+fn walls_of(v: vec3i) -> u32 {
+    let kinds = kinds_around_vertex(v);
+    var walls = 0u;
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        if ((kinds >> (2u * k)) & 3u) != SOLID { continue; }
+        for (var n = 0u; n < DIM; n++) {
+            let beyond = kind_across(kinds, corner, n);
+            if beyond == WALL || beyond == GHOST { walls |= 1u << n; }
+        }
+    }
+    return walls;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn film_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots || !has(cells[slot], VERTEX_SOLID) { return; }
+    let v = cell_of(slot);
+    let walls = walls_of(v);
+    for (var n = 0u; n < select(0u, DIM, walls != 0u); n++) {
+        if ((walls >> n) & 1u) == 1u { work[slot][n] = nearest_gas(v, n); }
+    }
+}
+
+// Mean film pressure of a face across axis n, whose low corner is `low`, as a node at `offset` from the element sees it.
+fn face_mean(low: vec3i, n: u32, offset: vec3i) -> f32 {
+    var sum = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        if corner[n] == 1 { continue; }
+        sum += work[slot_of(low + corner)][n] * face_entry(true, n, offset, corner);
+    }
+    return sum;
 }
 
 // `count`: block_size(), or 0 away from walls.
 fn film_force(c: vec3i, count: u32) -> vec3f {
     var force = vec3f(0.0);
+    let kinds = kinds_around_node(select(vec3i(0), c, count > 0u));
     for (var k = 0u; k < count; k++) {
         let offset = block_offset(k);
-        let e = c + offset;
-        if !inside(e) || kind_of(cells[slot_of(e)]) != SOLID { continue; }
-        for (var n = 0u; n < DIM; n++) {
-            for (var side = 0u; side < 2u; side++) {
-                let up = side == 1u;
-                let beyond = kind_of(cells[slot_of(select(e - axis(n), e + axis(n), up))]);
-                if (beyond != WALL && beyond != GHOST) || !face_holds(-offset, n, up) { continue; }
-                for (var j = 0u; j < corner_count(); j++) {
-                    let corner = corner_offset(j);
-                    if (corner[n] == 1) != up { continue; }
-                    force[n] += select(-1.0, 1.0, up) * film_pressure(e + corner, n) * face_entry(true, n, -offset, corner);
-                }
-            }
+        for (var f = 0u; f < select(0u, 2u * DIM, kind_in_block(kinds, offset) == SOLID); f++) {
+            let n = f / 2u;
+            let up = (f & 1u) == 1u;
+            let step = select(-axis(n), axis(n), up);
+            if !face_holds(-offset, n, up) { continue; }
+            let beyond = kind_in_block(kinds, offset + step);
+            if beyond != WALL && beyond != GHOST { continue; }
+            force[n] += select(-1.0, 1.0, up) * face_mean(c + offset + select(vec3i(0), step, up), n, -offset);
         }
     }
     return force * face_area();

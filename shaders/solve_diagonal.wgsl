@@ -47,31 +47,42 @@ fn entries_at(v: vec3i, kinds: u32, j: vec3i) -> Entries {
 
 fn inverse(d: f32) -> f32 { return select(0.0, 1.0 / d, d > 0.0); }
 
-// The node that has this vertex at deep_offset(k), which covers both element pairs.
-fn node_of(v: vec3i, k: u32) -> vec3i { return v - deep_offset(k); }
+// The node that has this vertex at wide_offset(k), which covers both element pairs.
+fn node_of(v: vec3i, k: u32) -> vec3i { return v - wide_offset(k); }
 
-// Sums of |coefficient|^2 / M over the nodes, where only gas and the sides of the domain are around.
-fn regular_square(v: vec3i, count: u32) -> f32 {
+// Sum of |coefficient|^2 / M over the nodes, where only gas, or only solid, and the sides of the domain are around.
+fn wide_square(v: vec3i, base: u32, solid: bool) -> f32 {
+    let ex = wide_entries_of_vertex(0u, v.x, solid);
+    let ey = wide_entries_of_vertex(1u, v.y, solid);
+    let ez = wide_entries_of_vertex(2u, v.z, solid);
     var sum = 0.0;
-    for (var k = 0u; k < count; k++) {
-        var j = v - corner_offset(k); // B1B0 reaches no further
-        if QUADRATIC { j = node_of(v, k); }
+    for (var k = 0u; k < wide_count(); k++) {
+        let j = node_of(v, k);
         if !in_ring(j) { continue; }
-        let ex = axis_entry(0u, j.x, v.x);
-        let ey = axis_entry(1u, j.y, v.y);
-        let ez = axis_entry(2u, j.z, v.z);
-        let entry = vec3f(ex.x * ey.y * ez.y, ex.y * ey.x * ez.y, ex.y * ey.y * ez.x);
-        sum += work[slot_of(j)].w * dot(entry, entry);
+        let at = wide_offset(k) + vec3i(1);
+        let entry = vec3f(ex.slope[at.x] * ey.mean[at.y] * ez.mean[at.z], ex.mean[at.x] * ey.slope[at.y] * ez.mean[at.z],
+            ex.mean[at.x] * ey.mean[at.y] * ez.slope[at.z]);
+        sum += work[base + slot_of(j)].w * dot(entry, entry);
     }
     return sum;
 }
 
-// The same deep inside a body.
-fn deep_square(v: vec3i, count: u32) -> f32 {
+// (mean, slope) of a vertex on the node below (corner 1) or above it (corner 0).
+fn narrow_pair(a: u32, v: i32, corner: i32) -> vec2f {
+    let entry = narrow_entry(a, v - corner);
+    return select(vec2f(entry.x, -entry.z), entry.yz, corner == 1);
+}
+
+fn regular_square(v: vec3i) -> f32 {
+    if QUADRATIC { return wide_square(v, 0u, false); }
     var sum = 0.0;
-    for (var k = 0u; k < count; k++) {
-        let entry = deep_entry(deep_offset(k));
-        sum += work[params.slots + slot_of(node_of(v, k))].w * dot(entry, entry);
+    for (var k = 0u; k < corner_count(); k++) {
+        let corner = corner_offset(k);
+        let ex = narrow_pair(0u, v.x, corner.x);
+        let ey = narrow_pair(1u, v.y, corner.y);
+        let ez = narrow_pair(2u, v.z, corner.z);
+        let entry = vec3f(ex.y * ey.x * ez.x, ex.x * ey.y * ez.x, ex.x * ey.x * ez.y);
+        sum += work[slot_of(v - corner)].w * dot(entry, entry);
     }
     return sum;
 }
@@ -116,9 +127,9 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let deep = SOLIDS && LISTED && has(word, VERTEX_DEEP);
     let apart = interface_index(slot) != slot;
     var squares: Squares;
-    if LISTED { squares = mixed_squares(v, apart, select(deep_count(), 0u, regular || deep)); }
-    squares.own += regular_square(v, select(0u, select(corner_count(), deep_count(), QUADRATIC), regular));
-    if SOLIDS && LISTED { squares.own += deep_square(v, select(0u, deep_count(), deep)); }
+    if LISTED { squares = mixed_squares(v, apart, select(wide_count(), 0u, regular || deep)); }
+    for (var turn = 0u; turn < u32(regular); turn++) { squares.own = regular_square(v); }
+    for (var turn = 0u; turn < u32(deep); turn++) { squares.own = wide_square(v, params.slots, true); }
     inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);
     if apart {
         inverse_diagonal[interface_index(slot)] = inverse(scale * squares.h);

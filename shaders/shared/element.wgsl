@@ -51,44 +51,35 @@ fn face_entry(quadratic: bool, n: u32, node: vec3i, corner: vec3i) -> f32 {
     return entry;
 }
 
-// Assembled stencil where only gas and the sides of the domain are around: a product over the axes. Slope and mean of vertex v
-// on node j along one axis: its two elements, and the face term at a side (weak walls and open sides act on P itself).
-// Inside: B1B0 (-1, 1) along, (1, 1)/2 across; B2B1 (-1, -3, 3, 1)/6 along, (1, 11, 11, 1)/24 across.
-fn axis_entry(a: u32, j: i32, v: i32) -> vec2f {
-    if a >= DIM { return vec2f(0.0, 1.0); }
-    let n = i32(params.cells[a]);
-    let below = j - v + 1;
-    let above = j - v;
-    var entry = vec2f(0.0);
-    if v >= 1 && v <= n && abs(below) <= 1 {
-        entry += vec2f(gradient_entry(QUADRATIC, below, true), mean_entry(QUADRATIC, below, true));
-    }
-    if v >= 0 && v < n && abs(above) <= 1 {
-        entry += vec2f(gradient_entry(QUADRATIC, above, false), mean_entry(QUADRATIC, above, false));
-    }
-    if v == 0 && (above == 0 || above == -1) { entry.x -= 0.5; }
-    if v == n && (below == 0 || below == 1) { entry.x += 0.5; }
-    return entry;
-}
-
-// The entries of the candidates at v - j = first .. first + 3, for a fixed node (sign 1) or a fixed vertex (sign -1) at `at`.
+// Assembled B2B1 stencil of one axis where only gas, or only solid, and the sides of the domain are around: a product over the axes.
+// Entries of the vertices at -1 .. 2 of a node, whose places are `v`: from the two cells of each, as far as these lie inside.
+// Inside: (-1, -3, 3, 1)/6 along, (1, 11, 11, 1)/24 across. For gas the weak walls and open sides act on P itself.
 struct AxisEntries { slope: vec4f, mean: vec4f }
 
-fn axis_entries(a: u32, at: i32, node_fixed: bool) -> AxisEntries {
-    var entries: AxisEntries;
-    for (var k = 0; k < 4; k++) {
-        if !QUADRATIC && (k == 0 || k == 3) { continue; }
-        let offset = k - 1;
-        let entry = select(axis_entry(a, at - offset, at), axis_entry(a, at, at + offset), node_fixed);
-        entries.slope[k] = entry.x;
-        entries.mean[k] = entry.y;
-    }
-    return entries;
+fn wide_entries(a: u32, v: vec4i, solid: bool) -> AxisEntries {
+    if a >= DIM { return AxisEntries(vec4f(0.0), vec4f(0.0, 1.0, 0.0, 0.0)); }
+    let n = vec4i(i32(params.cells[a]));
+    let below = vec4f((v >= vec4i(1)) & (v <= n));
+    let above = vec4f((v >= vec4i(0)) & (v < n));
+    let sides = select(vec4f(v == n) - vec4f(v == vec4i(0)), vec4f(0.0), solid);
+    return AxisEntries((below * vec4f(0.0, -2.0, 1.0, 1.0) + above * vec4f(-1.0, -1.0, 2.0, 0.0)) / 6.0
+        + vec4f(0.0, 0.5, 0.5, 0.0) * sides, (below * vec4f(0.0, 3.0, 8.0, 1.0) + above * vec4f(1.0, 8.0, 3.0, 0.0)) / 24.0);
 }
 
-// Whether a node and a corner of an element are coupled at all: B1B0 couples a node to the vertices on its own side only.
-fn coupled(quadratic: bool, node: vec3i, corner: vec3i) -> bool {
-    return quadratic || all(abs(2 * node - 2 * corner + reach()) <= vec3i(1));
+fn wide_entries_of_node(a: u32, j: i32, solid: bool) -> AxisEntries {
+    return wide_entries(a, vec4i(j) + vec4i(-1, 0, 1, 2), solid);
+}
+
+// A vertex sees the nodes at 1 .. -2 of it in this order.
+fn wide_entries_of_vertex(a: u32, v: i32, solid: bool) -> AxisEntries { return wide_entries(a, vec4i(v), solid); }
+
+// The same for B1B0, whose nodes rest on two vertices per axis only: means of the low and the high vertex of node j, and s where
+// their slopes are -s and s.
+fn narrow_entry(a: u32, j: i32) -> vec3f {
+    if a >= DIM { return vec3f(1.0, 0.0, 0.0); }
+    let n = i32(params.cells[a]);
+    let own = f32(j >= 0 && j < n);
+    return vec3f(0.375 * own + 0.125 * f32(j >= 1 && j <= n), 0.375 * own + 0.125 * f32(j >= -1 && j < n - 1), own);
 }
 
 // Node of an element that its face across axis n, on the side `up`, rests on: the element's own layer and the one beyond.

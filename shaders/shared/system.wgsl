@@ -51,23 +51,6 @@ fn kind_in_block(kinds: vec2u, offset: vec3i) -> u32 {
     return (select(kinds.y, kinds.x, k < 16u) >> (2u * (k & 15u))) & 3u;
 }
 
-// Deep inside a body the B2B1 stencil is a product: (-1, -3, 3, 1)/6 along an axis, (1, 11, 11, 1)/24 across, on the vertices
-// at -1 .. 2 of a node. Entry k - 1 of both; the mean is 1 on inactive axes.
-fn deep_slope(k: i32) -> f32 { return select(select(-0.5, 0.5, k == 1), select(-1.0 / 6.0, 1.0 / 6.0, k == 2), k == -1 || k == 2); }
-fn deep_mean(k: i32) -> f32 { return select(11.0, 1.0, k == -1 || k == 2) / 24.0; }
-
-fn deep_entry(offset: vec3i) -> vec3f {
-    let mx = deep_mean(offset.x);
-    let sx = deep_slope(offset.x);
-    if DIM == 1u { return vec3f(sx, 0.0, 0.0); }
-    let my = deep_mean(offset.y);
-    let sy = deep_slope(offset.y);
-    if DIM == 2u { return vec3f(sx * my, mx * sy, 0.0); }
-    let mz = deep_mean(offset.z);
-    let sz = deep_slope(offset.z);
-    return vec3f(sx * my * mz, mx * sy * mz, mx * my * sz);
-}
-
-// Vertices of a deep node, 4 per axis, as offsets from its own.
-fn deep_count() -> u32 { return 1u << (2u * DIM); }
-fn deep_offset(k: u32) -> vec3i { return vec3i(vec3u(k & 3u, (k >> 2u) & 3u, k >> 4u)) - reach(); }
+// Vertices of a B2B1 node, 4 per axis, as offsets from its own.
+fn wide_count() -> u32 { return 1u << (2u * DIM); }
+fn wide_offset(k: u32) -> vec3i { return vec3i(vec3u(k & 3u, (k >> 2u) & 3u, k >> 4u)) - reach(); }

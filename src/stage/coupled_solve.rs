@@ -14,7 +14,7 @@ use crate::state::constants::Entry;
 pub struct CoupledSolve {
     /// The iteration.
     pub pcg: Pcg,
-    predictor: Option<Bound>,
+    predictor: Option<[Bound; 2]>,
     masses: [Bound; 2],
     open: Bound,
     forces_of_pressure: [Bound; 2],
@@ -75,7 +75,9 @@ impl CoupledSolve {
         };
         Ok(Self {
             pcg,
-            predictor: optional("solid_predictor.wgsl", "solid_predictor")?,
+            predictor: optional("solid_predictor.wgsl", "film_pressure")?
+                .zip(optional("solid_predictor.wgsl", "solid_predictor")?)
+                .map(Into::into),
             masses: setup("solve_masses")?,
             open: state.bind(gpu, "solve_open.wgsl", "solve_open", &[], &[("LISTED", 1.0)])?,
             forces_of_pressure: forces(state.pressure.raw())?,
@@ -93,8 +95,8 @@ impl CoupledSolve {
     /// Masses, right-hand side and diagonal; opens the iteration. In a phase.
     pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("coupled_solve");
-        if let Some(predictor) = &self.predictor {
-            pass.dispatch(predictor, &slots(state, phase));
+        for kernel in self.predictor.iter().flatten() {
+            pass.dispatch(kernel, &slots(state, phase));
         }
         pass.dispatch(&self.open, &extent(state, phase, Entry::Listed));
         record_both(pass, state, phase, &self.masses);
