@@ -206,6 +206,24 @@ fn ball_on_the_floor_with_the_film_of_its_own_pressure() {
     body(2, &[&AT_THE_SIDES[..], &other].concat());
 }
 
+/// A block that fills a corner of the box: whole rows of the pressure system with nothing but the body and the sides around.
+#[test]
+fn block_in_a_corner_in_space() {
+    for pair in ["numerics.pair=b1b0", "numerics.pair=b2b1"] {
+        body(
+            2,
+            &[
+                pair,
+                "domain.dimension=3",
+                "domain.cells=[10,10,10]",
+                "domain.size=[0.625,0.625,0.625]",
+                "bodies[0].shape={box={center=[0.2,0.2,0.16],size=[0.4,0.4,0.32]}}",
+                "bodies[0].velocity=[0.3,-0.4,-0.6]",
+            ],
+        );
+    }
+}
+
 #[test]
 fn crumbs_by_scatter() {
     body(
