@@ -135,7 +135,7 @@ fn store_deformation(p: u32, f: mat3x3f) {
 fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
     var x = position[p].xyz;
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
-    let returned = return_map(material.kind, trial, material);
+    let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
     let f = returned.deformation;
     let volume = determinant(f);
     if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {

@@ -50,7 +50,7 @@ fn stress_neo_hookean(f: mat3x3f, m: MaterialParams) -> mat3x3f {
 }
 
 // Elastic: everything stays.
-fn return_neo_hookean(f: mat3x3f, m: MaterialParams) -> PlasticReturn {
+fn return_neo_hookean(f: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn {
     return PlasticReturn(f, 0.0);
 }
 

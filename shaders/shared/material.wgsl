@@ -7,8 +7,8 @@ struct MaterialParams {
     density: f32,       // lowest density of the bodies made of it [kg m^-3]
     kind: u32,          // position in the registry
     ghost_modulus: f32, // of the ghost pressure, q = -ghost_modulus (J - 1) [Pa]
-    pad0: f32,
-    pad1: f32,
+    hardening: f32,     // growth of the yield stress per equivalent plastic strain [Pa]
+    friction: f32,      // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
 }
 
 // What plastic flow leaves of a deformation gradient.

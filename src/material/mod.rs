@@ -4,12 +4,16 @@
 //! functions `stress_<name>`, `return_<name>`, `energy_<name>` and `wave_speed_<name>`; keyword, checks, index and the
 //! WGSL switch follow from it.
 
+mod drucker_prager;
+mod fixed_corotated;
+mod hencky;
 mod neo_hookean;
 #[cfg(test)]
 mod tests;
 mod von_mises;
 
 use std::fmt::Write as _;
+use std::ops::{Bound, RangeBounds};
 
 use bytemuck::{Pod, Zeroable};
 use serde::de::{self, MapAccess, Visitor};
@@ -17,7 +21,8 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// All kinds of material. The position is the number that shaders see.
-pub const KINDS: [&Kind; 2] = [&neo_hookean::KIND, &von_mises::KIND];
+pub const KINDS: [&Kind; 5] =
+    [&neo_hookean::KIND, &von_mises::KIND, &fixed_corotated::KIND, &hencky::KIND, &drucker_prager::KIND];
 
 /// A constitutive law.
 #[derive(Debug)]
@@ -41,10 +46,10 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Value when left out; `None` if it must be given.
     pub default: Option<f64>,
-    /// The value must lie above this.
-    pub above: f64,
-    /// The value must lie below this.
-    pub below: f64,
+    /// The least value.
+    pub low: Bound<f64>,
+    /// The largest value.
+    pub high: Bound<f64>,
     /// One sentence for documentation.
     pub summary: &'static str,
 }
@@ -54,8 +59,8 @@ const YOUNG_MODULUS: Parameter = Parameter {
     name: "young_modulus",
     unit: "Pa",
     default: None,
-    above: 0.0,
-    below: f64::INFINITY,
+    low: Bound::Excluded(0.0),
+    high: Bound::Unbounded,
     summary: "Young's modulus: stress over strain of a thin rod.",
 };
 
@@ -65,9 +70,29 @@ const POISSON_RATIO: Parameter = Parameter {
     name: "poisson_ratio",
     unit: "1",
     default: None,
-    above: 0.0,
-    below: 0.5,
+    low: Bound::Excluded(0.0),
+    high: Bound::Excluded(0.5),
     summary: "Poisson's ratio: lateral over axial strain of a thin rod.",
+};
+
+/// Stress at which metals start to flow.
+const YIELD_STRESS: Parameter = Parameter {
+    name: "yield_stress",
+    unit: "Pa",
+    default: None,
+    low: Bound::Excluded(0.0),
+    high: Bound::Unbounded,
+    summary: "Norm of the deviatoric Kirchhoff stress at which plastic flow starts; 0.816 times the yield stress of a thin rod.",
+};
+
+/// How the yield stress of metals grows.
+const HARDENING: Parameter = Parameter {
+    name: "hardening",
+    unit: "Pa",
+    default: Some(0.0),
+    low: Bound::Included(0.0),
+    high: Bound::Unbounded,
+    summary: "Growth of the yield stress per equivalent plastic strain; 0 is perfect plasticity.",
 };
 
 /// Constants that every law is built from.
@@ -79,6 +104,10 @@ pub struct Constants {
     pub lambda: f64,
     /// Yield stress `[Pa]`; infinite for laws that do not yield.
     pub yield_stress: f64,
+    /// Growth of the yield stress per equivalent plastic strain `[Pa]`.
+    pub hardening: f64,
+    /// Growth of the yield stress with the pressure: over minus the trace of the Kirchhoff stress `[1]`.
+    pub friction: f64,
 }
 
 impl Constants {
@@ -86,7 +115,7 @@ impl Constants {
     fn elastic(young_modulus: f64, poisson_ratio: f64) -> Self {
         let mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
         let lambda = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio));
-        Constants { mu, lambda, yield_stress: f64::INFINITY }
+        Constants { mu, lambda, yield_stress: f64::INFINITY, hardening: 0.0, friction: 0.0 }
     }
 }
 
@@ -113,10 +142,10 @@ pub struct MaterialParams {
     pub kind: u32,
     /// Modulus of the ghost pressure, q = -ghost_modulus (J - 1) `[Pa]`; equal to lambda.
     pub ghost_modulus: f32,
-    /// Unused.
-    pub pad0: f32,
-    /// Unused.
-    pub pad1: f32,
+    /// Growth of the yield stress per equivalent plastic strain `[Pa]`.
+    pub hardening: f32,
+    /// Growth of the yield stress over minus the trace of the Kirchhoff stress `[1]`.
+    pub friction: f32,
 }
 
 impl Material {
@@ -187,7 +216,7 @@ impl Material {
     /// The material as the device sees it, for a body of the given density `[kg m^-3]`.
     #[must_use]
     pub fn params(&self, density: f64) -> MaterialParams {
-        let Constants { mu, lambda, yield_stress } = self.constants();
+        let Constants { mu, lambda, yield_stress, hardening, friction } = self.constants();
         MaterialParams {
             mu: mu as f32,
             lambda: lambda as f32,
@@ -195,8 +224,8 @@ impl Material {
             density: density as f32,
             kind: self.kind_index(),
             ghost_modulus: lambda as f32,
-            pad0: 0.0,
-            pad1: 0.0,
+            hardening: hardening as f32,
+            friction: friction as f32,
         }
     }
 
@@ -204,26 +233,36 @@ impl Material {
     #[must_use]
     pub fn findings(&self) -> Vec<(&'static str, f64, String)> {
         let pairs = self.kind().parameters.iter().zip(&self.values);
-        let outside = pairs.filter(|(p, value)| !(**value > p.above && **value < p.below));
+        let outside = pairs.filter(|(p, value)| !p.allows(**value));
         outside.map(|(p, value)| (p.name, *value, p.allowed())).collect()
     }
 
-    fn constants(&self) -> Constants {
+    /// Constants of the law.
+    #[must_use]
+    pub fn constants(&self) -> Constants {
         (self.kind().constants)(&self.values)
     }
 }
 
 impl Parameter {
+    /// Whether a value is finite and within the limits.
+    #[must_use]
+    pub fn allows(&self, value: f64) -> bool {
+        value.is_finite() && (self.low, self.high).contains(&value)
+    }
+
     /// The limits in words.
     #[must_use]
     pub fn allowed(&self) -> String {
+        let limit = |bound, inside: &str, outside: &str| match bound {
+            Bound::Included(value) => Some(format!("{inside} {value}")),
+            Bound::Excluded(value) => Some(format!("{outside} {value}")),
+            Bound::Unbounded => None,
+        };
+        let limits = [limit(self.low, "of at least", "above"), limit(self.high, "of at most", "below")];
+        let limits = limits.into_iter().flatten().collect::<Vec<_>>().join(" and ");
         let unit = if self.unit == "1" { String::new() } else { format!(" [{}]", self.unit) };
-        match (self.above.is_finite(), self.below.is_finite()) {
-            (true, true) => format!("a number above {} and below {}{unit}", self.above, self.below),
-            (true, false) => format!("a finite number above {}{unit}", self.above),
-            (false, true) => format!("a finite number below {}{unit}", self.below),
-            (false, false) => format!("a finite number{unit}"),
-        }
+        format!("a finite number {limits}{unit}")
     }
 }
 
@@ -277,11 +316,14 @@ impl schemars::JsonSchema for Material {
         let parameter = |p: &Parameter| {
             let text = format!("{} Allowed: {}.", p.summary, p.allowed());
             let mut schema = serde_json::json!({ "type": "number", "description": text });
-            if p.above.is_finite() {
-                schema["exclusiveMinimum"] = p.above.into();
-            }
-            if p.below.is_finite() {
-                schema["exclusiveMaximum"] = p.below.into();
+            for (bound, inside, outside) in
+                [(p.low, "minimum", "exclusiveMinimum"), (p.high, "maximum", "exclusiveMaximum")]
+            {
+                match bound {
+                    Bound::Included(value) => schema[inside] = value.into(),
+                    Bound::Excluded(value) => schema[outside] = value.into(),
+                    Bound::Unbounded => {}
+                }
             }
             (p.name.to_owned(), schema)
         };
@@ -362,11 +404,11 @@ const QUESTIONS: [Question; 4] = [
         otherwise: "mat3x3f()",
     },
     Question {
-        summary: "Elastic part of the deformation gradient f after plastic flow, and the plastic strain that the flow added.",
+        summary: "Elastic part of the deformation gradient f after plastic flow, and the plastic strain that the flow added to `hardened`.",
         name: "return_map",
         function: "return",
-        parameters: "f: mat3x3f, m: MaterialParams",
-        arguments: "f, m",
+        parameters: "f: mat3x3f, hardened: f32, m: MaterialParams",
+        arguments: "f, hardened, m",
         result: "PlasticReturn",
         otherwise: "PlasticReturn(f, 0.0)",
     },

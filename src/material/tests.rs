@@ -93,8 +93,8 @@ fn the_host_struct_mirrors_the_shader() {
         ("density", std::mem::offset_of!(MaterialParams, density)),
         ("kind", std::mem::offset_of!(MaterialParams, kind)),
         ("ghost_modulus", std::mem::offset_of!(MaterialParams, ghost_modulus)),
-        ("pad0", std::mem::offset_of!(MaterialParams, pad0)),
-        ("pad1", std::mem::offset_of!(MaterialParams, pad1)),
+        ("hardening", std::mem::offset_of!(MaterialParams, hardening)),
+        ("friction", std::mem::offset_of!(MaterialParams, friction)),
     ];
     assert_eq!((offsets.as_slice(), *span as usize), (expected.as_slice(), size_of::<MaterialParams>()));
 }

@@ -111,7 +111,7 @@ fn material() {
         "g2p.wgsl",
         "MaterialParams",
         MaterialParams,
-        [mu, lambda, yield_stress, density, kind, ghost_modulus, pad0, pad1,]
+        [mu, lambda, yield_stress, density, kind, ghost_modulus, hardening, friction,]
     );
 }
 

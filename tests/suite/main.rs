@@ -10,6 +10,7 @@ mod gpu;
 mod kernels;
 mod layering;
 mod layouts;
+mod materials;
 mod numerics;
 mod quiet;
 mod reference;

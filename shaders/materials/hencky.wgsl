@@ -1,0 +1,26 @@
+// Metal in logarithmic strain e = ln(F F^T) / 2: psi = mu tr(e^2) + lambda/2 (tr e)^2, so that the cut-back of the strain is exact.
+#include "materials/plastic_flow.wgsl"
+
+// Kirchhoff stress tau = 2 mu e + lambda tr(e) I. An inverted F has none; the caller reports it.
+fn stress_hencky(f: mat3x3f, m: MaterialParams) -> mat3x3f {
+    if determinant(f) <= 0.0 { return mat3x3f(); }
+    let l = logarithmic_strain(f);
+    let principal = 2.0 * m.mu * l.strain + vec3f(m.lambda * (l.strain.x + l.strain.y + l.strain.z));
+    return l.axes * diagonal(principal) * transpose(l.axes);
+}
+
+fn return_hencky(f: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn {
+    return plastic_flow(f, hardened, m);
+}
+
+// Energy per reference volume [J m^-3].
+fn energy_hencky(f: mat3x3f, m: MaterialParams) -> f32 {
+    if determinant(f) <= 0.0 { return 0.0; }
+    let strain = logarithmic_strain(f).strain;
+    let volume = strain.x + strain.y + strain.z;
+    return m.mu * dot(strain, strain) + 0.5 * m.lambda * volume * volume;
+}
+
+fn wave_speed_hencky(m: MaterialParams, density: f32) -> f32 {
+    return wave_speed_neo_hookean(m, density);
+}
