@@ -15,6 +15,11 @@ pub struct BodyState {
     pub centroid: [f64; 3],
     /// Mean velocity, weighted by mass \[m s^-1\].
     pub velocity: [f64; 3],
+    /// Angular momentum about the centre of mass \[kg m^2 s^-1\], with that of the affine motion around each particle, as
+    /// transfers between particles and grid keep it. [Jiang et al. 2015]
+    pub angular_momentum: [f64; 3],
+    /// Largest equivalent plastic strain.
+    pub plastic_strain: f64,
     /// Low and high corner of the box around the particles \[m\].
     pub extent: [[f64; 3]; 2],
     /// Pieces: groups of particles in cells that touch, corners included.
@@ -29,7 +34,7 @@ impl Snapshot {
         let mut bodies = vec![empty; count];
         for particle in &self.particles {
             if let Some(body) = bodies.get_mut(particle.body as usize) {
-                body.add(particle);
+                body.add(particle, self.grid.spacing.into());
             }
         }
         for (body, pieces) in bodies.iter_mut().zip(self.pieces(count)) {
@@ -71,14 +76,18 @@ impl Snapshot {
 }
 
 impl BodyState {
-    fn add(&mut self, particle: &ParticleSample) {
+    fn add(&mut self, particle: &ParticleSample, spacing: f64) {
         let mass = f64::from(particle.mass);
+        let (arm, speed) = (particle.position.map(f64::from), particle.velocity.map(f64::from));
+        self.plastic_strain = self.plastic_strain.max(particle.plastic_strain.into());
         self.particles += 1;
         self.mass += mass;
         for axis in 0..3 {
-            let position = f64::from(particle.position[axis]);
+            let position = arm[axis];
             self.centroid[axis] += mass * position;
-            self.velocity[axis] += mass * f64::from(particle.velocity[axis]);
+            self.velocity[axis] += mass * speed[axis];
+            let own = 0.25 * spacing * spacing * f64::from(particle.vorticity[axis]);
+            self.angular_momentum[axis] += mass * (cross(arm, speed)[axis] + own);
             self.extent[0][axis] = self.extent[0][axis].min(position);
             self.extent[1][axis] = self.extent[1][axis].max(position);
         }
@@ -88,10 +97,18 @@ impl BodyState {
     fn finish(&mut self) {
         self.centroid = self.centroid.map(|sum| sum / self.mass);
         self.velocity = self.velocity.map(|sum| sum / self.mass);
+        let whole = cross(self.centroid, self.velocity);
+        for (sum, orbit) in self.angular_momentum.iter_mut().zip(whole) {
+            *sum -= self.mass * orbit;
+        }
         if self.particles == 0 {
             self.extent = [[f64::NAN; 3]; 2];
         }
     }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    glam::DVec3::from(a).cross(glam::DVec3::from(b)).into()
 }
 
 /// Disjoint groups of indices: each entry names another member of its group, the root itself. [Tarjan 1975]
@@ -121,6 +138,7 @@ mod tests {
         let sample = |&(body, position): &(u32, [f32; 3])| ParticleSample {
             position,
             velocity: [1.0, 0.0, 0.0],
+            vorticity: [0.0, 0.0, 4.0],
             mass: 2.0,
             volume0: 1.0,
             ghost_pressure: 0.0,
@@ -157,6 +175,8 @@ mod tests {
         assert_eq!(bodies[0].centroid, [2.5, 2.0, 2.5]);
         assert_eq!(bodies[0].extent, [[0.5; 3], [5.5; 3]]);
         assert_eq!((bodies[0].mass, bodies[0].velocity), (8.0, [1.0, 0.0, 0.0]));
+        // velocities are equal: what is left is each particle's own m dx^2 / 4 times its vorticity
+        assert!((glam::DVec3::from(bodies[0].angular_momentum) - glam::DVec3::new(0.0, 0.0, 8.0)).length() < 1e-12);
         assert!(bodies[2].particles == 0 && bodies[2].centroid[0].is_nan());
     }
 }

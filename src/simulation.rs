@@ -347,6 +347,10 @@ impl Simulation {
         let sample = |p: usize| ParticleSample {
             position: xyz(position[p]),
             velocity: xyz(velocity[p]),
+            vorticity: {
+                let [a, b, c] = [0, 1, 2].map(|column| affine[3 * p + column]);
+                [b[2] - c[1], c[0] - a[2], a[1] - b[0]]
+            },
             mass: position[p][3],
             volume0: velocity[p][3],
             ghost_pressure: affine[3 * p][3],

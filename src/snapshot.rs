@@ -50,6 +50,9 @@ pub struct ParticleSample {
     pub position: [f32; 3],
     /// Velocity \[m s^-1\].
     pub velocity: [f32; 3],
+    /// Angular velocity times two, from the affine matrix: what the particle adds to the angular momentum per its moment of inertia
+    /// m dx^2 / 4 \[s^-1\]. [Jiang et al. 2015]
+    pub vorticity: [f32; 3],
     /// Mass \[kg\].
     pub mass: f32,
     /// Volume at rest \[m^3\].

@@ -24,9 +24,10 @@ const STEP_COLUMNS: [&str; 39] = [
 
 /// Columns of `bodies.csv`.
 #[rustfmt::skip]
-const BODY_COLUMNS: [&str; 18] = [
+const BODY_COLUMNS: [&str; 22] = [
     "frame", "time", "body", "particles", "mass", "x", "y", "z", "velocity_x", "velocity_y", "velocity_z",
-    "min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "pieces",
+    "angular_momentum_x", "angular_momentum_y", "angular_momentum_z",
+    "min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "plastic_strain", "pieces",
 ];
 
 /// Columns of `probes.csv` for each probe, after `step` and `time`.
@@ -80,9 +81,9 @@ impl Tables {
         for (name, body) in self.names.iter().zip(snapshot.bodies(self.names.len())) {
             let head: [Value; 5] =
                 [frame.into(), time.into(), name.as_str().into(), body.particles.into(), body.mass.into()];
-            let vectors = [body.centroid, body.velocity, body.extent[0], body.extent[1]];
+            let vectors = [body.centroid, body.velocity, body.angular_momentum, body.extent[0], body.extent[1]];
             let values = vectors.into_iter().flatten().map(Value::from);
-            table.push(head.into_iter().chain(values).chain([body.pieces.into()]));
+            table.push(head.into_iter().chain(values).chain([body.plastic_strain.into(), body.pieces.into()]));
         }
     }
 

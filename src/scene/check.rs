@@ -117,6 +117,17 @@ impl Check<'_> {
         }
     }
 
+    /// A body turns within the active axes only.
+    fn turning(&mut self, path: String, spin: [f64; 3]) {
+        let free = [3, 3, 2].map(|axes| self.scene.domain.axes() >= axes);
+        if spin.iter().any(|rate| !rate.is_finite()) {
+            self.add(path, format!("{spin:?} is not finite"), "give finite numbers");
+        } else if spin.iter().zip(free).any(|(rate, free)| !free && *rate != 0.0) {
+            let help = "in 2D a body turns about z alone, in 1D not at all: give one number, or none";
+            self.add(path, format!("{spin:?} leaves the active axes"), help);
+        }
+    }
+
     pub(super) fn state(&mut self, path: &str, state: &GasState) {
         self.positive(format!("{path}.density"), state.density, "[kg m^-3]");
         self.positive(format!("{path}.pressure"), state.pressure, "[Pa]");
@@ -203,6 +214,7 @@ impl Check<'_> {
             let path = format!("bodies[{index}]");
             self.positive(format!("{path}.density"), body.density, "[kg m^-3]");
             self.planar(format!("{path}.velocity"), body.velocity);
+            self.turning(format!("{path}.spin"), body.spin);
             self.count(format!("{path}.particles_per_cell"), body.particles_per_cell, 1, 8);
             if !self.scene.materials.contains_key(&body.material) {
                 let known = self.scene.materials.keys().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");

@@ -12,6 +12,8 @@ pub struct Seed {
     pub position: [f64; 3],
     /// Velocity `[m s^-1]`.
     pub velocity: [f64; 3],
+    /// Angular velocity `[rad s^-1]`.
+    pub spin: [f64; 3],
     /// Volume `[m^3]`, with unit thickness along inactive axes.
     pub volume: f64,
     /// Density `[kg m^-3]`.
@@ -86,16 +88,19 @@ impl Scene {
             let seed = |position| Seed {
                 position,
                 velocity: body.velocity,
+                spin: body.spin,
                 volume: self.domain.cell_volume() / per_cell,
                 density: body.density,
                 body: index as u32,
                 material: self.material_index(&body.material).unwrap_or(0),
             };
+            let first = seeds.len();
             self.each_point(&body.shape, body.particles_per_cell, |point| {
                 if self.owner(point) == Some(index) {
                     seeds.push(seed(point));
                 }
             });
+            turn(&mut seeds[first..]);
         }
         seeds
     }
@@ -172,6 +177,18 @@ impl Scene {
             vortex.add(&mut state, self.gas.gamma, point);
         }
         state
+    }
+}
+
+/// Adds what a body's spin gives to the velocities of its particles: spin x (position - centre).
+fn turn(seeds: &mut [Seed]) {
+    let count = seeds.len() as f64;
+    let center: [f64; 3] = std::array::from_fn(|d| seeds.iter().map(|seed| seed.position[d]).sum::<f64>() / count);
+    for seed in seeds {
+        let arm: [f64; 3] = std::array::from_fn(|d| seed.position[d] - center[d]);
+        for (d, (a, b)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
+            seed.velocity[d] += seed.spin[a] * arm[b] - seed.spin[b] * arm[a];
+        }
     }
 }
 

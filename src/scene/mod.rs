@@ -209,6 +209,10 @@ pub struct Body {
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub velocity: [f64; 3],
+    /// Angular velocity about the centre of mass at the start `[rad s^-1]`: a number about z, or three about x, y and z.
+    #[serde(default, deserialize_with = "vector::spin")]
+    #[schemars(with = "vector::Spin")]
+    pub spin: [f64; 3],
     /// Particles per cell along each axis, 1 to 8; 4 in 1D and 2 otherwise when left out.
     #[serde(default, deserialize_with = "particle_count")]
     pub particles_per_cell: u32,

@@ -1,6 +1,25 @@
 //! Vectors in scene files: one to three numbers. A scene of `dimension` axes may leave the inactive ones out.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// An angular velocity in a scene file.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a number (about z) or three numbers (about x, y and z)")]
+pub(super) enum Spin {
+    /// About z, the only axis in 2D.
+    AboutZ(f64),
+    /// About x, y and z.
+    Vector([f64; 3]),
+}
+
+/// Reads an angular velocity.
+pub(super) fn spin<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
+    Ok(match Spin::deserialize(deserializer)? {
+        Spin::AboutZ(rate) => [0.0, 0.0, rate],
+        Spin::Vector(rates) => rates,
+    })
+}
 
 /// Reads one to three numbers; the missing ones become 0.
 pub(super) fn point<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {

@@ -53,7 +53,8 @@ impl ParticleStart {
             start.position.push([x, y, z, (seed.density * seed.volume) as f32]);
             start.velocity.push([u, v, w, seed.volume as f32]);
             let ghost = scene.gas.ambient.pressure as f32;
-            start.affine.extend([[0.0, 0.0, 0.0, ghost], [0.0; 4], [0.0, 0.0, 0.0, bits(seed.material)]]);
+            let [x, y, z] = seed.spin.map(|rate| rate as f32);
+            start.affine.extend([[0.0, z, -y, ghost], [-z, 0.0, x, 0.0], [y, -x, 0.0, bits(seed.material)]]);
             start.deformation.extend([[1.0, 0.0, 0.0, bits(seed.body)], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]]);
             start.max_density = start.max_density.max(seed.density);
             let wave_speed = materials[seed.material as usize].wave_speed(seed.density);

@@ -16,6 +16,7 @@ fn snapshot(dimension: u32) -> Snapshot {
     let particle = |index: usize| ParticleSample {
         position: [number(index), 0.5, 0.25],
         velocity: [1.0, number(index), 3.0],
+        vorticity: [0.0; 3],
         mass: 2.0,
         volume0: 0.5,
         ghost_pressure: -4.0,

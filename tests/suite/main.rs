@@ -21,5 +21,6 @@ mod reference_tables;
 mod render;
 mod scenes;
 mod shaders;
+mod solids;
 mod twins;
 mod verify;

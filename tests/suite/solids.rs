@@ -1,0 +1,94 @@
+//! Bodies in thin gas against mechanics: spin, fall, collision.
+
+use brisance::bodies::BodyState;
+use brisance::gpu::Gpu;
+use brisance::scene::Scene;
+use brisance::simulation::Simulation;
+use glam::DVec3;
+
+use crate::common::gpu_or_skip;
+
+/// Gas that weighs and presses next to nothing.
+const THIN: &str = "[gas]\nambient = { density = 1e-4, pressure = 1e-4 }\n";
+
+fn scene(domain: &str, bodies: &str, rest: &str) -> Scene {
+    let text = format!("title = \"t\"\n{rest}\n[domain]\n{domain}\n{THIN}{bodies}");
+    Scene::parse(&text, "test.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The bodies at the start and at the end, and the totals of the last step.
+fn run(gpu: &Gpu, scene: &Scene) -> [Vec<BodyState>; 2] {
+    let mut simulation = Simulation::new(gpu, scene).unwrap_or_else(|error| panic!("{error}"));
+    let count = scene.bodies.len();
+    let before = simulation.snapshot().expect("a device").bodies(count);
+    let records = simulation.advance_to(scene.time.until).unwrap_or_else(|error| panic!("{error}"));
+    assert!(records.iter().all(|record| record.clamped == 0), "no particle is held by a wall");
+    [before, simulation.snapshot().expect("a device").bodies(count)]
+}
+
+const RUBBER: &str = "[materials.rubber]\nneo_hookean = { young_modulus = 100.0, poisson_ratio = 0.3 }\n";
+
+#[test]
+fn a_spinning_body_keeps_its_angular_momentum() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (domain, center, spin) in [
+        ("dimension = 2\ncells = [24, 24]\nsize = [1.0, 1.0]", "[0.5, 0.5]", "3.0"),
+        ("dimension = 3\ncells = [12, 12, 12]\nsize = [1.0, 1.0, 1.0]", "[0.5, 0.5, 0.5]", "[1.0, -2.0, 2.0]"),
+    ] {
+        let body = format!(
+            "{RUBBER}[[bodies]]\nname = \"disc\"\nmaterial = \"rubber\"\ndensity = 1.0\nspin = {spin}\n\
+             shape = {{ sphere = {{ center = {center}, radius = 0.3 }} }}\n"
+        );
+        // half a turn
+        let scene = scene(domain, &body, "[time]\nuntil = 1.05\n");
+        let [before, after] = run(&gpu, &scene);
+        let [start, end] = [&before[0], &after[0]].map(|body| DVec3::from(body.angular_momentum));
+        // a rigid body's own inertia, m r^2 / 2 in the plane, 2 m r^2 / 5 in space, and m dx^2 / 2 of the particles' affine motion
+        let share = if scene.domain.axes() == 2 { 0.5 } else { 0.4 };
+        let inertia = before[0].mass * (share * 0.09 + 0.5 * scene.domain.spacing().powi(2));
+        let rigid = DVec3::from(scene.bodies[0].spin) * inertia;
+        assert!((start - rigid).length() < 0.02 * rigid.length(), "{start} {rigid}");
+        assert!((end - start).length() < 2e-4 * start.length(), "{start} {end}");
+        let moved = DVec3::from(after[0].centroid) - DVec3::from(before[0].centroid);
+        assert!(moved.length() < 1e-3, "{moved}");
+    }
+}
+
+#[test]
+fn a_body_falls_as_galileo_says() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let body = format!(
+        "{RUBBER}[[bodies]]\nname = \"stone\"\nmaterial = \"rubber\"\ndensity = 10.0\nvelocity = [0.2, 0.1]\n\
+         shape = {{ box = {{ center = [0.4, 0.7], size = [0.2, 0.15] }} }}\n"
+    );
+    let domain = "dimension = 2\ncells = [24, 24]\nsize = [1.0, 1.0]";
+    let scene = scene(domain, &body, "gravity = [0.0, -1.0]\n[time]\nuntil = 0.6\n");
+    let [before, after] = run(&gpu, &scene);
+    let t = 0.6;
+    let fallen = DVec3::from(after[0].centroid) - DVec3::from(before[0].centroid);
+    let expected = DVec3::new(0.2 * t, 0.1 * t - 0.5 * t * t, 0.0);
+    // symplectic Euler: first order in the step, half of it times the speed
+    assert!((fallen - expected).length() < 0.02, "{fallen} {expected}");
+    assert!((after[0].velocity[1] - (0.1 - t)).abs() < 2e-3, "{:?}", after[0].velocity);
+}
+
+/// Two equal elastic bars meet: waves run through both and back, then they part with their velocities exchanged.
+#[test]
+fn two_bars_exchange_their_velocities() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let bar = |name: &str, center: f64, speed: f64| {
+        format!(
+            "[[bodies]]\nname = \"{name}\"\nmaterial = \"rubber\"\ndensity = 1.0\nvelocity = [{speed}]\n\
+             shape = {{ box = {{ center = [{center}], size = [0.5] }} }}\n"
+        )
+    };
+    let bodies = format!("{RUBBER}{}{}", bar("left", 0.7, 0.4), bar("right", 1.3, -0.4));
+    // They touch at t = 0.1 / 0.8; the waves need 2 L / c = 1 / 11.6.
+    let scene =
+        scene("dimension = 1\ncells = [200]\nsize = [2.0]", &bodies, "[time]\nuntil = 0.4\nfixed_step = 0.002\n");
+    let [_, after] = run(&gpu, &scene);
+    let speed = |body: &BodyState| body.velocity[0];
+    let momentum = after.iter().map(|body| body.mass * body.velocity[0]).sum::<f64>();
+    assert!(momentum.abs() < 1e-4, "{momentum}");
+    assert!(speed(&after[0]) < -0.36 && speed(&after[1]) > 0.36, "{} {}", speed(&after[0]), speed(&after[1]));
+}
