@@ -14,7 +14,7 @@ use crate::{Error, Result};
 /// [`Error::Scene`] with every mistake, [`Error::DoesNotFit`].
 pub(super) fn check(options: &SceneOptions, cli: &Cli) -> Result<()> {
     let scene = scenes::load(options, &[])?;
-    let plan = MemoryPlan::new(&scene, scene.seed_particles().len());
+    let plan = MemoryPlan::new(&scene, scene.particle_count());
     if cli.device.is_some() {
         check_fit(&plan, &scene, &open_device(cli)?)?;
     }

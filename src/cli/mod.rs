@@ -147,7 +147,7 @@ fn check_fit(plan: &crate::state::MemoryPlan, scene: &crate::scene::Scene, gpu: 
 /// Counts particles and plans memory; the gas alone is checked first, because seeding a hopeless scene takes memory too.
 fn plan_for(scene: &crate::scene::Scene, gpu: &Gpu) -> Result<crate::state::MemoryPlan> {
     check_fit(&crate::state::MemoryPlan::new(scene, 0), scene, gpu)?;
-    let plan = crate::state::MemoryPlan::new(scene, scene.seed_particles().len());
+    let plan = crate::state::MemoryPlan::new(scene, scene.particle_count());
     check_fit(&plan, scene, gpu)?;
     Ok(plan)
 }

@@ -1,5 +1,7 @@
 //! From shapes to cells and particles.
 
+use std::ops::{ControlFlow, Range};
+
 use super::{GasState, Scene, Shape};
 
 /// Sub-samples per axis in cells that the surface of a region crosses.
@@ -24,6 +26,9 @@ pub struct Seed {
     pub material: u32,
 }
 
+/// What is done at a point; a break ends the walk.
+type Visit<'a> = dyn FnMut([f64; 3]) -> ControlFlow<()> + 'a;
+
 impl Scene {
     /// Density, momentum and energy per volume of every cell, x fastest, without padding.
     ///
@@ -37,7 +42,7 @@ impl Scene {
         }
         let ambient = self.gas.ambient.conserved(gamma);
         let states = self.gas.regions.iter().map(|region| region.state.conserved(gamma)).collect::<Vec<_>>();
-        let reach = 0.5 * self.domain.spacing() * f64::from(self.domain.dimension).sqrt();
+        let reach = self.cell_radius();
         self.each_cell(|center| {
             let mut state = ambient;
             let mut mixed = false;
@@ -95,24 +100,62 @@ impl Scene {
                 material: self.material_index(&body.material).unwrap_or(0),
             };
             let first = seeds.len();
-            self.each_point(&body.shape, body.particles_per_cell, |point| {
-                if self.owner(point) == Some(index) {
-                    seeds.push(seed(point));
-                }
+            let _ = self.each_particle(index, &mut |point| {
+                seeds.push(seed(point));
+                ControlFlow::Continue(())
             });
             turn(&mut seeds[first..]);
         }
         seeds
     }
 
+    /// How many particles [`Scene::seed_particles`] makes, without making them.
+    #[must_use]
+    pub fn particle_count(&self) -> usize {
+        let mut count = 0;
+        for index in 0..self.bodies.len() {
+            let _ = self.each_particle(index, &mut |_| {
+                count += 1;
+                ControlFlow::Continue(())
+            });
+        }
+        count
+    }
+
     /// True if a body gets at least one particle.
     pub(super) fn has_particles(&self, index: usize) -> bool {
+        self.each_particle(index, &mut |_| ControlFlow::Break(())).is_break()
+    }
+
+    /// Visits the lattice points that belong to a body, cell by cell.
+    fn each_particle(&self, index: usize, visit: &mut Visit<'_>) -> ControlFlow<()> {
         let body = &self.bodies[index];
-        let mut found = false;
-        self.each_point(&body.shape, body.particles_per_cell, |point| {
-            found = found || self.owner(point) == Some(index);
-        });
-        found
+        let spacing = self.domain.spacing();
+        let offsets = lattice(self.domain.axes(), body.particles_per_cell);
+        self.each_cell_near(&body.shape, &mut |center| {
+            let whole = self.owns_cell(index, center);
+            for offset in &offsets {
+                let point = std::array::from_fn(|d| center[d] + offset[d] * spacing);
+                if whole || self.owner(point) == Some(index) {
+                    visit(point)?;
+                }
+            }
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// From the centre to the corners of a cell \[m\].
+    fn cell_radius(&self) -> f64 {
+        0.5 * self.domain.spacing() * f64::from(self.domain.dimension).sqrt()
+    }
+
+    /// Whether all of a cell belongs to a body. Distances are nowhere steeper than 1.
+    fn owns_cell(&self, index: usize, center: [f64; 3]) -> bool {
+        let radius = self.cell_radius();
+        let far = |shape: &Shape| shape.distance(center) > radius;
+        self.bodies[index].shape.distance(center) < -radius
+            && self.bodies[..index].iter().all(|body| far(&body.shape))
+            && self.obstacles.iter().all(|obstacle| far(&obstacle.shape))
     }
 
     /// The body that a point belongs to: the first that holds it; none inside obstacles.
@@ -139,30 +182,40 @@ impl Scene {
         values
     }
 
-    /// Visits the lattice points of all cells that the bounds of a shape touch.
-    fn each_point(&self, shape: &Shape, per_axis: u32, mut visit: impl FnMut([f64; 3])) {
+    /// Visits the centres of all cells that a shape may touch, x fastest.
+    fn each_cell_near(&self, shape: &Shape, visit: &mut Visit<'_>) -> ControlFlow<()> {
         let (low, high) = shape.bounds();
-        let spacing = self.domain.spacing();
         let range = |d: usize| {
             if d >= self.domain.axes() {
                 return 0..1;
             }
             let cell = |x: f64| {
-                ((x - self.domain.origin[d]) / spacing).floor().clamp(0.0, f64::from(self.domain.cells[d] - 1)) as u32
+                let at = ((x - self.domain.origin[d]) / self.domain.spacing()).floor();
+                at.clamp(0.0, f64::from(self.domain.cells[d] - 1)) as u32
             };
             cell(low[d])..cell(high[d]) + 1
         };
-        let offsets = lattice(self.domain.axes(), per_axis);
         for z in range(2) {
             for y in range(1) {
-                for x in range(0) {
-                    let center = self.domain.cell_center([x, y, z]);
-                    for offset in &offsets {
-                        visit(std::array::from_fn(|d| center[d] + offset[d] * spacing));
-                    }
-                }
+                self.row_near(shape, range(0), [y, z], visit)?;
             }
         }
+        ControlFlow::Continue(())
+    }
+
+    /// The same for a part of a row along x: halved until it is one cell, and dropped where the shape is too far away.
+    fn row_near(&self, shape: &Shape, row: Range<u32>, [y, z]: [u32; 2], visit: &mut Visit<'_>) -> ControlFlow<()> {
+        let first = self.domain.cell_center([row.start, y, z]);
+        let half = 0.5 * f64::from(row.end - row.start - 1) * self.domain.spacing();
+        if shape.distance([first[0] + half, first[1], first[2]]) > half + self.cell_radius() {
+            return ControlFlow::Continue(());
+        }
+        if row.len() == 1 {
+            return visit(first);
+        }
+        let middle = row.start.midpoint(row.end);
+        self.row_near(shape, row.start..middle, [y, z], visit)?;
+        self.row_near(shape, middle..row.end, [y, z], visit)
     }
 
     /// Initial state at a point.

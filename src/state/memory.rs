@@ -35,7 +35,7 @@ pub struct MemoryPlan {
 }
 
 impl MemoryPlan {
-    /// The plan for a scene with so many particles ([`Scene::seed_particles`] says how many).
+    /// The plan for a scene with so many particles ([`Scene::particle_count`]).
     #[must_use]
     pub fn new(scene: &Scene, particles: usize) -> Self {
         let dimension = scene.domain.dimension;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{BASE, parse};
-use crate::scene::Shape;
+use crate::scene::{Seed, Shape};
 
 /// Shape, a point inside, a point outside, exact volume in the box [-1, 1]^3.
 const SAMPLES: [(&str, [f64; 3], [f64; 3], f64); 19] = [
@@ -252,6 +252,37 @@ fn obstacles_and_earlier_bodies_come_first() {
     // each body has 8 x 8 particles; the obstacle takes 4 x 8 of the first, which takes 4 x 8 of the second
     assert_eq!(seeds.iter().filter(|seed| seed.body == 0).count(), 32);
     assert_eq!(seeds.iter().filter(|seed| seed.body == 1).count(), 32);
+}
+
+/// The walk over cells leaves out what is far away and asks nothing where a cell is whole: the particles stay the same.
+#[test]
+fn particles_are_the_lattice_points_inside() {
+    let ring = "torus = { center = [1.0, 0.5], axis = [0, 0, 1], major = 0.3, minor = 0.12 }";
+    let blob = "smooth_union = { radius = 0.2, shapes = [{ sphere = { center = [0.5, 0.4], radius = 0.3 } }, { box = { center = [1.2, 0.6], size = [0.5, 0.3] } }] }";
+    for shape in [ring, blob] {
+        let body = |name: &str, shape: &str| {
+            format!("[[bodies]]\nname = \"{name}\"\nmaterial = \"rubber\"\ndensity = 1.0\nshape = {{ {shape} }}\n")
+        };
+        let first = body("first", "sphere = { center = [0.7, 0.5], radius = 0.1 }");
+        let obstacle = "[[obstacles]]\nname = \"o\"\nshape = { box = { center = [1.25, 0.5], size = [0.1, 0.1] } }\n";
+        let scene = parse(&format!("{BASE}{first}{}{obstacle}", body("second", shape)), &[]);
+        let (seeds, spacing) = (scene.seed_particles(), scene.domain.spacing());
+        let owned = |point: [f64; 3]| {
+            let inside = |body: usize| scene.bodies[body].shape.distance(point) < 0.0;
+            (scene.obstacles[0].shape.distance(point) >= 0.0)
+                .then(|| if inside(0) { Some(0) } else { inside(1).then_some(1) })
+                .flatten()
+        };
+        let mut count = 0;
+        for (y, x) in (0..2 * scene.domain.cells[1]).flat_map(|y| (0..2 * scene.domain.cells[0]).map(move |x| (y, x))) {
+            let at = |k: u32| (f64::from(k) + 0.5) * 0.5 * spacing;
+            let point = [at(x), at(y), 0.0];
+            let near = |seed: &&Seed| (0..2).all(|d| (seed.position[d] - point[d]).abs() < 1e-9);
+            count += usize::from(owned(point).is_some());
+            assert_eq!(seeds.iter().find(near).map(|seed| seed.body), owned(point), "{shape} {point:?}");
+        }
+        assert!(count > 100 && seeds.len() == count && scene.particle_count() == count, "{count} {}", seeds.len());
+    }
 }
 
 #[test]
