@@ -11,9 +11,12 @@ use super::args::{Cli, VerifyOptions};
 use super::interrupt::{self, Wish};
 use super::open_device;
 use crate::export::atomic;
-use crate::gpu::Gpu;
-use crate::verify::{self, Case, Head, Row, Session, Suite, Verdict};
+use crate::gpu::{Gpu, GpuOptions};
+use crate::verify::{self, Case, Common, Head, Row, Suite, Verdict};
 use crate::{Error, Result};
+
+/// Cases that run at a time, at most.
+const AT_A_TIME: usize = 4;
 
 /// Runs the suite and judges. What was found before an error or an interruption is written all the same.
 ///
@@ -36,26 +39,17 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
     let start = Instant::now();
     let gpu = open_device(cli)?;
     let bar = progress(cases.len());
-    let mut notify = |text: &str| {
+    let notify = |text: &str| {
         match &bar {
             Some(bar) => bar.set_message(text.to_owned()),
             None => eprintln!("{:6.1} s  {text}", start.elapsed().as_secs_f64()),
         }
         if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { Ok(()) }
     };
-    let mut session = Session::new(&gpu, suite, &mut notify);
-    let mut outcome = Ok(());
-    for case in cases {
-        outcome = session.perform(case);
-        if outcome.is_err() {
-            break;
-        }
-        if let Some(bar) = &bar {
-            bar.inc(1);
-        }
-    }
-    session.overview();
-    let (rows, plots) = (session.rows, session.plots);
+    let done = || bar.iter().for_each(|bar| bar.inc(1));
+    let devices = [&[gpu.clone()], &more_devices(cli)?[..]].concat();
+    let (findings, outcome) = verify::perform(&devices, &Common::new(suite, &notify), &cases, &done);
+    let (rows, plots) = (findings.rows, findings.plots);
     if let Some(bar) = &bar {
         bar.finish_and_clear();
     }
@@ -72,6 +66,12 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
     }
     outcome?;
     verdict(&rows, &options.out)
+}
+
+/// The same device opened again, for cases beside the first: one for each further processor core, up to [`AT_A_TIME`] in all.
+fn more_devices(cli: &Cli) -> Result<Vec<Gpu>> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    (1..cores.min(AT_A_TIME)).map(|_| Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })).collect()
 }
 
 fn list(cases: &[&Case], as_json: bool) {

@@ -40,10 +40,14 @@ pub use document::{Head, html, json, markdown};
 pub use plot::{Plot, Style};
 pub use profile::Profile;
 pub use row::{Limit, Row, Solver, Verdict, short};
-pub use session::{Integrator, Run, Session, Setting, Suite, pair_name};
+pub use session::{Common, Findings, Integrator, Run, Session, Setting, Suite, pair_name};
 pub use table::table;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
 use crate::Result;
+use crate::gpu::Gpu;
 
 /// One entry of the registry.
 #[derive(Debug)]
@@ -76,6 +80,46 @@ pub fn select(suite: Suite, filter: &str) -> Vec<&'static Case> {
     let named =
         |case: &Case| [case.id, case.title, case.group].iter().any(|text| text.to_lowercase().contains(&filter));
     cases().filter(|case| (case.quick || suite == Suite::Full) && named(case)).collect()
+}
+
+/// Runs cases, as many at a time as there are devices, and brings together what they found in the order of the cases. Small runs
+/// leave a device idle between their dispatches; two at a time fill it. `done` is called after each case.
+///
+/// # Errors
+/// Beside what was found: the first driver error, wrong scene or interruption. No case starts after it.
+pub fn perform(
+    devices: &[Gpu],
+    common: &Common<'_>,
+    cases: &[&'static Case],
+    done: &(dyn Fn() + Sync),
+) -> (Findings, Result<()>) {
+    // the last cases run longest and start first
+    let left = AtomicUsize::new(cases.len());
+    let found = Mutex::new((0..cases.len()).map(|_| None).collect::<Vec<Option<_>>>());
+    let work = |gpu: &Gpu| {
+        while let Some(index) = left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |n| n.checked_sub(1)).ok() {
+            let index = index - 1;
+            let result = Session::perform(gpu, common, cases[index]);
+            if result.1.is_err() {
+                left.store(0, Ordering::Relaxed);
+            }
+            found.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
+            done();
+        }
+    };
+    std::thread::scope(|scope| {
+        for gpu in devices {
+            scope.spawn(|| work(gpu));
+        }
+    });
+    let mut findings = Findings::default();
+    let mut outcome = Ok(());
+    for (own, result) in found.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().flatten() {
+        findings.add(own);
+        outcome = outcome.and(result);
+    }
+    findings.overview();
+    (findings, outcome)
 }
 
 /// Conjugate gradient iterations that suffice for a relative residual in a uniform gas: half of sqrt(k) ln(2 / residual) with

@@ -1,7 +1,7 @@
-//! A verification at work: cases run scenes through it and leave rows and plots.
+//! A case at work: it runs scenes through its session and leaves rows and plots.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::plot::{Plot, Style};
 use super::profile::Profile;
@@ -98,57 +98,81 @@ pub struct Run {
     pub solver_load: f64,
 }
 
-/// Rows and plots of the cases so far, and what they share.
-pub struct Session<'a> {
-    gpu: &'a Gpu,
+/// What the cases of one verification share.
+pub struct Common<'a> {
     /// How much to run.
     pub suite: Suite,
     /// Called before each run with its name; an error ends the verification.
-    notify: &'a mut dyn FnMut(&str) -> Result<()>,
-    references: BTreeMap<String, Arc<Profile>>,
-    case: &'static str,
-    /// Runs of the case: label, lowest density, lowest pressure, share of the iteration bound.
-    health: Vec<(Solver, [f64; 3])>,
-    /// Deviations of eq. (38) over the cells, by title.
-    curves: Vec<(String, Vec<[f64; 2]>)>,
+    pub notify: &'a (dyn Fn(&str) -> Result<()> + Sync),
+    /// Solutions of [`muscl`], by scene and cells.
+    references: Mutex<BTreeMap<String, Arc<Profile>>>,
+}
+
+impl<'a> Common<'a> {
+    /// Nothing computed yet.
+    #[must_use]
+    pub fn new(suite: Suite, notify: &'a (dyn Fn(&str) -> Result<()> + Sync)) -> Self {
+        Common { suite, notify, references: Mutex::default() }
+    }
+}
+
+/// What cases found.
+#[derive(Debug, Default)]
+pub struct Findings {
     /// All lines.
     pub rows: Vec<Row>,
     /// All plots, with the case they belong to; an empty one stands for the whole.
     pub plots: Vec<(&'static str, Plot)>,
+    /// Deviations of eq. (38) over the cells, by title.
+    curves: Vec<(String, Vec<[f64; 2]>)>,
+}
+
+impl Findings {
+    /// Puts those of the next case behind.
+    pub fn add(&mut self, next: Findings) {
+        self.rows.extend(next.rows);
+        self.plots.extend(next.plots);
+        self.curves.extend(next.curves);
+    }
+
+    /// Adds the plot of all errors over cells, as [Cao et al. 2022, fig. 16 left].
+    pub fn overview(&mut self) {
+        let empty = Plot::new("Squared density deviation, eq. (38), of the default method", "cells", "deviation");
+        let curves = std::mem::take(&mut self.curves).into_iter();
+        let plot = curves.fold(empty.logarithmic(), |plot, (title, points)| plot.with(title, Style::Both, points));
+        self.plots.insert(0, ("", plot));
+    }
+}
+
+/// One case at work on one device.
+pub struct Session<'a> {
+    gpu: &'a Gpu,
+    common: &'a Common<'a>,
+    /// How much to run.
+    pub suite: Suite,
+    case: &'static str,
+    /// Runs of the case: label, lowest density, lowest pressure, share of the iteration bound.
+    health: Vec<(Solver, [f64; 3])>,
+    findings: Findings,
 }
 
 impl<'a> Session<'a> {
-    /// An empty session.
-    pub fn new(gpu: &'a Gpu, suite: Suite, notify: &'a mut dyn FnMut(&str) -> Result<()>) -> Self {
-        Session {
-            gpu,
-            suite,
-            notify,
-            references: BTreeMap::new(),
-            case: "",
-            health: Vec::new(),
-            curves: Vec::new(),
-            rows: Vec::new(),
-            plots: Vec::new(),
-        }
-    }
-
-    /// Runs a case to its end. A run that diverges is a failed row, not the end of the session.
-    ///
-    /// # Errors
-    /// Driver errors, wrong scenes, interruption.
-    pub fn perform(&mut self, case: &'static Case) -> Result<()> {
-        self.case = case.id;
-        self.health.clear();
-        match (case.run)(self) {
+    /// Runs a case to its end. A run that diverges is a failed row, not the end of the verification. What was found before an error
+    /// stays.
+    pub fn perform(gpu: &'a Gpu, common: &'a Common<'a>, case: &'static Case) -> (Findings, Result<()>) {
+        let (suite, health, findings) = (common.suite, Vec::new(), Findings::default());
+        let mut session = Session { gpu, common, suite, case: case.id, health, findings };
+        let outcome = match (case.run)(&mut session) {
             Err(error @ crate::Error::Diverged { .. }) => {
-                self.push(&format!("runs to the end: {error}"), 0.0).source("method").pass(Limit::AtLeast(1.0));
+                session.push(&format!("runs to the end: {error}"), 0.0).source("method").pass(Limit::AtLeast(1.0));
+                Ok(())
             }
-            Err(error) => return Err(error),
-            Ok(()) => {}
+            other => other,
+        };
+        if outcome.is_ok() {
+            session.report_health();
         }
-        self.report_health();
-        Ok(())
+        (session.findings, outcome)
     }
 
     /// Runs a shipped scene (path below `scenes/`) with overrides of the form `key=value`.
@@ -165,7 +189,7 @@ impl<'a> Session<'a> {
         }
         let size = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join("x");
         let label = format!("{} {} {size}", pair_name(pair), integrator.name());
-        (self.notify)(&format!("{}: {label}", self.case))?;
+        (self.common.notify)(&format!("{}: {label}", self.case))?;
         let mut simulation = Simulation::new(self.gpu, &scene)?;
         let records = simulation.advance_to(scene.time.until)?;
         let snapshot = simulation.snapshot()?;
@@ -199,29 +223,22 @@ impl<'a> Session<'a> {
             known: None,
             solver: None,
         };
-        self.rows.push(row);
-        let last = self.rows.len() - 1;
-        &mut self.rows[last]
+        let rows = &mut self.findings.rows;
+        rows.push(row);
+        let last = rows.len() - 1;
+        &mut rows[last]
     }
 
     /// Adds a plot to the case.
     pub fn plot(&mut self, plot: Plot) {
-        self.plots.push((self.case, plot));
+        self.findings.plots.push((self.case, plot));
     }
 
-    /// Keeps errors over cells for [`Session::overview`]; those of mere rounding are left out.
+    /// Keeps errors over cells for [`Findings::overview`]; those of mere rounding are left out.
     pub(super) fn curve(&mut self, title: &str, points: Vec<[f64; 2]>) {
         if points.iter().all(|point| point[1] > ROUNDING) {
-            self.curves.push((title.to_owned(), points));
+            self.findings.curves.push((title.to_owned(), points));
         }
-    }
-
-    /// Adds the plot of all errors over cells, as [Cao et al. 2022, fig. 16 left].
-    pub fn overview(&mut self) {
-        let empty = Plot::new("Squared density deviation, eq. (38), of the default method", "cells", "deviation");
-        let curves = std::mem::take(&mut self.curves).into_iter();
-        let plot = curves.fold(empty.logarithmic(), |plot, (title, points)| plot.with(title, Style::Both, points));
-        self.plots.insert(0, ("", plot));
     }
 
     /// End of a 1D scene by the independent solver of [`muscl`]; computed once per session.
@@ -230,12 +247,14 @@ impl<'a> Session<'a> {
     /// A scene that cannot have so many cells.
     pub fn fine_reference(&mut self, scene: &Scene, cells: u32) -> Result<Arc<Profile>> {
         let key = format!("{} {cells} {}", scene.title, scene.time.until);
-        if let Some(found) = self.references.get(&key) {
+        // held while it is computed: whoever else wants it waits for it
+        let mut references = self.common.references.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = references.get(&key) {
             return Ok(Arc::clone(found));
         }
-        (self.notify)(&format!("{}: MUSCL-HLLC reference {cells}", self.case))?;
+        (self.common.notify)(&format!("{}: MUSCL-HLLC reference {cells}", self.case))?;
         let profile = Arc::new(muscl::solve(&scene.with_resolution(cells)?));
-        self.references.insert(key, Arc::clone(&profile));
+        references.insert(key, Arc::clone(&profile));
         Ok(profile)
     }
 
