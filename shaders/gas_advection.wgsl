@@ -13,6 +13,7 @@
 #include "shared/ars.wgsl"
 #include "shared/reconstruct.wgsl"
 #include "shared/flux.wgsl"
+#include "shared/limiter.wgsl"
 #include "shared/carrier.wgsl"
 
 override SECOND: bool;  // stage of the Runge-Kutta scheme
@@ -25,9 +26,6 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
-
-// A cell must keep this share of what the first-order update leaves of density and internal energy.
-const KEPT = 0.1;
 
 fn source(slot: u32) -> Gas {
     if SECOND && !ARS { return Gas(work[slot], energy[params.slots + slot]); }
@@ -115,8 +113,6 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     return out;
 }
 
-struct Change { high: Gas, low: Gas }
-
 fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
     let scale = sign * control.dt * select(1.0, ARS_SECOND, ARS && SECOND) / params.spacing;
     let blend = max(part, 0.0);
@@ -128,6 +124,7 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
     if LIMITER {
         (*change).low.flow += scale * f.low.flow;
         (*change).low.energy += scale * f.low.energy;
+        add_excess(change, scale * (f.high.flow - f.low.flow), scale * (f.high.energy - f.low.energy));
     }
 }
 
@@ -135,6 +132,7 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
 fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
     var change: Change;
     let is_gas = kind_of(cells[slot]) == GAS;
+    if LIMITER && is_gas { change.velocity = velocity_of(source(slot).flow); }
     // Slots without gas around them, as deep inside a body, have nothing to do.
     let axes = select(0u, DIM, has(cells[slot], NODE_GAS));
     for (var n = 0u; n < axes; n++) {
@@ -168,40 +166,6 @@ fn add_axis(change: ptr<function, Change>, slot: u32, n: u32, here: Gas) {
     let c = source(slot + s);
     add_face(change, interior_fluxes(n, slot - s, source(slot - 2u * s), b, here, c), 1.0, 1.0);
     add_face(change, interior_fluxes(n, slot, b, here, c, source(slot + 2u * s)), 1.0, -1.0);
-}
-
-fn drained_share(before: Gas, change: Change) -> f32 {
-    let least = KEPT * internal_energy(before);
-    var share = 0.5;
-    for (var k = 0; k < 12; k++) {
-        let flow = before.flow + share * change.low.flow;
-        let total = before.energy + share * change.low.energy;
-        if flow.x > KEPT * before.flow.x && internal_energy(Gas(flow, total)) > least { return share - 1.0; }
-        share *= 0.5;
-    }
-    return -1.0;
-}
-
-// Largest share of the high-order change that keeps density and internal energy above KEPT of the first-order update.
-// Where bodies recede on several sides even that would drain the cell: then -1 + the share of the first-order change that
-// leaves KEPT of what is there.
-fn allowed_share(before: Gas, change: Change) -> f32 {
-    let low = Gas(before.flow + change.low.flow, before.energy + change.low.energy);
-    if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) {
-        if ARS && SECOND { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
-        return drained_share(before, change);
-    }
-    let density = before.flow.x + change.high.flow.x;
-    var share = 1.0;
-    if density < KEPT * low.flow.x { share = (1.0 - KEPT) * low.flow.x / max(low.flow.x - density, 1e-30); }
-    let least = KEPT * internal_energy(low);
-    for (var k = 0; k < 12; k++) {
-        let flow = before.flow + change.low.flow + share * (change.high.flow - change.low.flow);
-        let total = before.energy + change.low.energy + share * (change.high.energy - change.low.energy);
-        if internal_energy(Gas(flow, total)) >= least { return share; }
-        share *= 0.5;
-    }
-    return 0.0;
 }
 
 // The state that the change of this stage is added to.
@@ -269,6 +233,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         let high = interior_fluxes(n, slot, b, here, c, d);
         if has(cells[slot], INTERIOR) {
             var change: Change;
+            if LIMITER { change.velocity = velocity_of(here.flow); }
             add_face(&change, low, 1.0, 1.0);
             add_face(&change, high, 1.0, -1.0);
             for (var m = 0u; m < n; m++) { add_axis(&change, slot, m, here); }

@@ -53,6 +53,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/grid_wall.wgsl",
     "shared/index.wgsl",
     "shared/interior.wgsl",
+    "shared/limiter.wgsl",
     "shared/listed.wgsl",
     "shared/material.wgsl",
     "shared/matrix.wgsl",

@@ -7,25 +7,32 @@ use brisance::simulation::Simulation;
 use crate::common::{Random, gpu_or_skip};
 use crate::reference_exact::radial_density;
 
-/// A scene of gas at rest with rho = p = 1, and noise of 1e-3 on density, pressure and, over c, every velocity component.
-fn noisy(gpu: &Gpu, text: &str) -> Simulation {
+/// A scene whose gas has another density, velocity and pressure in every cell.
+fn disturbed(gpu: &Gpu, text: &str, state: fn(&mut Random, usize) -> (f32, [f32; 3], f32)) -> Simulation {
     let scene = Scene::parse(text, "noise.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
     let simulation = Simulation::new(gpu, &scene).unwrap();
-    let axes = scene.domain.axes();
     let mut flow = readback::read(gpu, &simulation.state.gas.conserved).unwrap();
     let mut energy = readback::read(gpu, &simulation.state.gas.energy).unwrap();
     let mut random = Random(7);
     for (u, e) in flow.iter_mut().zip(&mut energy).filter(|(u, _)| u[0] > 0.0) {
-        let mut next = || random.between(-1e-3, 1e-3);
-        let (density, pressure) = (1.0 + next(), 1.0 + next());
-        let mut v = [0.0; 3];
-        v[..axes].iter_mut().for_each(|v| *v = next() * 1.4_f32.sqrt());
+        let (density, v, pressure) = state(&mut random, scene.domain.axes());
         *u = [density, density * v[0], density * v[1], density * v[2]];
         *e = pressure / 0.4 + 0.5 * density * v.iter().map(|v| v * v).sum::<f32>();
     }
     simulation.state.gas.conserved.write(gpu, 0, &flow);
     simulation.state.gas.energy.write(gpu, 0, &energy);
     simulation
+}
+
+/// A scene of gas at rest with rho = p = 1, and noise of 1e-3 on density, pressure and, over c, every velocity component.
+fn noisy(gpu: &Gpu, text: &str) -> Simulation {
+    disturbed(gpu, text, |random, axes| {
+        let mut next = || random.between(-1e-3, 1e-3);
+        let (density, pressure) = (1.0 + next(), 1.0 + next());
+        let mut v = [0.0; 3];
+        v[..axes].iter_mut().for_each(|v| *v = next() * 1.4_f32.sqrt());
+        (density, v, pressure)
+    })
 }
 
 /// Largest |dp|/p and |u|/c after steps of s dx/c, from noise of 1e-3 on density, pressure and every velocity component;
@@ -131,6 +138,57 @@ fn cold_colliding_streams_need_the_limiter() {
         assert!(limited > 0 && lowest > 0.0, "{limited} limited, {lowest:e}");
         let bare = run(&format!("{numerics}limiter = false\n"));
         assert!(bare.is_err(), "{face}: the limiter is not needed");
+    }
+}
+
+/// Cold gas runs into a wall: limited faces beside unlimited ones.
+#[test]
+fn cold_gas_at_a_wall_stays_positive_with_both_pairs() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for pair in ["b1b0", "b2b1"] {
+        let text = format!(
+            "title = \"wall\"\n[domain]\ndimension = 1\ncells = [400]\nsize = [1.0]\n\
+             [gas]\nambient = {{ density = 1.0, velocity = [-1.0], pressure = 1e-6 }}\n\
+             [boundary]\nx_max = \"outlet\"\n[time]\nuntil = 0.06\n[numerics]\npair = \"{pair}\"\n"
+        );
+        let scene = Scene::parse(&text, "wall.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+        let records = Simulation::new(&gpu, &scene).unwrap().advance_to(0.06);
+        let records = records.unwrap_or_else(|error| panic!("{pair}: {error}"));
+        let limited: u32 = records.iter().map(|record| record.limited).sum();
+        eprintln!("{pair}: {} steps, {limited} limited", records.len());
+        assert!(limited > 0, "{pair}: the limiter has nothing to do");
+    }
+}
+
+/// Cold gas with a random velocity in every cell.
+#[test]
+fn cold_random_flow_stays_positive_in_every_dimension() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (dimension, cells, numerics) in
+        [(1, 256, ""), (1, 256, "pair = \"b2b1\""), (2, 24, ""), (2, 24, "pair = \"b2b1\""), (3, 10, "")]
+    {
+        let list = |value: String| vec![value; dimension].join(", ");
+        let text = format!(
+            "title = \"cold\"\n[domain]\ndimension = {dimension}\ncells = [{}]\nsize = [{}]\n\
+             [gas]\nambient = {{ density = 1.0, pressure = 1.0 }}\n[time]\nuntil = 1.0\n[numerics]\n{numerics}\n",
+            list(cells.to_string()),
+            list("1.0".to_owned()),
+        );
+        let mut simulation = disturbed(&gpu, &text, |random, axes| {
+            let density = random.between(0.1, 1.0);
+            let mut velocity = [0.0; 3];
+            velocity[..axes].iter_mut().for_each(|v| *v = random.between(-1.0, 1.0));
+            (density, velocity, 1e-3 * density)
+        });
+        let mut records = Vec::new();
+        let until = 2.0 / f64::from(cells);
+        simulation.set_target(until).unwrap();
+        while !simulation.advance_batch(&mut records).unwrap_or_else(|error| panic!("{dimension}D {numerics}: {error}"))
+        {
+        }
+        let limited: u32 = records.iter().map(|record| record.limited).sum();
+        eprintln!("{dimension}D {numerics}: {} steps, {limited} limited", records.len());
+        assert!(limited > 0, "{dimension}D: the limiter has nothing to do");
     }
 }
 

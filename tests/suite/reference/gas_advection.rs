@@ -4,7 +4,7 @@ pub(crate) use super::boundary::fill_ghosts;
 use super::carrier::Carrier;
 use super::grid::shift;
 use super::interface::Interface;
-use super::{GAS, GHOST, Gas, Problem, SOLID};
+use super::{GAS, GHOST, Gas, Problem, SOLID, internal_energy};
 
 /// Fluxes of (rho, m, E) through the faces of each axis, stored at the low cell.
 pub(crate) type Fluxes = [Vec<[f64; 5]>; 3];
@@ -128,14 +128,36 @@ fn updated(problem: &Problem, gas: &Gas, fluxes: &Fluxes, c: [i32; 3], dt: f64) 
     value
 }
 
-/// Largest part of the high-order update that keeps density and internal energy above a tenth of the first-order one.
-pub(crate) fn admissible(first: [f64; 5], weno: [f64; 5]) -> f64 {
-    let internal = |u: [f64; 5]| u[4] - 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
-    let mut theta = if weno[0] < 0.1 * first[0] { 0.9 * first[0] / (first[0] - weno[0]) } else { 1.0 };
-    let floor = 0.1 * internal(first);
+/// What the high-order fluxes add to those of first order through every face of a cell.
+fn parts(problem: &Problem, (weno, first): (&Fluxes, &Fluxes), c: [i32; 3], dt: f64) -> Vec<[f64; 5]> {
+    let grid = &problem.grid;
+    let faces = (0..grid.dimension).flat_map(|axis| [(axis, shift(c, axis, -1), 1.0), (axis, c, -1.0)]);
+    let part = |(axis, low, sign): (usize, [i32; 3], f64)| {
+        let (high_order, low_order) = (weno[axis][grid.slot(low)], first[axis][grid.slot(low)]);
+        [0, 1, 2, 3, 4].map(|k| sign * dt / grid.spacing * (high_order[k] - low_order[k]))
+    };
+    faces.map(part).collect()
+}
+
+/// Largest share of the high-order parts of a cell's faces, `excess`, each of which may come with any smaller share, that keeps density
+/// and internal energy above a tenth of those of the first-order update.
+pub(crate) fn admissible(first: [f64; 5], excess: &[[f64; 5]], velocity: [f64; 3]) -> f64 {
+    let slip_of = |u: &[f64; 5]| [0, 1, 2].map(|k| u[1 + k] - u[0] * velocity[k]);
+    let (mut density, mut energy, mut slip) = (0.0, 0.0, [0.0; 3]);
+    for part in excess {
+        let own = slip_of(part);
+        let work: f64 = (0..3).map(|k| velocity[k] * (part[1 + k] + own[k])).sum();
+        density += (-part[0]).max(0.0);
+        energy += (0.5 * work - part[4]).max(0.0);
+        slip = [0, 1, 2].map(|k| slip[k] + own[k].abs());
+    }
+    let offset = slip_of(&first).map(f64::abs);
+    let square = |share: f64| (0..3).map(|k| (offset[k] + share * slip[k]).powi(2)).sum::<f64>();
+    let internal = internal_energy(first);
+    let mut theta = f64::min(1.0, 0.9 * first[0] / density.max(1e-300));
     for _ in 0..12 {
-        let mixed = [0, 1, 2, 3, 4].map(|k| first[k] + theta * (weno[k] - first[k]));
-        if mixed[0] > 0.0 && internal(mixed) >= floor {
+        let heat = internal + 0.5 * square(0.0) / first[0] - theta * energy;
+        if heat - 0.5 * square(theta) / (first[0] - theta * density) >= 0.1 * internal {
             return theta;
         }
         theta *= 0.5;
@@ -155,7 +177,8 @@ pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, start
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] == GAS {
-            theta[slot] = admissible(updated(problem, start, &first, c, dt), updated(problem, start, &weno, c, dt));
+            let excess = parts(problem, (&weno, &first), c, dt);
+            theta[slot] = admissible(updated(problem, start, &first, c, dt), &excess, gas.velocity(slot));
             touched += usize::from(theta[slot] < 1.0);
         }
     }
