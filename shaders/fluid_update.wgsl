@@ -102,6 +102,9 @@ fn face_velocity(n: u32, low: u32, high: u32) -> f32 {
     return (a[n + 1u] + b[n + 1u]) / (a.x + b.x);
 }
 
+// With two solves the new face velocity also carries the internal energy: power and flux together are those of the enthalpy.
+fn carried_along() -> f32 { return select(1.0, params.gamma / (params.gamma - 1.0), ARS); }
+
 fn interior_heat(slot: u32) -> f32 {
     var heat = 0.0;
     let here = conserved[slot];
@@ -121,7 +124,7 @@ fn interior_heat(slot: u32) -> f32 {
         }
         heat += interior_face(slot, n) * below - interior_face(high, n) * above;
     }
-    return heat;
+    return carried_along() * heat;
 }
 
 // Calls with c in GAS; slots of other kinds see the same face from the other side.
@@ -200,7 +203,7 @@ fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     let p = face_pressure(c, n, up);
     let here = conserved[slot];
     let far = select(c - axis(n), c + axis(n), up);
-    if beyond == GAS { return p * face_velocity(n, slot_of(min(c, far)), slot_of(max(c, far))); }
+    if beyond == GAS { return carried_along() * p * face_velocity(n, slot_of(min(c, far)), slot_of(max(c, far))); }
     // Open: the velocity that the solve saw there.
     let ring = slot_of(far);
     let face = OpenFace(energy[2u * params.slots + ring], energy[params.slots + ring]);

@@ -22,7 +22,7 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // U1, U*; with ARS a third part: the kept state
-@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // now, U1, U*; with ARS the kept state
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // now, U1, U*; with ARS U* without the central heat in place of U1, and the kept state
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
@@ -73,8 +73,10 @@ fn carried_face(near: vec3i, far: vec3i, behind: vec3i, beyond: vec3i, n: u32, u
         if up { carried = carried_velocity(n, own, here.flow.x, other, next.flow.x); }
         else { carried = carried_velocity(n, other, next.flow.x, own, here.flow.x); }
     }
-    if up { return carried_fluxes(first, here, next, last, carried, alpha); }
-    return carried_fluxes(last, next, here, first, carried, alpha);
+    if up { out = carried_fluxes(first, here, next, last, carried, alpha); }
+    else { out = carried_fluxes(last, next, here, first, carried, alpha); }
+    out.heat *= f32(kind_of(far_word) == GAS);
+    return out;
 }
 
 // Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
@@ -97,6 +99,7 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     var first = here;
     if is_open(cells[slot_of(behind)]) { first = open_gas(behind, n); }
     var out = face_fluxes_of(n, chosen(first, last, up), chosen(here, next, up), chosen(next, here, up), chosen(last, first, up));
+    out.heat *= f32(kind_of(far_word) == GAS);
     if open { return out; }
     // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
     var blocked = 1.0;
@@ -119,11 +122,17 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
     let drain = 1.0 + min(part, 0.0);
     let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, part == 1.0);
     let heat = select(drain * (f.low.energy + blend * (f.high.energy - f.low.energy)), f.high.energy, part == 1.0);
+    var implicit = 0.0;
+    if ARS {
+        // The solve carries this part, over its own share of the step.
+        (*change).heat += sign * control.dt / params.spacing * f.heat;
+        if SECOND { implicit = (1.0 - 1.0 / ARS_SECOND) * f.heat; }
+    }
     (*change).high.flow += scale * flow;
-    (*change).high.energy += scale * heat;
+    (*change).high.energy += scale * (heat - implicit);
     if LIMITER {
         (*change).low.flow += scale * f.low.flow;
-        (*change).low.energy += scale * f.low.energy;
+        (*change).low.energy += scale * (f.low.energy - implicit);
         add_excess(change, scale * (f.high.flow - f.low.flow), scale * (f.high.energy - f.low.energy));
     }
 }
@@ -175,13 +184,15 @@ fn start_of(slot: u32, here: Gas) -> Gas {
         here.energy + ARS_KEPT * (here.energy - energy[3u * params.slots + slot]));
 }
 
-fn write_result(slot: u32, before: Gas, change: Gas) {
+fn write_result(slot: u32, before: Gas, all: Change) {
+    let change = all.high;
     if ARS {
         work[params.slots + slot] = before.flow + change.flow;
+        energy[params.slots + slot] = before.energy + change.energy - all.heat;
         energy[2u * params.slots + slot] = before.energy + change.energy;
         if SECOND { return; }
         work[2u * params.slots + slot] = before.flow + ARS_CHANGE * change.flow;
-        energy[3u * params.slots + slot] = before.energy + ARS_CHANGE * change.energy;
+        energy[3u * params.slots + slot] = before.energy + ARS_CHANGE * (change.energy - all.heat);
     } else if SECOND {
         work[params.slots + slot] = 0.5 * (conserved[slot] + before.flow + change.flow);
         energy[2u * params.slots + slot] = 0.5 * (energy[slot] + before.energy + change.energy);
@@ -199,7 +210,7 @@ fn finish(slot: u32, here: Gas, change: Change) {
         theta[slot] = share;
         if share < 1.0 { atomicAdd(&control.limited, 1u); }
     }
-    write_result(slot, before, change.high);
+    write_result(slot, before, change);
 }
 
 // One slot of the list.
@@ -260,5 +271,5 @@ fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         if in_ring(c + axis(n)) { least = min(least, theta[slot_of(c + axis(n))]); }
     }
     if least == 1.0 { return; }
-    write_result(slot, start_of(slot, source(slot)), change_of(c, slot, true).high);
+    write_result(slot, start_of(slot, source(slot)), change_of(c, slot, true));
 }

@@ -97,14 +97,18 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         energy[slot] = here.energy;
         return;
     }
-    let p = pressure_of(here);
+    var p = pressure_of(here);
+    // The start of a second solve is no state of the gas: behind very strong shocks it may lack internal energy.
+    if ARS { p = max(p, LEAST_PREDICTED * pressure_of(Gas(conserved[slot], energy[slot]))); }
     if here.flow.x <= 0.0 || p <= 0.0 || is_broken(p) {
         atomicMin(&control.fault, (STAGE_GAS_ADVECTION << 27u) | slot);
     }
     fill[slot].y = 1.0 / (params.gamma * p);
+    var total = here.energy;
+    if ARS { total = energy[params.slots + slot]; }     // what the solve carries anew is not in it
     energy[params.slots + slot] = predicted(cell_of(slot), slot, here, p);
     // Gravity: the work of the mean momentum.
     let pull = control.dt * here.flow.x * params.gravity;
     conserved[slot] = here.flow + vec4f(0.0, pull);
-    energy[slot] = here.energy + control.dt * dot(here.flow.yzw + 0.5 * pull, params.gravity);
+    energy[slot] = total + control.dt * dot(here.flow.yzw + 0.5 * pull, params.gravity);
 }

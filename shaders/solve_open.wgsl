@@ -41,8 +41,9 @@ fn note_open_face(c: vec3i, slot: u32) {
     let n = u32(away.y != 0) + 2u * u32(away.z != 0);
     let outward = f32(away[n]);
     let opening = opening_of(cells[slot]);
-    let here = Gas(conserved[slot_of(near)], energy[slot_of(near)]);
-    let p = pressure_of(here);
+    let flow = conserved[slot_of(near)];
+    let p = 1.0 / (params.gamma * fill[slot_of(near)].y);   // its energy waits for what the solve carries [shared/ars.wgsl]
+    let here = Gas(flow, p / (params.gamma - 1.0) + kinetic_energy(flow));
     let last = fill[slot];
     var known = vec2f(here.flow[n + 1u] / here.flow.x, p);
     if last.y > 0.0 {

@@ -113,7 +113,7 @@ impl Simulation {
         } else {
             self.record_pressure(pass, "BEGIN");
             self.time_step.record_second(pass); // [Ascher, Ruuth & Spiteri 1997]
-            self.record_advection(pass, 1, Carried::Now, "SECOND");
+            self.gas_advection.record(pass, state, &self.time_step, 1, "SECOND"); // the carrier is that of the last power
             self.record_pressure(pass, "SECOND");
         }
         self.coupled_solve.record_solid(pass, state); // eq. 36
@@ -136,7 +136,9 @@ impl Simulation {
     /// The implicit part: solve and update of the gas.
     fn record_pressure(&self, pass: &mut Pass, phase: &str) {
         let state = &self.state;
-        self.carrier.record(pass, state, Carried::Star, phase);
+        if self.solves == 1 {
+            self.carrier.record(pass, state, Carried::Star, phase);
+        }
         self.intermediate_pressure.record(pass, state, phase); // (4) eqs. 9 and 17
         self.coupled_solve.record_setup(pass, state, phase);
         self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37

@@ -4,7 +4,10 @@
 // Euler flux is the solve's, so sound needs no dissipation here. [Cao et al. 2022, section 2.3; Shu & Osher 1988]
 // Without a z axis the energy travels in the place of the z momentum, which is zero.
 
-struct Fluxes { high: Gas, low: Gas }
+// heat: internal energy by the mean of both sides, the part that two solves per step take from the solve instead [shared/ars.wgsl].
+struct Fluxes { high: Gas, low: Gas, heat: f32 }
+
+fn central_heat(b: Gas, c: Gas, velocity: f32) -> f32 { return 0.5 * velocity * (internal_energy(b) + internal_energy(c)); }
 
 fn packed(gas: Gas) -> vec4f { return select(gas.flow, vec4f(gas.flow.xyz, gas.energy), vec4<bool>(DIM < 3u)); }
 
@@ -24,6 +27,7 @@ fn carried_fluxes(a: Gas, b: Gas, c: Gas, d: Gas, carried: f32, alpha: f32) -> F
     var energy = 0.0;
     if DIM == 3u { energy = up * weno3(a.energy, b.energy, c.energy) + down * weno3(d.energy, c.energy, b.energy); }
     out.high = unpacked(flow, energy);
+    if ARS { out.heat = central_heat(b, c, carried); }
     if LIMITER { out.low = Gas(up * b.flow + down * c.flow, up * b.energy + down * c.energy); }
     return out;
 }
@@ -40,6 +44,7 @@ fn face_fluxes_of(n: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxes {
     let c_down = (uc - alpha) * packed(c);
     let flow = weno3_vector((ua + alpha) * packed(a), b_up, c_up) + weno3_vector((ud - alpha) * packed(d), c_down, b_down);
     var out: Fluxes;
+    if ARS { out.heat = central_heat(b, c, (b.flow[n + 1u] + c.flow[n + 1u]) / (b.flow.x + c.flow.x)); }
     if DIM < 3u {
         out.high = unpacked(0.5 * flow, 0.0);
         if LIMITER { out.low = unpacked(0.5 * (b_up + c_down), 0.0); }

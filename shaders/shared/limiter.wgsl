@@ -7,8 +7,8 @@
 const KEPT = 0.1;
 
 // dt L(U) of both orders, and the worst that the high-order parts of the faces can do to a GAS cell: density and internal energy that
-// they take, and momentum that they bring, relative to `velocity`.
-struct Change { high: Gas, low: Gas, velocity: vec3f, lost_density: f32, lost_energy: f32, slip: vec3f }
+// they take, and momentum that they bring, relative to `velocity`. heat: see Fluxes.
+struct Change { high: Gas, low: Gas, velocity: vec3f, lost_density: f32, lost_energy: f32, slip: vec3f, heat: f32 }
 
 fn add_excess(change: ptr<function, Change>, flow: vec4f, energy: f32) {
     let velocity = (*change).velocity;

@@ -16,7 +16,7 @@ pub enum Integrator {
     Predictor,
     /// Two such solves per step, of second order in smooth flow: ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6].
     Ars222,
-    /// `ars222` in scenes whose time step allows it, else `predictor`.
+    /// `ars222` in scenes of gas alone whose time step allows it, else `predictor`.
     Auto,
 }
 
@@ -28,16 +28,13 @@ pub enum FaceVelocity {
     Cell,
     /// What the pressure solve sees of it: gas at rest stays quiet. Gas only.
     Consistent,
-    /// `consistent` in scenes of gas alone with one solve per step and the pair B1B0, else `cell`: with B2B1 the consistent one
+    /// `consistent` in scenes of gas alone with the pair B1B0, else `cell`: with B2B1 the consistent one
     /// rings behind strong shocks.
     #[default]
     Auto,
 }
 
 impl Integrator {
-    /// With two solves a step moves sound by at most this many cells: the explicit part of the work of the pressure is only
-    /// conditionally stable. Noise at rest decays up to 2.5 and blows up from 4 on (measured in double precision).
-    pub const ARS_COURANT: f64 = 2.0;
     /// Largest fraction of the advective time step with two solves: above it strong shocks leave negative pressures.
     pub const ARS_CFL: f64 = 0.5;
 }
@@ -48,10 +45,7 @@ impl Scene {
     #[must_use]
     pub fn integrator(&self) -> Integrator {
         let time = &self.time;
-        let slow = time.cfl <= Integrator::ARS_CFL
-            && time.max_courant <= Integrator::ARS_COURANT
-            && time.fixed_step.is_none()
-            && self.bodies.is_empty();
+        let slow = time.cfl <= Integrator::ARS_CFL && time.fixed_step.is_none() && self.bodies.is_empty();
         match self.numerics.integrator {
             Integrator::Auto if slow => Integrator::Ars222,
             Integrator::Auto => Integrator::Predictor,
@@ -65,7 +59,7 @@ impl Scene {
         match self.numerics.face_velocity {
             FaceVelocity::Cell => false,
             FaceVelocity::Consistent => true,
-            FaceVelocity::Auto => self.bodies.is_empty() && self.solves() == 1 && self.numerics.pair == Pair::B1b0,
+            FaceVelocity::Auto => self.bodies.is_empty() && self.numerics.pair == Pair::B1b0,
         }
     }
 
@@ -73,12 +67,5 @@ impl Scene {
     #[must_use]
     pub fn solves(&self) -> u32 {
         if self.integrator() == Integrator::Ars222 { 2 } else { 1 }
-    }
-
-    /// Cap of c dt / dx, for the integrator in use.
-    #[must_use]
-    pub fn max_courant(&self) -> f64 {
-        let cap = if self.solves() == 2 { Integrator::ARS_COURANT } else { f64::INFINITY };
-        self.time.max_courant.min(cap)
     }
 }

@@ -140,7 +140,7 @@ impl Params {
             ambient_density: scene.gas.ambient.density as f32,
             ambient_pressure: scene.gas.ambient.pressure as f32,
             cfl: time.cfl as f32,
-            max_courant: scene.max_courant() as f32,
+            max_courant: scene.time.max_courant as f32,
             max_growth: time.max_growth as f32,
             fixed_step: time.fixed_step.unwrap_or(0.0) as f32,
             elastic_cfl: numerics.elastic_cfl as f32,

@@ -34,6 +34,8 @@ pub enum Integrator {
     Paper,
     /// Advection feels the pressure of the step before.
     Predictor,
+    /// Two solves per step.
+    Ars222,
 }
 
 impl Integrator {
@@ -43,6 +45,7 @@ impl Integrator {
         match self {
             Integrator::Paper => "paper",
             Integrator::Predictor => "predictor",
+            Integrator::Ars222 => "ars222",
         }
     }
 

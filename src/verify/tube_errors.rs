@@ -61,6 +61,7 @@ pub(super) fn expected(errors: &Errors, setting: Setting) -> Option<f64> {
         (Pair::B1b0, Integrator::Paper) => 1,
         (Pair::B2b1, Integrator::Predictor) => 2,
         (Pair::B2b1, Integrator::Paper) => 3,
+        (_, Integrator::Ars222) => return None,
     };
     let column = super::tubes::RESOLUTIONS.iter().position(|cells| *cells == setting.cells)?;
     Some(errors[row][column]).filter(|error| error.is_finite())

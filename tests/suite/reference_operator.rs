@@ -38,7 +38,7 @@ fn random_system(dimension: usize, pair: Pair, shared: Shared, seed: u64) -> Sys
     assert!(state.cells.contains(&SOLID));
     let faces = interface::interface(&problem, state.cells.clone(), &bins, &nodes);
     let intermediate =
-        intermediate_pressure::intermediate(&problem, &faces, (&state.gas, &state.gas), &state.open, 0.05);
+        intermediate_pressure::intermediate(&problem, &faces, (&state.gas, &state.gas), None, &state.open, 0.05);
     let intermediate = &intermediate;
     assemble(&Inputs { problem: &problem, interface: &faces, bins: &bins, intermediate, nodes: &nodes, dt: 0.05 })
 }
@@ -84,7 +84,7 @@ fn interior_stencils() {
         let (bins, nodes) = (particle_sort::bin(&problem, &[]), p2g::p2g(&problem, &[]));
         let faces = interface::interface(&problem, state.cells.clone(), &bins, &nodes);
         let intermediate =
-            &intermediate_pressure::intermediate(&problem, &faces, (&state.gas, &state.gas), &state.open, 0.1);
+            &intermediate_pressure::intermediate(&problem, &faces, (&state.gas, &state.gas), None, &state.open, 0.1);
         let system = assemble(&Inputs {
             problem: &problem,
             interface: &faces,

@@ -1,6 +1,7 @@
 //! Two solves per step for gas alone: ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6], in the stages' own terms.
 
 use super::coupled_solve::{Inputs, Solution, coupled_solve};
+use super::grid::shift;
 use super::interface::Interface;
 use super::p2g::Nodes;
 use super::particle_sort::Bins;
@@ -18,13 +19,30 @@ pub(crate) fn two_solves(
     let a = 1.0 - 0.5_f64.sqrt();
     let e = 1.0 - 1.0 / (2.0 * a);
     let first = state.gas.clone();
-    let solve = |advected: &Gas, booked: f64, open: &mut boundary::Memory, ledger: &mut [[f64; 5]]| {
-        let star = gas_advection::with_gravity(problem, &faces.cells, advected, a * dt);
-        let intermediate = intermediate_pressure::intermediate(problem, faces, (advected, &star), open, a * dt);
+    // what is left of the advected energy without the central heat over the span of a solve
+    let cold = |advected: &Gas, carrying: &Gas| {
+        let heat = gas_advection::central_heat(problem, faces, carrying);
+        let mut cold = advected.clone();
+        for c in problem.grid.interior() {
+            let slot = problem.grid.slot(c);
+            for (axis, heat) in heat.iter().enumerate().take(problem.grid.dimension) {
+                let below = problem.grid.slot(shift(c, axis, -1));
+                cold.energy[slot] += a * dt / problem.grid.spacing * (heat[slot] - heat[below]);
+            }
+        }
+        cold
+    };
+    let solve = |[advected, cold, carrying]: [&Gas; 3],
+                 booked: f64,
+                 open: &mut boundary::Memory,
+                 ledger: &mut [[f64; 5]]| {
+        let [star, cold] = [advected, cold].map(|gas| gas_advection::with_gravity(problem, &faces.cells, gas, a * dt));
+        let intermediate =
+            intermediate_pressure::intermediate(problem, faces, (advected, &star), Some(carrying), open, a * dt);
         let solution =
             coupled_solve(&Inputs { problem, interface: faces, bins, intermediate: &intermediate, nodes, dt: a * dt });
         let mut gas =
-            fluid_update::fluid_update(problem, faces, (&star, &intermediate), &solution, &nodes.velocity, a * dt);
+            fluid_update::fluid_update(problem, faces, (&cold, &intermediate), &solution, &nodes.velocity, a * dt);
         *open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
         let mut floored = vec![[0.0; 5]; ledger.len()];
         let count = fluid_update::energy_floor(problem, &faces.cells, &star, &mut gas, &mut floored);
@@ -35,19 +53,23 @@ pub(crate) fn two_solves(
         (gas, solution, count)
     };
     let (mut advected, limited_one) =
-        gas_advection::stage(problem, faces, [&first, &first], a * dt, a, &mut state.ledger);
+        gas_advection::stage(problem, faces, [&first, &first], a * dt, [a, 0.0], &mut state.ledger);
     gas_advection::fill_ghosts(problem, &faces.cells, &mut advected);
-    let (middle, solution_one, floored_one) = solve(&advected, (1.0 - a) / a, &mut state.open, &mut state.ledger);
+    let kept = cold(&advected, &first);
+    let (middle, solution_one, floored_one) =
+        solve([&advected, &kept, &first], (1.0 - a) / a, &mut state.open, &mut state.ledger);
     // U0 + dt e A0 + dt (1 - a) I1, with A0 and I1 from what the first half added.
     let mut start = first.clone();
     for slot in 0..start.energy.len() {
-        let (u0, c, u1) = (first.get(slot), advected.get(slot), middle.get(slot));
+        let (u0, c, u1) = (first.get(slot), kept.get(slot), middle.get(slot));
         start.set(slot, [0, 1, 2, 3, 4].map(|k| u0[k] + e / a * (c[k] - u0[k]) + (1.0 - a) / a * (u1[k] - c[k])));
     }
+    let shares = [1.0 - e, 1.0 - a / (1.0 - e)];
     let (mut advected, limited_two) =
-        gas_advection::stage(problem, faces, [&middle, &start], (1.0 - e) * dt, 1.0 - e, &mut state.ledger);
+        gas_advection::stage(problem, faces, [&middle, &start], (1.0 - e) * dt, shares, &mut state.ledger);
     gas_advection::fill_ghosts(problem, &faces.cells, &mut advected);
-    let (gas, mut solution, floored_two) = solve(&advected, 1.0, &mut state.open, &mut state.ledger);
+    let rest = cold(&advected, &middle);
+    let (gas, mut solution, floored_two) = solve([&advected, &rest, &middle], 1.0, &mut state.open, &mut state.ledger);
     state.gas = gas;
     solution.iterations += solution_one.iterations;
     solution.converged &= solution_one.converged;

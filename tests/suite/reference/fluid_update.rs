@@ -95,7 +95,7 @@ pub(crate) fn fluid_update(
     before: &[[f64; 3]],
     dt: f64,
 ) -> Gas {
-    let grid = &problem.grid;
+    let (grid, gamma) = (&problem.grid, problem.gamma);
     let gas_slots: Vec<_> = grid.interior().into_iter().filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
     let touching = |low: [i32; 3], axis: usize| {
         interface.cells[grid.slot(low)] == GAS || interface.cells[grid.slot(shift(low, axis, 1))] == GAS
@@ -129,7 +129,10 @@ pub(crate) fn fluid_update(
                     }
                     _ => face_velocity(problem, interface, &next, star, axis, low),
                 };
-                pressure[axis][slot] * velocity
+                // with two solves per step the new face velocity carries the internal energy too
+                let inside = interface.cells[slot] == GAS && interface.cells[high] == GAS;
+                let enthalpy = if problem.numerics.two_solves && inside { gamma / (gamma - 1.0) } else { 1.0 };
+                enthalpy * pressure[axis][slot] * velocity
             };
         }
         for face in boundary::open_faces(problem, &interface.cells).into_iter().filter(|face| face.1 == axis) {

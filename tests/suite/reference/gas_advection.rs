@@ -165,10 +165,44 @@ pub(crate) fn admissible(first: [f64; 5], excess: &[[f64; 5]], velocity: [f64; 3
     0.0
 }
 
-/// Fluxes of `gas` after the limiter, which looks at their change of `start`, and how many cells it touched.
-pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, start: &Gas, dt: f64) -> (Fluxes, usize) {
+/// Flux of internal energy between gas cells by the mean of both sides: with two solves per step it belongs to the solve.
+pub(crate) fn central_heat(problem: &Problem, interface: &Interface, gas: &Gas) -> [Vec<f64>; 3] {
     let grid = &problem.grid;
-    let (mut weno, first) = fluxes(problem, interface, gas);
+    let carrier = Carrier::new(problem, &interface.cells, gas);
+    let mut heat = [0; 3].map(|_| vec![0.0; grid.slots()]);
+    for axis in 0..grid.dimension {
+        for low in grid.faces(axis) {
+            let (a, b) = (grid.slot(low), grid.slot(shift(low, axis, 1)));
+            if interface.cells[a] != GAS || interface.cells[b] != GAS {
+                continue;
+            }
+            let (ua, ub) = (gas.get(a), gas.get(b));
+            let mean = (ua[1 + axis] + ub[1 + axis]) / (ua[0] + ub[0]);
+            let velocity = carrier.as_ref().map_or(mean, |carrier| carrier.between(gas, axis, a, b));
+            heat[axis][a] = 0.5 * velocity * (internal_energy(ua) + internal_energy(ub));
+        }
+    }
+    heat
+}
+
+/// Fluxes of `gas` after the limiter, which looks at their change of `start`, and how many cells it touched. A share `implicit` of
+/// the central heat is left to the solve.
+pub(crate) fn limited(
+    problem: &Problem,
+    interface: &Interface,
+    [gas, start]: [&Gas; 2],
+    dt: f64,
+    implicit: f64,
+) -> (Fluxes, usize) {
+    let grid = &problem.grid;
+    let (mut weno, mut first) = fluxes(problem, interface, gas);
+    if implicit != 0.0 {
+        let heat = central_heat(problem, interface, gas);
+        for (axis, slot) in (0..grid.dimension).flat_map(|axis| (0..grid.slots()).map(move |slot| (axis, slot))) {
+            weno[axis][slot][4] -= implicit * heat[axis][slot];
+            first[axis][slot][4] -= implicit * heat[axis][slot];
+        }
+    }
     if !problem.numerics.limiter {
         return (weno, 0);
     }
@@ -195,17 +229,18 @@ pub(crate) fn limited(problem: &Problem, interface: &Interface, gas: &Gas, start
     (weno, touched)
 }
 
-/// One forward Euler stage: adds what `gas` carries to `start`; books what enters solid cells on the ledger with `share` of the step.
+/// One forward Euler stage: adds what `gas` carries to `start`, but for a share `implicit` of the central heat; books what enters solid
+/// cells on the ledger with `share` of the step.
 pub(crate) fn stage(
     problem: &Problem,
     interface: &Interface,
     [gas, start]: [&Gas; 2],
     dt: f64,
-    share: f64,
+    [share, implicit]: [f64; 2],
     ledger: &mut [[f64; 5]],
 ) -> (Gas, usize) {
     let grid = &problem.grid;
-    let (through, touched) = limited(problem, interface, gas, start, dt);
+    let (through, touched) = limited(problem, interface, [gas, start], dt, implicit);
     let mut next = start.clone();
     for c in grid.interior() {
         let slot = grid.slot(c);
@@ -241,9 +276,9 @@ pub(crate) fn advect(
     let grid = &problem.grid;
     let mut before = gas.clone();
     fill_ghosts(problem, &interface.cells, &mut before);
-    let (mut one, touched_one) = stage(problem, interface, [&before, &before], dt, 0.5, ledger);
+    let (mut one, touched_one) = stage(problem, interface, [&before, &before], dt, [0.5, 0.0], ledger);
     fill_ghosts(problem, &interface.cells, &mut one);
-    let (two, touched_two) = stage(problem, interface, [&one, &one], dt, 0.5, ledger);
+    let (two, touched_two) = stage(problem, interface, [&one, &one], dt, [0.5, 0.0], ledger);
     let mut after = two.clone();
     for slot in (0..grid.slots()).filter(|slot| interface.cells[*slot] == GAS) {
         let (a, b) = (before.get(slot), two.get(slot));

@@ -91,11 +91,13 @@ fn node_velocity(problem: &Problem, cells: &[u32], star: &Gas, node: [i32; 3]) -
     [0.0; 3]
 }
 
-/// The stage. The predictor sees what advection compressed, without the kick of gravity that `star` has.
+/// The stage. The predictor sees what advection compressed, without the kick of gravity that `star` has. With two solves per step
+/// `carrying` is the gas that carried itself: its velocity compressed, and its pressure stands in for one that is lost.
 pub(crate) fn intermediate(
     problem: &Problem,
     interface: &Interface,
     (advected, star): (&Gas, &Gas),
+    carrying: Option<&Gas>,
     memory: &boundary::Memory,
     dt: f64,
 ) -> Intermediate {
@@ -103,13 +105,14 @@ pub(crate) fn intermediate(
     let mut pressure = vec![0.0; grid.slots()];
     let mut predicted_pressure = vec![0.0; grid.slots()];
     let mut node_mass = vec![0.0; grid.slots()];
-    let carrier = Carrier::new(problem, &interface.cells, advected);
+    let carrier = Carrier::new(problem, &interface.cells, carrying.unwrap_or(advected));
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] != GAS {
             continue;
         }
-        pressure[slot] = star.pressure(slot, problem.gamma);
+        let least = carrying.map_or(0.0, |gas| 0.1 * gas.pressure(slot, problem.gamma));
+        pressure[slot] = star.pressure(slot, problem.gamma).max(least);
         let factor = if problem.numerics.predictor {
             predicted(problem, interface, advected, carrier.as_ref(), c, dt)
         } else {

@@ -47,7 +47,7 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     }
     let (advected, limited) = gas_advection::advect(problem, &faces, &state.gas, dt, &mut state.ledger);
     let star = gas_advection::with_gravity(problem, &faces.cells, &advected, dt);
-    let intermediate = intermediate_pressure::intermediate(problem, &faces, (&advected, &star), &state.open, dt);
+    let intermediate = intermediate_pressure::intermediate(problem, &faces, (&advected, &star), None, &state.open, dt);
 
     let film = interface::film_force(problem, &faces.cells, &bins, &intermediate.vertex_pressure);
     let floor = problem.numerics.mass_floor * bins.density * problem.grid.volume();
