@@ -41,7 +41,7 @@ pub(super) const CASES: &[Case] = &[
 ];
 
 /// Why the vortex misses its gates.
-const VORTEX: &str = "below second order in space: two solves per step (ars222) reach 1.5 only";
+const VORTEX: &str = "below second order in space: two solves per step (ars222) change little";
 
 fn vortex(session: &mut Session<'_>) -> Result<()> {
     let cells: &[u32] = if session.suite == Suite::Quick { &[32, 64] } else { &[32, 64, 128] };

@@ -8,6 +8,20 @@ use super::particle_sort::Bins;
 use super::step::Report;
 use super::{Gas, Problem, State, boundary, fluid_update, gas_advection, intermediate_pressure};
 
+/// What is left of the advected gas without the central heat that `carrying` has carried over the span of a solve.
+fn without_central_heat(problem: &Problem, faces: &Interface, [advected, carrying]: [&Gas; 2], dt: f64) -> Gas {
+    let heat = gas_advection::central_heat(problem, faces, carrying);
+    let mut cold = advected.clone();
+    for c in problem.grid.interior() {
+        let slot = problem.grid.slot(c);
+        for (axis, heat) in heat.iter().enumerate().take(problem.grid.dimension) {
+            let below = problem.grid.slot(shift(c, axis, -1));
+            cold.energy[slot] += dt / problem.grid.spacing * (heat[slot] - heat[below]);
+        }
+    }
+    cold
+}
+
 /// Advances the gas by dt; returns the report of both solves and the solution of the second.
 pub(crate) fn two_solves(
     problem: &Problem,
@@ -19,19 +33,7 @@ pub(crate) fn two_solves(
     let a = 1.0 - 0.5_f64.sqrt();
     let e = 1.0 - 1.0 / (2.0 * a);
     let first = state.gas.clone();
-    // what is left of the advected energy without the central heat over the span of a solve
-    let cold = |advected: &Gas, carrying: &Gas| {
-        let heat = gas_advection::central_heat(problem, faces, carrying);
-        let mut cold = advected.clone();
-        for c in problem.grid.interior() {
-            let slot = problem.grid.slot(c);
-            for (axis, heat) in heat.iter().enumerate().take(problem.grid.dimension) {
-                let below = problem.grid.slot(shift(c, axis, -1));
-                cold.energy[slot] += a * dt / problem.grid.spacing * (heat[slot] - heat[below]);
-            }
-        }
-        cold
-    };
+    let cold = |advected: &Gas, carrying: &Gas| without_central_heat(problem, faces, [advected, carrying], a * dt);
     let solve = |[advected, cold, carrying]: [&Gas; 3],
                  booked: f64,
                  open: &mut boundary::Memory,
