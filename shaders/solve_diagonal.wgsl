@@ -6,6 +6,7 @@
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/cut_system.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -87,6 +88,21 @@ fn regular_square(v: vec3i) -> f32 {
     return sum;
 }
 
+// The same near an obstacle; the coefficients on one cluster add up first.
+fn cut_square(v: vec3i) -> f32 {
+    var sum = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let j = v - corner_offset(k);
+        let own = coefficient(j, v);
+        for (var l = 0u; l < corner_count(); l++) {
+            let other = v - corner_offset(l);
+            if cluster_first(slot_of(other)) != cluster_first(slot_of(j)) { continue; }
+            sum += work[slot_of(j)].w * dot(own, coefficient(other, v));
+        }
+    }
+    return sum;
+}
+
 struct Squares { own: f32, h: f32, q: f32 }
 
 // The same between gas and body.
@@ -124,6 +140,10 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let scale = control.dt * face_area() * control.dt * face_area();
     let v = cell_of(slot);
     let regular = !LISTED || has(word, VERTEX_REGULAR);
+    if CUT && LISTED && !regular {
+        inverse_diagonal[slot] = inverse(stiffness[slot] + scale * cut_square(v));
+        return;
+    }
     let deep = SOLIDS && LISTED && has(word, VERTEX_DEEP);
     let apart = interface_index(slot) != slot;
     var squares: Squares;

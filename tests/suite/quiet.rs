@@ -8,7 +8,7 @@ use crate::common::{Random, gpu_or_skip};
 use crate::reference_exact::radial_density;
 
 /// A scene of gas at rest with rho = p = 1, and noise of 1e-3 on density, pressure and, over c, every velocity component.
-fn noisy(gpu: &Gpu, text: &str) -> Simulation {
+pub(crate) fn noisy(gpu: &Gpu, text: &str) -> Simulation {
     let scene = Scene::parse(text, "noise.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
     let simulation = Simulation::new(gpu, &scene).unwrap();
     let axes = scene.domain.axes();
