@@ -68,12 +68,6 @@ fn wide_square(v: vec3i, base: u32, solid: bool) -> f32 {
     return sum;
 }
 
-// (mean, slope) of a vertex on the node below (corner 1) or above it (corner 0).
-fn narrow_pair(a: u32, v: i32, corner: i32) -> vec2f {
-    let entry = narrow_entry(a, v - corner);
-    return select(vec2f(entry.x, -entry.z), entry.yz, corner == 1);
-}
-
 fn regular_square(v: vec3i) -> f32 {
     if QUADRATIC { return wide_square(v, 0u, false); }
     var sum = 0.0;

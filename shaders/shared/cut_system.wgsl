@@ -11,10 +11,10 @@ fn coefficient(j: vec3i, v: vec3i) -> vec3f {
     let slot = slot_of(j);
     let word = cells[slot];
     if has(word, NODE_REGULAR) {
-        let ex = axis_entry(0u, j.x, v.x);
-        let ey = axis_entry(1u, j.y, v.y);
-        let ez = axis_entry(2u, j.z, v.z);
-        return vec3f(ex.x * ey.y * ez.y, ex.y * ey.x * ez.y, ex.y * ey.y * ez.x);
+        let ex = narrow_pair(0u, v.x, v.x - j.x);
+        let ey = narrow_pair(1u, v.y, v.y - j.y);
+        let ez = narrow_pair(2u, v.z, v.z - j.z);
+        return vec3f(ex.y * ey.x * ez.x, ex.x * ey.y * ez.x, ex.x * ey.x * ez.y);
     }
     if !inside(j) || kind_of(word) != GAS { return vec3f(0.0); }
     return cut_slope(slot, v - j);
