@@ -8,6 +8,8 @@
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/interior.wgsl"
+#include "shared/cut.wgsl"
+#include "shared/cut_carrier.wgsl"
 
 override SOURCE: u32;   // 0: the state now, 1: U1, 2: U*
 
@@ -22,6 +24,8 @@ fn source(slot: u32) -> vec4f {
     if SOURCE == 2u { return work[params.slots + slot]; }
     return conserved[slot];
 }
+
+fn flow_at(slot: u32) -> vec4f { return source(slot); }
 
 // Velocity at an offset from GAS cell c: of the gas there, or of what an inlet prescribes, or of the nearest gas in the block.
 fn velocity_at(c: vec3i, offset: vec3i, own: vec3f) -> vec3f {
@@ -106,9 +110,22 @@ fn face_mean(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
         if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow)[n]; }
         return node[slot][n];
     }
+    if near_obstacle(slot, other) { return cut_velocity(select(far, c, up), n); }
     let a = source(slot).x;
     let b = source(other).x;
     return (a * node[slot][n] + b * node[other][n]) / (a + b);
+}
+
+// The same sum for a cluster, through its open faces, over the gas in it.
+fn cut_divergence(slot: u32) -> f32 {
+    var sum = 0.0;
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
+        let c = cell_of(at);
+        for (var n = 0u; n < DIM; n++) {
+            sum += aperture(at, n, true) * face_mean(c, at, n, true) - aperture(at, n, false) * face_mean(c, at, n, false);
+        }
+    }
+    return sum / cluster_share(slot);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -121,7 +138,8 @@ fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(num_workgrou
     var sum = 0.0;
     if LISTED {
         let c = cell_of(slot);
-        for (var n = 0u; n < DIM; n++) { sum += face_mean(c, slot, n, true) - face_mean(c, slot, n, false); }
+        if CUT { sum = cut_divergence(slot); }
+        else { for (var n = 0u; n < DIM; n++) { sum += face_mean(c, slot, n, true) - face_mean(c, slot, n, false); } }
     } else {
         let density = source(slot).x;
         let own = node[slot];

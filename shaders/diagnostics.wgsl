@@ -6,6 +6,7 @@
 #include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/material.wgsl"
+#include "shared/cut.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -20,6 +21,7 @@
 @group(0) @binding(11) var<storage, read> deformation: array<vec4f>;
 @group(0) @binding(12) var<storage, read_write> history: array<vec4f>;
 @group(0) @binding(13) var<storage, read> probe_cells: array<u32>;
+@group(0) @binding(16) var<storage, read> extra: array<u32>;
 @group(0) @binding(14) var<storage, read_write> probe_history: array<vec4f>;
 
 fn put(block: u32, at: u32, lane: u32, value: vec4f) {
@@ -42,8 +44,9 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         owed += owed_flow[slot];
         heat.y += owed_energy[slot];
         if kind == GAS {
-            gas += volume * u.flow;
-            heat.x += volume * u.energy;
+            let share = volume * gas_share(slot);
+            gas += share * u.flow;
+            heat.x += share * u.energy;
             let p = pressure_of(u);
             extremes = max(extremes, vec4f(u.flow.x, -u.flow.x, p, -p));
             speed = max(speed, vec2f(length(velocity_of(u.flow)), sound_speed(u.flow.x, p)));

@@ -7,6 +7,7 @@
 #include "shared/gas.wgsl"
 #include "shared/control.wgsl"
 #include "shared/ars.wgsl"
+#include "shared/cut.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -15,6 +16,7 @@
 @group(0) @binding(5) var<storage, read_write> energy: array<f32>;
 @group(0) @binding(6) var<storage, read_write> owed_flow: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> owed_energy: array<f32>;
+@group(0) @binding(8) var<storage, read> extra: array<u32>;
 
 const FLOOR_SHARE = 0.1;
 // Internal energy is a difference of two float32 numbers: below some hundred units in the last place it means nothing.
@@ -36,7 +38,7 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
     // What the first of two solves loses counts more than once in the second [shared/ars.wgsl].
-    let booked = select(1.0, 1.0 + ARS_KEPT, ARS && control.stage == 0u) * cell_volume();
+    let booked = select(1.0, 1.0 + ARS_KEPT, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
     atomicAdd(&control.floored, 1u);
     if total < least {
         energy[slot] = least;

@@ -11,6 +11,8 @@
 #include "shared/system.wgsl"
 #include "shared/interior.wgsl"
 #include "shared/carrier.wgsl"
+#include "shared/cut_system.wgsl"
+#include "shared/cut_carrier.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -32,11 +34,28 @@ fn face_pressure(c: vec3i, n: u32, up: bool) -> f32 {
         let corner = corner_offset(k);
         if corner[n] == 1 { continue; }
         let v = slot_of(low + corner);
+        if CUT {
+            let own = corner + select(vec3i(0), axis(n), up);
+            sum += face_shape(slot_of(c), n, up, own) * pressure[v];
+            continue;
+        }
         var at = v;
         if beyond == SOLID { at = interface_index(v); }
         sum += pressure[at];
     }
-    return sum / f32(1u << (DIM - 1u));
+    return select(sum / f32(1u << (DIM - 1u)), sum, CUT);
+}
+
+// Loss of momentum of a cluster next to an obstacle: the pressure gradient over its gas.
+fn cut_impulse(slot: u32) -> vec3f {
+    var force = vec3f(0.0);
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
+        let c = cell_of(at);
+        for (var k = 1u; k < corner_count(); k++) {
+            force += (pressure[slot_of(c + corner_offset(k))] - pressure[at]) * cut_slope(at, corner_offset(k));
+        }
+    }
+    return -force / cluster_share(slot);
 }
 
 fn wide_range(n: u32) -> array<vec3i, 2> {
@@ -94,11 +113,16 @@ fn interior_impulse(slot: u32) -> vec3f {
     return impulse;
 }
 
+fn flow_at(slot: u32) -> vec4f { return conserved[slot]; }
+
 // Velocity of the face between two GAS cells.
 fn face_velocity(n: u32, low: u32, high: u32) -> f32 {
     let a = conserved[low];
     let b = conserved[high];
-    if CONSISTENT { return carried_velocity(n, node[low], a.x, node[high], b.x); }
+    if CONSISTENT {
+        if near_obstacle(low, high) { return cut_velocity(cell_of(low), n) - 0.25 * (node[high].w - node[low].w); }
+        return carried_velocity(n, node[low], a.x, node[high], b.x);
+    }
     return (a[n + 1u] + b[n + 1u]) / (a.x + b.x);
 }
 
@@ -142,6 +166,10 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let kind = kind_of(cells[slot]);
     if kind == SOLID { return; }
     let c = cell_of(slot);
+    if kind == GAS && beside_obstacle(cells[slot]) {
+        conserved[slot] += vec4f(0.0, cut_impulse(slot) * control.dt / params.spacing);
+        return;
+    }
     var impulse = vec3f(0.0);
     for (var n = 0u; n < DIM; n++) {
         for (var side = 0u; side < 2u; side++) {
@@ -149,7 +177,8 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
             let other = select(c - axis(n), c + axis(n), up);
             let own = kind == GAS;
             if !own && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
-            impulse[n] += select(1.0, -1.0, up) * face_pressure(select(other, c, own), n, up == own);
+            let near = select(other, c, own);
+            impulse[n] += select(1.0, -1.0, up) * aperture(slot_of(near), n, up == own) * face_pressure(near, n, up == own);
         }
     }
     if any(impulse != vec3f(0.0)) {
@@ -211,6 +240,23 @@ fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 
+// Power through the faces of a slot; of one that is not its `own`, through those it shares with GAS cells.
+fn heat_of(slot: u32, own: bool) -> f32 {
+    let c = cell_of(slot);
+    var heat = 0.0;
+    for (var n = 0u; n < DIM; n++) {
+        for (var side = 0u; side < 2u; side++) {
+            let up = side == 1u;
+            let sign = select(1.0, -1.0, up);
+            let other = select(c - axis(n), c + axis(n), up);
+            if !own && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
+            let near = select(other, c, own);
+            heat += sign * aperture(slot_of(near), n, up == own) * face_power(near, slot_of(near), n, up == own);
+        }
+    }
+    return heat;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) lane: u32) {
@@ -222,18 +268,8 @@ fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     }
     let kind = kind_of(cells[slot]);
     if kind == SOLID || kind == WALL { return; }
-    let c = cell_of(slot);
     var heat = 0.0;
-    for (var n = 0u; n < DIM; n++) {
-        for (var side = 0u; side < 2u; side++) {
-            let up = side == 1u;
-            let sign = select(1.0, -1.0, up);
-            let own = kind == GAS;
-            let other = select(c - axis(n), c + axis(n), up);
-            if !own && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
-            let near = select(other, c, own);
-            heat += sign * face_power(near, slot_of(near), n, up == own);
-        }
-    }
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { heat += heat_of(at, kind == GAS); }
+    heat /= cluster_share(slot);
     if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }
 }

@@ -15,6 +15,8 @@
 #include "shared/flux.wgsl"
 #include "shared/limiter.wgsl"
 #include "shared/carrier.wgsl"
+#include "shared/cut.wgsl"
+#include "shared/cut_carrier.wgsl"
 
 override SECOND: bool;  // stage of the Runge-Kutta scheme
 
@@ -31,6 +33,8 @@ fn source(slot: u32) -> Gas {
     if SECOND && !ARS { return Gas(work[slot], energy[params.slots + slot]); }
     return Gas(conserved[slot], energy[slot]);
 }
+
+fn flow_at(slot: u32) -> vec4f { return source(slot).flow; }
 
 fn is_open(word: u32) -> bool { return kind_of(word) == GAS || kind_of(word) == GHOST; }
 
@@ -70,7 +74,9 @@ fn carried_face(near: vec3i, far: vec3i, behind: vec3i, beyond: vec3i, n: u32, u
     if is_open(cells[slot_of(behind)]) { first = open_gas(behind, n); }
     var carried = other[n];
     if kind_of(far_word) == GAS {
-        if up { carried = carried_velocity(n, own, here.flow.x, other, next.flow.x); }
+        if near_obstacle(slot_of(near), slot_of(far)) {
+            carried = cut_velocity(min(near, far), n) - 0.25 * select(own.w - other.w, other.w - own.w, up);
+        } else if up { carried = carried_velocity(n, own, here.flow.x, other, next.flow.x); }
         else { carried = carried_velocity(n, other, next.flow.x, own, here.flow.x); }
     }
     if up { out = carried_fluxes(first, here, next, last, carried, alpha); }
@@ -116,6 +122,7 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     return out;
 }
 
+// `sign`: 1 into the cell, -1 out of it; times the open share of the face.
 fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
     let scale = sign * control.dt * select(1.0, ARS_SECOND, ARS && SECOND) / params.spacing;
     let blend = max(part, 0.0);
@@ -137,11 +144,19 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
     }
 }
 
-// dt L(U) of a slot: from its own faces if it is GAS, else through the faces it shares with GAS cells.
-fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
+// dt L(U) of a slot; of all cells that share its state together.
+fn change_of(slot: u32, limited: bool) -> Change {
     var change: Change;
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { add_faces(&change, at, limited); }
+    if CUT { change = scaled(change, 1.0 / cluster_share(slot)); }
+    return change;
+}
+
+// What passes the faces of a slot if it is GAS, else those it shares with GAS cells.
+fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool) {
+    let c = cell_of(slot);
     let is_gas = kind_of(cells[slot]) == GAS;
-    if LIMITER && is_gas { change.velocity = velocity_of(source(slot).flow); }
+    if LIMITER && is_gas { (*change).velocity = velocity_of(source(slot).flow); }
     // Slots without gas around them, as deep inside a body, have nothing to do.
     let axes = select(0u, DIM, has(cells[slot], NODE_GAS));
     for (var n = 0u; n < axes; n++) {
@@ -151,11 +166,11 @@ fn change_of(c: vec3i, slot: u32, limited: bool) -> Change {
             if !is_gas && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
             var part = 1.0;
             if limited { part = min(theta[slot], theta[slot_of(other)]); }
-            let f = face_fluxes(select(other, c, is_gas), n, up == is_gas);
-            add_face(&change, f, part, select(1.0, -1.0, up));
+            let near = select(other, c, is_gas);
+            let f = face_fluxes(near, n, up == is_gas);
+            add_face(change, f, part, select(1.0, -1.0, up) * aperture(slot_of(near), n, up == is_gas));
         }
     }
-    return change;
 }
 
 // Fluxes deep inside the gas, through the face above slot b.
@@ -219,7 +234,7 @@ fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
                  @builtin(local_invocation_index) lane: u32) {
     let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
-    finish(slot, source(slot), change_of(cell_of(slot), slot, false));
+    finish(slot, source(slot), change_of(slot, false));
 }
 
 // A column of params.march slots along the last axis: each state there is read once, each face computed once.
@@ -266,10 +281,13 @@ fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let c = cell_of(slot);
     if is_alias(c) { return; }
     var least = theta[slot];
-    for (var n = 0u; n < DIM; n++) {
-        if in_ring(c - axis(n)) { least = min(least, theta[slot_of(c - axis(n))]); }
-        if in_ring(c + axis(n)) { least = min(least, theta[slot_of(c + axis(n))]); }
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
+        let member = cell_of(at);
+        for (var n = 0u; n < DIM; n++) {
+            if in_ring(member - axis(n)) { least = min(least, theta[slot_of(member - axis(n))]); }
+            if in_ring(member + axis(n)) { least = min(least, theta[slot_of(member + axis(n))]); }
+        }
     }
     if least == 1.0 { return; }
-    write_result(slot, start_of(slot, source(slot)), change_of(c, slot, true));
+    write_result(slot, start_of(slot, source(slot)), change_of(slot, true));
 }

@@ -47,6 +47,26 @@ fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     cells[slot] = word_with_blocked(kind | (before << 2u), blocked_fraction(fill[slot].x));
 }
 
+// Gas alone in the cell, and its state is its own.
+fn is_plain(slot: u32) -> bool {
+    if kind_of(cells[slot]) != GAS { return false; }
+    return !CUT || atomicLoad(&extra[slot]) == 0u;
+}
+
+// Whether no obstacle reaches the cells c + first .. c + last that lie inside.
+fn clear_of_obstacles(c: vec3i, first: i32, last: i32) -> bool {
+    if !CUT { return true; }
+    for (var z = first * reach().z; z <= last * reach().z; z++) {
+        for (var y = first * reach().y; y <= last * reach().y; y++) {
+            for (var x = first; x <= last; x++) {
+                let near = c + vec3i(x, y, z);
+                if inside(near) && !is_plain(slot_of(near)) { return false; }
+            }
+        }
+    }
+    return true;
+}
+
 fn kind_near(c: vec3i) -> u32 { return kind_of(cells[slot_of(nearest_ring(c))]); }
 
 // Flags follow from kinds alone. A flag set here is read by other slots only in later kernels.
@@ -73,8 +93,10 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         solid += u32(kind == SOLID);
     }
     if gas > 0u { flags |= NODE_GAS; }
-    if gas > 0u && gas == around && away_from_seam(c, -1, 2) { flags |= NODE_REGULAR; }
-    if gas == block_size() { flags |= NODE_INTERIOR; }
+    // A node beyond a side goes with the cell before it.
+    let clear = clear_of_obstacles(nearest_inside(c), -1, 1);
+    if gas > 0u && gas == around && clear && away_from_seam(c, -1, 2) { flags |= NODE_REGULAR; }
+    if gas == block_size() && clear { flags |= NODE_INTERIOR; }
     if solid > 0u { flags |= NODE_SOLID; }
     if solid > 0u && solid == around { flags |= NODE_DEEP; }
     if solid > 0u && closed > 0u { flags |= NODE_FILM; }
@@ -96,7 +118,7 @@ fn vertex_flags(v: vec3i, slot: u32) -> u32 {
     }
     var flags = 0u;
     if gas > 0u { flags |= VERTEX_GAS; }
-    if gas > 0u && gas == around && away_from_seam(v, -2, 1) { flags |= VERTEX_REGULAR; }
+    if gas > 0u && gas == around && clear_of_obstacles(v, -2, 1) && away_from_seam(v, -2, 1) { flags |= VERTEX_REGULAR; }
     if solid > 0u { flags |= VERTEX_SOLID; }
     if solid > 0u && solid == around { flags |= VERTEX_DEEP; }
     if SOLIDS { wanted[slot] = u32(gas > 0u && solid > 0u && !shares_pressure(v)); }

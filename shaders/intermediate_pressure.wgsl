@@ -7,6 +7,7 @@
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
+#include "shared/cut.wgsl"
 #include "shared/control.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -46,9 +47,24 @@ fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
 const COMPRESSION_SWITCH = 30.0;
 const LEAST_PREDICTED = 0.1;
 
+// Difference of the divergence across the open faces of a cluster.
+fn cut_divergence(slot: u32, own: f32) -> f32 {
+    var sum = 0.0;
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
+        for (var face = 0u; face < 2u * DIM; face++) {
+            let n = face / 2u;
+            let up = (face & 1u) == 1u;
+            let other = slot_of(cell_of(at) + select(-axis(n), axis(n), up));
+            if kind_of(cells[other]) == GAS { sum += aperture(at, n, up) * (node[other].w - own); }
+        }
+    }
+    return sum;
+}
+
 // The same of the carrier, with the correction of shared/carrier.wgsl at the faces between GAS cells.
 fn carried_divergence(slot: u32) -> f32 {
     let own = node[slot].w;
+    if LISTED && CUT { return own - 0.25 * cut_divergence(slot, own) / cluster_share(slot); }
     var sum = own;
     for (var n = 0u; n < DIM; n++) {
         for (var side = 0u; side < 2u; side++) {
@@ -66,7 +82,11 @@ fn divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
     var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
         if LISTED {
-            sum += face_velocity(c, n, true, here) - face_velocity(c, n, false, here);
+            for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
+                let member = cell_of(at);
+                sum += (aperture(at, n, true) * face_velocity(member, n, true, here)
+                    - aperture(at, n, false) * face_velocity(member, n, false, here)) / cluster_share(slot);
+            }
             continue;
         }
         let low = work[params.slots + slot - step_of(n)];

@@ -4,6 +4,7 @@
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
+#include "shared/cut.wgsl"
 
 override FILTER: f32;   // share of the mode that one step removes
 
@@ -11,6 +12,7 @@ override FILTER: f32;   // share of the mode that one step removes
 @group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;
 @group(0) @binding(3) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> energy: array<f32>;
+@group(0) @binding(5) var<storage, read> extra: array<u32>;
 
 fn sign_of(corner: vec3i) -> f32 { return f32(1 - 2 * ((corner.x + corner.y + corner.z) & 1)); }
 
@@ -19,7 +21,7 @@ fn alternating_mean(v: vec3i) -> Gas {
     var sum = Gas(vec4f(0.0), 0.0);
     for (var k = 0u; k < corner_count(); k++) {
         let c = v - reach() + corner_offset(k);
-        if !inside(c) || kind_of(cells[slot_of(c)]) != GAS { return Gas(vec4f(0.0), 0.0); }
+        if !inside(c) || kind_of(cells[slot_of(c)]) != GAS || cut_entry(slot_of(c)) != 0u { return Gas(vec4f(0.0), 0.0); }
         let sign = sign_of(corner_offset(k));
         sum.flow += sign * conserved[slot_of(c)];
         sum.energy += sign * energy[slot_of(c)];

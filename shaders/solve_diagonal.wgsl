@@ -6,6 +6,7 @@
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/cut_system.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -67,12 +68,6 @@ fn wide_square(v: vec3i, base: u32, solid: bool) -> f32 {
     return sum;
 }
 
-// (mean, slope) of a vertex on the node below (corner 1) or above it (corner 0).
-fn narrow_pair(a: u32, v: i32, corner: i32) -> vec2f {
-    let entry = narrow_entry(a, v - corner);
-    return select(vec2f(entry.x, -entry.z), entry.yz, corner == 1);
-}
-
 fn regular_square(v: vec3i) -> f32 {
     if QUADRATIC { return wide_square(v, 0u, false); }
     var sum = 0.0;
@@ -83,6 +78,21 @@ fn regular_square(v: vec3i) -> f32 {
         let ez = narrow_pair(2u, v.z, corner.z);
         let entry = vec3f(ex.y * ey.x * ez.x, ex.x * ey.y * ez.x, ex.x * ey.x * ez.y);
         sum += work[slot_of(v - corner)].w * dot(entry, entry);
+    }
+    return sum;
+}
+
+// The same near an obstacle; the coefficients on one cluster add up first.
+fn cut_square(v: vec3i) -> f32 {
+    var sum = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let j = v - corner_offset(k);
+        let own = coefficient(j, v);
+        for (var l = 0u; l < corner_count(); l++) {
+            let other = v - corner_offset(l);
+            if cluster_first(slot_of(other)) != cluster_first(slot_of(j)) { continue; }
+            sum += work[slot_of(j)].w * dot(own, coefficient(other, v));
+        }
     }
     return sum;
 }
@@ -124,6 +134,10 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let scale = control.dt * face_area() * control.dt * face_area();
     let v = cell_of(slot);
     let regular = !LISTED || has(word, VERTEX_REGULAR);
+    if CUT && LISTED && !regular {
+        inverse_diagonal[slot] = inverse(stiffness[slot] + scale * cut_square(v));
+        return;
+    }
     let deep = SOLIDS && LISTED && has(word, VERTEX_DEEP);
     let apart = interface_index(slot) != slot;
     var squares: Squares;

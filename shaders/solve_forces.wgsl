@@ -5,6 +5,7 @@
 #include "shared/cell.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/cut.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
@@ -126,6 +127,19 @@ fn element_force(c: vec3i, kinds: vec2u, offset: vec3i, solid: bool) -> vec3f {
     return vec3f(along_z.mean.x * low.slope + along_z.mean.y * high.slope, slope_of(along_z, low.mean, high.mean));
 }
 
+// Force on the gas of a cluster next to an obstacle. Differences, so that a constant pressure moves nothing.
+fn cut_force(slot: u32) -> vec3f {
+    var force = vec3f(0.0);
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
+        let c = cell_of(at);
+        let own = x[at];
+        for (var k = 1u; k < corner_count(); k++) {
+            force += (x[slot_of(c + corner_offset(k))] - own) * cut_slope(at, corner_offset(k));
+        }
+    }
+    return force;
+}
+
 struct Forces { gas: vec3f, solid: vec3f }
 
 // Sum over the elements around a node between gas and body; `count`: block_size(), or 0 elsewhere.
@@ -156,6 +170,12 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         return;
     }
     let regular = has(word, NODE_REGULAR);
+    if CUT && !regular {
+        var force = vec3f(0.0);
+        if kind_of(word) == GAS && inside(c) { force = cut_force(slot); }
+        work[slot] = vec4f(force * face_area() * inverse_mass, inverse_mass);
+        return;
+    }
     let deep = SOLIDS && has(word, NODE_DEEP);
     let mixed = has(word, NODE_GAS | NODE_SOLID) && !regular && !deep;
     var forces = mixed_force(c, select(0u, block_size(), mixed));

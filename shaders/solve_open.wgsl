@@ -5,6 +5,7 @@
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
+#include "shared/cut.wgsl"
 #include "shared/control.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -23,9 +24,11 @@ fn last_face_pressure(near: vec3i, n: u32, up: bool) -> f32 {
     var sum = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
         let corner = corner_offset(k);
-        if corner[n] == 0 { sum += pressure[slot_of(low + corner)]; }
+        if corner[n] == 1 { continue; }
+        let own = corner + select(vec3i(0), axis(n), up);
+        sum += face_shape(slot_of(near), n, up, own) * pressure[slot_of(low + corner)];
     }
-    return sum / f32(1u << (DIM - 1u));
+    return sum;
 }
 
 // GHOST slots next to a gas cell keep what the pressure system is told about the face, in two thirds of the energy that they do
@@ -84,11 +87,11 @@ fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
             if kind_of(cells[beyond]) != GHOST { continue; }
             let face = OpenFace(energy[2u * params.slots + beyond], energy[params.slots + beyond]);
             let y = admittance_of(opening_of(cells[beyond]), face, conserved[here].x, energy[params.slots + here]);
-            flow += select(-1.0, 1.0, up) * face.velocity + y * (pressure[slot] - face.reference);
-            admittance += y;
+            let share = aperture(here, n, up) * face_shape(here, n, up, corner);
+            flow += share * (select(-1.0, 1.0, up) * face.velocity + y * (pressure[slot] - face.reference));
+            admittance += share * y;
         }
     }
-    let share = 1.0 / f32(1u << (DIM - 1u));
-    residual[slot] = share * flow;
-    stiffness[slot] += share * control.dt * face_area() * admittance;
+    residual[slot] = flow;
+    stiffness[slot] += control.dt * face_area() * admittance;
 }

@@ -5,6 +5,7 @@
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/cut_system.wgsl"
 #include "shared/gather.wgsl"
 #include "shared/reduce4.wgsl"
 

@@ -9,6 +9,7 @@
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/cut_system.wgsl"
 #include "shared/gather.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -48,7 +49,9 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     if slot >= params.slots || (!LISTED && !has(cells[slot], INTERIOR)) { return; }
     var mass = 0.0;
     if !LISTED { mass = interior_mass(slot); }
-    else if has(cells[slot], NODE_GAS) {
+    else if beside_obstacle(cells[slot]) {
+        if kind_of(cells[slot]) == GAS { mass = conserved[slot].x * cluster_share(slot); }
+    } else if has(cells[slot], NODE_GAS) {
         let c = cell_of(slot);
         for (var k = 0u; k < block_size(); k++) {
             let offset = block_offset(k);

@@ -3,6 +3,7 @@
 #include "shared/index.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
+#include "shared/cut.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> energy: array<f32>;        // second third: predicted pressure
@@ -40,6 +41,24 @@ fn interior_vertex(slot: u32) {
     stiffness[slot] = mean.y * cell_volume();
 }
 
+// A vertex near an obstacle: weights are the gas that it stands for. Differences, so that a constant pressure stays constant.
+fn cut_vertex(slot: u32) {
+    let v = cell_of(slot);
+    var reference = 0.0;
+    var sum = vec3f(0.0);   // weights, weighted pressure, compliance
+    for (var k = 0u; k < corner_count(); k++) {
+        let c = v - corner_offset(k);
+        let at = slot_of(c);
+        if !inside(c) || kind_of(cells[at]) != GAS { continue; }
+        let p = energy[params.slots + at];
+        let weight = gas_at_corner(at, corner_offset(k));
+        if sum.x == 0.0 { reference = p; }
+        sum += weight * vec3f(1.0, p - reference, fill[at].y);
+    }
+    pressure[slot] = reference + sum.y / max(sum.x, 1e-30);
+    stiffness[slot] = sum.z * cell_volume();
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
@@ -48,6 +67,10 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let word = cells[slot];
     if !LISTED {
         if has(word, INTERIOR) { interior_vertex(slot); }
+        return;
+    }
+    if CUT && !has(word, VERTEX_REGULAR) {
+        cut_vertex(slot);
         return;
     }
     var gas = vec3f(0.0);   // count, pressure sum, compliance sum

@@ -82,5 +82,11 @@ fn narrow_entry(a: u32, j: i32) -> vec3f {
     return vec3f(0.375 * own + 0.125 * f32(j >= 1 && j <= n), 0.375 * own + 0.125 * f32(j >= -1 && j < n - 1), own);
 }
 
+// (mean, slope) of a vertex on the node below (corner 1) or above it (corner 0).
+fn narrow_pair(a: u32, v: i32, corner: i32) -> vec2f {
+    let entry = narrow_entry(a, v - corner);
+    return select(vec2f(entry.x, -entry.z), entry.yz, corner == 1);
+}
+
 // Node of an element that its face across axis n, on the side `up`, rests on: the element's own layer and the one beyond.
 fn face_holds(node: vec3i, n: u32, up: bool) -> bool { return node[n] == 0 || node[n] == select(-1, 1, up); }

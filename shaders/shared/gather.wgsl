@@ -127,6 +127,16 @@ fn element_rows(slot: u32, v: vec3i, kinds: u32, corner: vec3i, solid: bool) -> 
     return r;
 }
 
+// The vertex near an obstacle.
+fn cut_rows(v: vec3i) -> f32 {
+    var sum = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let j = v - corner_offset(k);
+        sum += dot(work[slot_of(j)].xyz, coefficient(j, v));
+    }
+    return sum;
+}
+
 // C^T W at a vertex, in units of face_area().
 fn gather_rows(slot: u32, word: u32) -> Rows {
     var rows: Rows;
@@ -134,6 +144,10 @@ fn gather_rows(slot: u32, word: u32) -> Rows {
     let regular = !LISTED || has(word, VERTEX_REGULAR);
     for (var turn = 0u; turn < u32(regular); turn++) { rows.own = regular_rows(slot, v); }
     if !LISTED { return rows; }
+    if CUT {
+        if has(word, VERTEX_GAS) && !regular { rows.own = cut_rows(v); }
+        return rows;
+    }
     let deep = SOLIDS && has(word, VERTEX_DEEP);
     let mixed = has(word, VERTEX_GAS | VERTEX_SOLID) && !regular && !deep;
     for (var turn = 0u; turn < u32(deep); turn++) { rows.own = wide_rows(slot, v, params.slots, true); }

@@ -18,6 +18,11 @@ fn add_excess(change: ptr<function, Change>, flow: vec4f, energy: f32) {
     (*change).slip += abs(slip);
 }
 
+fn scaled(c: Change, share: f32) -> Change {
+    return Change(Gas(share * c.high.flow, share * c.high.energy), Gas(share * c.low.flow, share * c.low.energy), c.velocity,
+        share * c.lost_density, share * c.lost_energy, share * c.slip, share * c.heat);
+}
+
 fn drained_share(before: Gas, change: Change) -> f32 {
     let least = KEPT * internal_energy(before);
     var share = 0.5;

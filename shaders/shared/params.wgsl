@@ -6,6 +6,7 @@ override SOLIDS: bool;          // the scene has bodies
 override QUADRATIC: bool;       // gas element pair B2B1 (true) or B1B0 (false)
 override PREDICTOR: bool;       // consistent predictor of the intermediate pressure
 override CONSISTENT: bool;      // gas is carried by what the solve sees of its velocity, see carrier.wgsl; gas only
+override CUT: bool;             // obstacles cut cells; gas only, B1B0
 override ARS: bool;             // two solves per step, ARS(2,2,2)
 override LIMITER: bool;         // conservative flux limiter for positivity
 override BLENDING: bool;        // blocked fraction of partly filled cells

@@ -47,7 +47,7 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
         if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { Ok(()) }
     };
     let done = || bar.iter().for_each(|bar| bar.inc(1));
-    let devices = [&[gpu.clone()], &more_devices(cli)?[..]].concat();
+    let devices = [std::slice::from_ref(&gpu), &more_devices(cli)?].concat();
     let (findings, outcome) = verify::perform(&devices, &Common::new(suite, &notify), &cases, &done);
     let (rows, plots) = (findings.rows, findings.plots);
     if let Some(bar) = &bar {

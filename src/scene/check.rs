@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::check_shape;
 use super::source::{Finding, walk};
-use super::{GasState, Integrator, Scene};
+use super::{GasState, Integrator, Obstacles, Scene};
 use crate::material::kind_names;
 
 /// Cells per active axis at least: the advection stencil needs this many.
@@ -310,6 +310,10 @@ impl Check<'_> {
         if self.scene.consistent() && !self.scene.bodies.is_empty() {
             let help = "give \"cell\", or \"auto\", which chooses for the scene";
             self.add("numerics.face_velocity", "\"consistent\" carries gas only, and this scene has bodies", help);
+        }
+        if self.scene.numerics.obstacles == Obstacles::Cut && !self.scene.cut() {
+            let help = "give \"cells\", or \"auto\", which chooses for the scene";
+            self.add("numerics.obstacles", "\"cut\" is for obstacles in gas alone, with the pair b1b0", help);
         }
         if self.scene.solves() == 2 {
             self.ars222();

@@ -78,6 +78,22 @@ impl Scene {
         sum.map(|total| total / points.len() as f64)
     }
 
+    /// The mean over the part of a cell that lies outside of the obstacles.
+    #[must_use]
+    pub fn initial_gas_beside_obstacles(&self, cell: [u32; 3]) -> [f64; 5] {
+        let center = self.domain.cell_center(cell);
+        let place = |offset: [f64; 3]| std::array::from_fn(|d| center[d] + offset[d] * self.domain.spacing());
+        let points: Vec<[f64; 3]> = lattice(self.domain.axes(), SAMPLES).into_iter().map(place).collect();
+        let outside: Vec<[f64; 3]> = points.iter().copied().filter(|&point| !self.inside_obstacle(point)).collect();
+        let seen = if outside.is_empty() { points } else { outside };
+        let mut sum = [0.0; 5];
+        for &point in &seen {
+            let state = self.gas_at(point).conserved(self.gas.gamma);
+            sum = std::array::from_fn(|k| sum[k] + state[k]);
+        }
+        sum.map(|total| total / seen.len() as f64)
+    }
+
     /// Which cells are obstacle: those whose centre lies inside one. x fastest, without padding.
     #[must_use]
     pub fn obstacle_cells(&self) -> Vec<bool> {

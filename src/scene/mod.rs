@@ -9,10 +9,12 @@ mod boundary;
 mod check;
 mod check_boundary;
 mod check_shape;
+mod cut;
 mod distance;
 mod fill;
 mod integrator;
 mod load;
+mod polyhedron;
 mod settings;
 mod shape;
 mod source;
@@ -36,11 +38,13 @@ pub use boundary::{
     TimedState,
 };
 pub use check_boundary::MAX_OPENINGS;
+pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};
+pub use polyhedron::Part;
 pub use settings::{
-    Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Output, Pair, Power, RenderMode,
-    RenderSettings, Time, Transfer,
+    Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Obstacles, Output, Pair, Power,
+    RenderMode, RenderSettings, Time, Transfer,
 };
 pub use shape::Shape;
 pub use vortex::Vortex;
@@ -68,7 +72,7 @@ pub struct Scene {
     /// Deformable solids, moved by the material point method.
     #[serde(default)]
     pub bodies: Vec<Body>,
-    /// Static obstacles: cells whose centre lies inside are walls.
+    /// Static obstacles; `numerics.obstacles` says how finely the grid sees them.
     #[serde(default)]
     pub obstacles: Vec<Obstacle>,
     /// Acceleration of gravity `[m s^-2]`.

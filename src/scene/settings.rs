@@ -57,6 +57,8 @@ pub struct Numerics {
     pub integrator: Integrator,
     /// Velocity that carries the gas through its faces.
     pub face_velocity: FaceVelocity,
+    /// How the grid sees static obstacles.
+    pub obstacles: Obstacles,
     /// Share of the mode alternating from cell to cell that a conservative filter removes per step, 0 to 1.
     pub filter: f64,
     /// Pressure unknowns where gas and solid meet.
@@ -89,6 +91,7 @@ impl Default for Numerics {
             max_iterations: 500,
             integrator: Integrator::default(),
             face_velocity: FaceVelocity::default(),
+            obstacles: Obstacles::default(),
             filter: 0.0,
             interface: InterfacePressure::default(),
             solid_threshold: 0.5,
@@ -114,6 +117,19 @@ pub enum Pair {
     /// Velocity quadratic, pressure linear: the paper's pair.
     #[serde(rename = "b2b1")]
     B2b1,
+}
+
+/// How the grid sees static obstacles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Obstacles {
+    /// Cells are cut by the surface: gas fills a part of them. Gas only, with the pair B1B0.
+    Cut,
+    /// Whole cells, those whose centre lies inside: slanted surfaces are staircases.
+    Cells,
+    /// `cut` where that is possible, else `cells`.
+    #[default]
+    Auto,
 }
 
 /// Pressure unknowns where gas and solid meet.

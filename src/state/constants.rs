@@ -136,6 +136,10 @@ pub fn source() -> String {
     {
         put(&format!("EXTENT_{name}"), value as u32);
     }
+    for (name, value) in super::cut::FIELDS {
+        put(&format!("CUT_{name}"), value);
+    }
+    put("CUT_WIDTH", super::cut::WIDTH as u32);
     put("MAX_GROUPS", 65_535);
     put("PARTIALS", PARTIALS);
     put("SCAN_DISPATCHES", SCAN_DISPATCHES as u32);

@@ -13,22 +13,24 @@ pub struct Interface {
     /// Vertex ghost pressure before the solve; its change after.
     pub ghost: Buffer<f32>,
     /// Place of a vertex in the list of those that carry P, h and Q apart; then the list of slots that are not deep inside the
-    /// gas and, from the end, that of the frontier around them; then the lengths of both.
+    /// gas and, from the end, that of the frontier around them; then the lengths of both. Without solids the first part
+    /// holds the places of cut cells, and their table stands at the end.
     pub extra: Buffer<u32>,
 }
 
 impl Interface {
-    /// Allocates for a number of slots; without solids only what the gas needs.
+    /// Allocates for a number of slots; without solids only what the gas needs. `table`: words of the table of
+    /// cut cells.
     ///
     /// # Errors
     /// If the device has no room.
-    pub fn new(gpu: &Gpu, slots: usize, solids: bool) -> Result<Self> {
+    pub fn new(gpu: &Gpu, slots: usize, solids: bool, table: usize) -> Result<Self> {
         let solid_slots = if solids { slots } else { 1 };
         Ok(Self {
             cells: Buffer::new(gpu, "cells", slots)?,
             fill: Buffer::new(gpu, "fill", slots)?,
             ghost: Buffer::new(gpu, "ghost", solid_slots)?,
-            extra: Buffer::new(gpu, "extra", 2 * slots + 2)?,
+            extra: Buffer::new(gpu, "extra", 2 * slots + 2 + table)?,
         })
     }
 }

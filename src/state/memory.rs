@@ -30,6 +30,8 @@ pub struct MemoryPlan {
     pub cells: u64,
     /// Particles.
     pub particles: u64,
+    /// Cells that obstacles cut.
+    pub cut_cells: u64,
     /// The buffers.
     pub buffers: Vec<Planned>,
 }
@@ -38,6 +40,11 @@ impl MemoryPlan {
     /// The plan for a scene with so many particles ([`Scene::particle_count`]).
     #[must_use]
     pub fn new(scene: &Scene, particles: usize) -> Self {
+        Self::with_cut_cells(scene, particles, cut_cells(scene))
+    }
+
+    /// The same with a known number of cut cells.
+    fn with_cut_cells(scene: &Scene, particles: usize, cut_cells: u64) -> Self {
         let dimension = scene.domain.dimension;
         let padded = |axis: usize| u64::from(scene.domain.cells[axis]) + 2 * u64::from((axis as u32) < dimension);
         let slots = padded(0) * padded(1) * padded(2);
@@ -46,9 +53,11 @@ impl MemoryPlan {
         let capacity = extra_capacity(slots as usize, particles, dimension) as u64;
         let unknowns = slots + 2 * capacity;
         let kept = u64::from(scene.solves() == 2);
+        let table = super::cut::WIDTH as u64 * cut_cells;
         let mut plan = Self {
             cells: scene.domain.cells.iter().map(|&n| u64::from(n)).product(),
             particles: count,
+            cut_cells,
             buffers: Vec::new(),
         };
         plan.add(
@@ -58,7 +67,7 @@ impl MemoryPlan {
         plan.add("gas", &[("owed_flow", slots, 16), ("owed_energy", slots, 4)]);
         plan.add(
             "interface",
-            &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", 2 * slots + 2, 4)],
+            &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", 2 * slots + 2 + table, 4)],
         );
         plan.add("pressure", &[("pressure", unknowns, 4), ("stiffness", unknowns, 4), ("solution", unknowns, 4)]);
         plan.add("pressure", &[("residual", unknowns, 4), ("direction", unknowns, 4), ("product", unknowns, 4)]);
@@ -175,8 +184,27 @@ impl MemoryPlan {
         }
         let ratio = f64::from(cells) / f64::from(longest);
         let particles = self.particles as f64 * ratio.powi(scene.domain.dimension as i32);
-        Self::new(&scaled, particles.ceil() as usize)
+        let cut = self.cut_cells as f64 * ratio.powi(scene.domain.dimension as i32 - 1);
+        Self::with_cut_cells(&scaled, particles.ceil() as usize, cut.ceil() as u64)
     }
+}
+
+/// Cells of the largest domain whose cut cells are counted.
+const MOST_COUNTED: usize = 1 << 24;
+
+/// Cut cells of a scene; those of huge domains in proportion to the surface, from a coarser one.
+fn cut_cells(scene: &Scene) -> u64 {
+    if !scene.cut() {
+        return 0;
+    }
+    let (mut coarse, mut factor) = (scene.clone(), 1);
+    while coarse.domain.cell_count() > MOST_COUNTED {
+        factor *= 2;
+        for axis in 0..scene.domain.axes() {
+            coarse.domain.cells[axis] = (scene.domain.cells[axis] / factor).max(1);
+        }
+    }
+    coarse.cut_geometry().cells.len() as u64 * u64::from(factor).pow(scene.domain.dimension - 1)
 }
 
 /// Numbers of cells along the longest axis that give whole cubes on all axes, below the scene's own, largest first.

@@ -2,6 +2,7 @@
 
 pub mod constants;
 pub mod control;
+pub mod cut;
 pub mod gas;
 pub mod grid;
 pub mod interface;
@@ -22,7 +23,7 @@ pub use particles::{ParticleStart, Particles};
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel};
 use crate::numerics::PcgVectors;
-use crate::scene::Scene;
+use crate::scene::{CutGeometry, Scene};
 use params::{DeviceLimits, SolidLimits};
 
 /// Materials that one scene may use.
@@ -104,6 +105,10 @@ impl State {
         let params = Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity));
         let unknowns = slots + 2 * capacity;
         let openings = Openings::new(scene);
+        let geometry = scene.cut_geometry();
+        let table = cut::table(&grid, &geometry);
+        let mut overrides = params::overrides(scene, !start.is_empty());
+        overrides.push(("CUT", f64::from(u8::from(!table.is_empty()))));
         let state = State {
             grid,
             params,
@@ -114,7 +119,7 @@ impl State {
             knots: Buffer::from_slice(gpu, "knots", &openings.knots)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
             gas: GasState::new(gpu, slots, usize::from(scene.solves() == 2))?,
-            interface: Interface::new(gpu, slots, !start.is_empty())?,
+            interface: Interface::new(gpu, slots, !start.is_empty(), table.len())?,
             particles: Particles::new(gpu, slots, &start, scene.consistent())?,
             pressure: Buffer::new(gpu, "pressure", unknowns)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
@@ -123,17 +128,21 @@ impl State {
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
-            overrides: params::overrides(scene, !start.is_empty()),
+            overrides,
         };
         state.params_buffer.write(gpu, 0, &[params]);
         state.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, ..Control::default() }]);
         state.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
-        state.fill_gas(gpu, scene, &openings);
+        state.fill_gas(gpu, scene, &openings, &geometry);
+        if !table.is_empty() {
+            state.interface.extra.write(gpu, 0, &cut::entries(&grid, &geometry));
+            state.interface.extra.write(gpu, 2 * slots + 2, &table);
+        }
         Ok(state)
     }
 
     /// Initial gas and kinds of all slots.
-    fn fill_gas(&self, gpu: &Gpu, scene: &Scene, openings: &Openings) {
+    fn fill_gas(&self, gpu: &Gpu, scene: &Scene, openings: &Openings, geometry: &CutGeometry) {
         let (grid, slots) = (&self.grid, self.grid.slots());
         let mut conserved = vec![[0.0f32; 4]; slots];
         let mut energy = vec![0.0f32; slots];
@@ -147,7 +156,7 @@ impl State {
                 }
             }
         }
-        let (gas, walls) = (scene.initial_gas(), scene.obstacle_cells());
+        let (gas, walls) = (cut::initial_gas(scene, geometry), &geometry.walls);
         let [nx, ny, nz] = grid.cells.map(|n| n as i32);
         let mut index = 0;
         for z in 0..nz {

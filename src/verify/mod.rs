@@ -97,7 +97,7 @@ pub fn perform(
     let left = AtomicUsize::new(cases.len());
     let found = Mutex::new((0..cases.len()).map(|_| None).collect::<Vec<Option<_>>>());
     let work = |gpu: &Gpu| {
-        while let Some(index) = left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |n| n.checked_sub(1)).ok() {
+        while let Ok(index) = left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |n| n.checked_sub(1)) {
             let index = index - 1;
             let result = Session::perform(gpu, common, cases[index]);
             if result.1.is_err() {

@@ -22,6 +22,7 @@ shape = { box = { center = [0.6, 0.35], size = [0.25, 0.25] } }
 until = 1.0
 [numerics]
 tolerance = 1e-6
+obstacles = "cells"
 "#;
 
 fn channel(overrides: &[&str]) {

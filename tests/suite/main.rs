@@ -4,6 +4,7 @@ mod analytic;
 mod boundaries;
 mod cli;
 mod common;
+mod cut;
 mod determinism;
 mod export;
 mod gpu;

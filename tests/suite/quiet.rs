@@ -25,7 +25,7 @@ fn disturbed(gpu: &Gpu, text: &str, state: fn(&mut Random, usize) -> (f32, [f32;
 }
 
 /// A scene of gas at rest with rho = p = 1, and noise of 1e-3 on density, pressure and, over c, every velocity component.
-fn noisy(gpu: &Gpu, text: &str) -> Simulation {
+pub(crate) fn noisy(gpu: &Gpu, text: &str) -> Simulation {
     disturbed(gpu, text, |random, axes| {
         let mut next = || random.between(-1e-3, 1e-3);
         let (density, pressure) = (1.0 + next(), 1.0 + next());
