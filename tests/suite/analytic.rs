@@ -146,7 +146,7 @@ fn sod_along(gpu: &Gpu, axis: usize, dimension: usize) -> Vec<f32> {
         "title = \"tube\"\n[domain]\ndimension = {dimension}\ncells = [{}]\nsize = [{}]\n\
          [gas]\nambient = {{ density = 0.125, pressure = 0.1 }}\n\
          [[gas.regions]]\nshape = {{ half_space = {{ point = [{}], normal = [{}] }} }}\ndensity = 1.0\npressure = 1.0\n\
-         [time]\nuntil = 1.0\nfixed_step = 0.004\n[numerics]\ntolerance = 1e-7\n",
+         [time]\nuntil = 1.0\nfixed_step = 0.004\n[numerics]\ntolerance = 1e-6\n",
         list(&|d| along(d, "48", "6")),
         list(&|d| along(d, "0.96", "0.12")),
         list(&|d| along(d, "0.48", "0.0")),
@@ -170,7 +170,8 @@ fn one_two_and_three_dimensions_agree_along_every_axis() {
         let other = sod_along(&gpu, axis, dimension);
         let worst = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
         eprintln!("axis {axis} of {dimension}: {worst:.1e}");
-        assert!(worst < 1e-6, "axis {axis} of {dimension} differs by {worst:e}");
+        // 8.9e-7 here; another order of rounding may add a little
+        assert!(worst < 1.5e-6, "axis {axis} of {dimension} differs by {worst:e}");
     }
 }
 

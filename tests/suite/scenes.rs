@@ -49,6 +49,7 @@ scenes! {
     spherical_explosion: "validation/spherical_explosion.toml", "domain.cells=[16, 16, 16]", "expect.peak_density=[0.6, 1.02]";
     forward_step: "validation/forward_step.toml", "domain.cells=[60, 20]", "time.until=1.0", "expect.peak_density=[5.0, 7.4]";
     wedge: "validation/wedge.toml", "domain.cells=[50, 30]";
+    wedge_at_mach_2: "validation/wedge_mach2.toml", "domain.cells=[50, 40]";
     compression_corner: "validation/compression_corner.toml", "domain.cells=[50, 20]";
     expansion_corner: "validation/expansion_corner.toml", "domain.cells=[50, 40]";
     regular_reflection: "validation/regular_reflection.toml", "domain.cells=[60, 15]", "expect.peak_density=[2.5, 2.9]";
@@ -68,6 +69,7 @@ scenes! {
     bursting_shell_2d: "coupled/bursting_shell_2d.toml";
     #[ignore = "minutes on a software device"]
     bursting_shell_3d: "demos/bursting_shell_3d.toml";
+    gelatine_3d: "demos/gelatine_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
     ball_in_blast_3d: "demos/ball_in_blast_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
 }
 
