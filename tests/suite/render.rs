@@ -1,9 +1,10 @@
 //! Pictures of a synthetic state: a dense blob of hot gas beside the middle, a ring or shell of particles around it, one obstacle.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use brisance::export::{self, Exporter, Moment};
-use brisance::gpu::{Buffer, Folder, Gpu, GpuOptions, Shader};
+use brisance::gpu::{Buffer, Folder, Gpu, GpuOptions, Shader, readback};
 use brisance::render::{ParticleBuffers, Picture, Renderer, SceneBuffers, View};
 use brisance::scene::Scene;
 use brisance::state::Grid;
@@ -176,6 +177,68 @@ fn every_field_can_be_drawn() {
     for dimension in [2, 3] {
         for picture in render(dimension, 20, [96, 64], &format!("output.fields = {fields}")) {
             assert!(picture.range[0] < picture.range[1], "{} in {dimension}D: {:?}", picture.name, picture.range);
+        }
+    }
+}
+
+/// Density and velocity, or nothing outside the gas.
+type Motion<'a> = dyn Fn([i32; 3]) -> Option<[f64; 4]> + 'a;
+
+/// Difference quotient along an axis; one-sided next to cells without gas.
+fn slope(motion: &Motion<'_>, cell: [i32; 3], axis: usize, spacing: f64) -> [f64; 4] {
+    let at = |step: i32| {
+        let mut near = cell;
+        near[axis] += step;
+        motion(near)
+    };
+    let here = motion(cell).expect("a gas cell");
+    let (low, high) = (at(-1), at(1));
+    let steps = f64::from(u32::from(low.is_some()) + u32::from(high.is_some()));
+    let (low, high) = (low.unwrap_or(here), high.unwrap_or(here));
+    std::array::from_fn(|k| if steps > 0.0 { (high[k] - low[k]) / (steps * spacing) } else { 0.0 })
+}
+
+#[test]
+fn fields_are_what_they_are_called() {
+    let gpu = gpu();
+    for dimension in [2_usize, 3] {
+        let fields = r#"["density", "pressure", "velocity", "temperature", "schlieren", "mach", "vorticity"]"#;
+        let scene = scene(dimension as u32, 20, [96, 64], &format!("output.fields = {fields}"));
+        let state = State::new(&gpu, &scene);
+        let pictures = Renderer::new(&gpu, &scene, &state.buffers()).unwrap().render(0.0125).unwrap();
+        let flow = readback::read(&gpu, &state.conserved).unwrap();
+        let energy = readback::read(&gpu, &state.energy).unwrap();
+        let kinds = readback::read(&gpu, &state.cells).unwrap();
+        let ring: [i32; 3] = state.grid.padding().map(|n| n as i32);
+        let slots: HashMap<_, _> = every_cell(&state.grid, ring).map(|(slot, cell)| (cell, slot)).collect();
+        let motion = |cell: [i32; 3]| {
+            let slot = *slots.get(&cell).filter(|slot| kinds[**slot] == 0)?;
+            let [rho, a, b, c] = flow[slot].map(f64::from);
+            Some([rho, a / rho, b / rho, c / rho])
+        };
+        let spacing = f64::from(state.grid.spacing);
+        let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 7];
+        for (cell, slot) in &slots {
+            let Some([rho, u, v, w]) = motion(*cell) else { continue };
+            let speed = (u * u + v * v + w * w).sqrt();
+            let pressure = 0.4 * (f64::from(energy[*slot]) - 0.5 * rho * speed * speed);
+            let slopes: Vec<_> = (0..dimension).map(|axis| slope(&motion, *cell, axis, spacing)).collect();
+            let of = |axis: usize, component: usize| slopes.get(axis).map_or(0.0, |slope| slope[component + 1]);
+            let curl = glam::DVec3::new(of(1, 2) - of(2, 1), of(2, 0) - of(0, 2), of(0, 1) - of(1, 0));
+            let steepness = slopes.iter().map(|slope| slope[0] * slope[0]).sum::<f64>().sqrt();
+            let mach = speed / (1.4 * pressure / rho).sqrt();
+            let all = [rho, pressure, speed, pressure / rho, steepness, mach, curl.length()];
+            for (range, value) in ranges.iter_mut().zip(all) {
+                *range = [range[0].min(value), range[1].max(value)];
+            }
+        }
+        // in space the default mode shows density by its gradient
+        ranges[0] = if dimension == 3 { ranges[4] } else { ranges[0] };
+        for (picture, [low, high]) in pictures.iter().zip(ranges) {
+            let off = [f64::from(picture.range[0]) - low, f64::from(picture.range[1]) - high];
+            let rest = picture.range[0] == 0.0 && low >= 0.0;
+            let fits = (off[0].abs() < 1e-4 * high || rest) && off[1].abs() < 1e-4 * high;
+            assert!(fits, "{} in {dimension}D: {:?}, expected {low} .. {high}", picture.name, picture.range);
         }
     }
 }
