@@ -54,8 +54,10 @@ impl State {
             cells[slot] = if !inside || wall { 2 } else { u32::from(solid) };
             let density = 1.0 + 3.0 * (1.0 / (1.0 + ((r - 0.2) / 0.012).exp()));
             let speed = r * (-r * r * 40.0).exp();
-            conserved[slot] = [density, density * speed, 0.0, 0.0];
-            energy[slot] = 2.5 * density.powf(1.4) + 0.5 * density * speed * speed;
+            let velocity = [speed, 0.5 * speed * centre[2], -0.5 * speed * centre[1]];
+            let [u, v, w] = velocity.map(|v| density * v);
+            conserved[slot] = [density, u, v, w];
+            energy[slot] = 2.5 * density.powf(1.4) + 0.5 * (u * u + v * v + w * w) / density;
         }
         let points = shell(&grid);
         let four = |values: Vec<[f32; 4]>, label: &str| Buffer::from_slice(gpu, label, &values).unwrap();
@@ -266,6 +268,21 @@ fn volume_shows_the_particles_in_front() {
         |x: u32, y: u32| (brightness(pixel(&with[0], x, y)) - brightness(pixel(&without[0], x, y))).abs() > 40;
     let count = (0..192).flat_map(|x| (0..108).map(move |y| (x, y))).filter(|&(x, y)| changed(x, y)).count();
     assert!(count > 300, "{count} pixels show particles");
+}
+
+#[test]
+fn volume_shows_the_gas() {
+    let no_particles = "render.particles = false";
+    let gas = &render(3, 24, [160, 120], no_particles)[0];
+    // all of it far below the range: air
+    let air = &render(3, 24, [160, 120], &format!("{no_particles}\nrender.range = [1e4, 2e4]"))[0];
+    let far = |x, y| {
+        let (a, b) = (pixel(gas, x, y), pixel(air, x, y));
+        (0..3).map(|k| (a[k] - b[k]).abs()).sum::<i32>() > 30
+    };
+    let middle = (60..100).flat_map(|x| (40..80).map(move |y| (x, y))).filter(|&(x, y)| far(x, y)).count();
+    let edge = (0..12).flat_map(|x| (0..40).map(move |y| (x, y))).filter(|&(x, y)| far(x, y)).count();
+    assert!(middle > 300 && edge == 0, "{middle} pixels show the gas, {edge} beside the domain");
 }
 
 #[test]
