@@ -237,7 +237,7 @@ fn fields_are_what_they_are_called() {
         // in space the default mode shows density by its gradient
         ranges[0] = if dimension == 3 { ranges[4] } else { ranges[0] };
         for (picture, [low, high]) in pictures.iter().zip(ranges) {
-            let off = [f64::from(picture.range[0]) - low, f64::from(picture.range[1]) - high];
+            let off = [picture.range[0] - low, picture.range[1] - high];
             let rest = picture.range[0] == 0.0 && low >= 0.0;
             let fits = (off[0].abs() < 1e-4 * high || rest) && off[1].abs() < 1e-4 * high;
             assert!(fits, "{} in {dimension}D: {:?}, expected {low} .. {high}", picture.name, picture.range);
