@@ -97,6 +97,9 @@ const HARDENING: Parameter = Parameter {
     summary: "Growth of the yield stress per equivalent plastic strain; 0 is perfect plasticity.",
 };
 
+/// Parameters of metals, in the order of [`Constants::metal`].
+const METAL: [Parameter; 4] = [YOUNG_MODULUS, POISSON_RATIO, YIELD_STRESS, HARDENING];
+
 /// Constants that every law is built from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constants {
@@ -113,6 +116,11 @@ pub struct Constants {
 }
 
 impl Constants {
+    /// A metal from the values of [`METAL`].
+    fn metal(values: &[f64]) -> Self {
+        Constants { yield_stress: values[2], hardening: values[3], ..Constants::elastic(values[0], values[1]) }
+    }
+
     /// Lame constants of an isotropic elastic law: mu = E / (2 (1 + nu)), lambda = E nu / ((1 + nu) (1 - 2 nu)).
     fn elastic(young_modulus: f64, poisson_ratio: f64) -> Self {
         let mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
