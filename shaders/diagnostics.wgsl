@@ -22,6 +22,7 @@
 @group(0) @binding(12) var<storage, read_write> history: array<vec4f>;
 @group(0) @binding(13) var<storage, read> probe_cells: array<u32>;
 @group(0) @binding(16) var<storage, read> extra: array<u32>;
+@group(0) @binding(17) var<storage, read> stress: array<vec4f>;      // w of the first: heat of plastic flow [J]
 @group(0) @binding(14) var<storage, read_write> probe_history: array<vec4f>;
 
 fn put(block: u32, at: u32, lane: u32, value: vec4f) {
@@ -81,8 +82,12 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
         let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
         let q = affine[3u * p].w;
         body += mass * vec4f(1.0, v);
-        heat += vec4f(0.5 * mass * dot(v, v), velocity[p].w * elastic_energy(material.kind, f, material),
-            velocity[p].w * 0.5 * q * q / material.ghost_modulus, 0.0);
+        // The affine motion around a particle is motion, too: m dx^2 / 8 |C|^2. [Jiang et al. 2015]
+        var turning = 0.0;
+        for (var a = 0u; a < DIM; a++) { turning += dot(affine[3u * p + a].xyz, affine[3u * p + a].xyz); }
+        let kinetic = 0.5 * mass * (dot(v, v) + 0.25 * params.spacing * params.spacing * turning);
+        heat += vec4f(kinetic, velocity[p].w * elastic_energy(material.kind, f, material),
+            velocity[p].w * 0.5 * q * q / material.ghost_modulus, stress[2u * p].w);
         speed = max(speed, length(v));
     }
     let at = thread_index(group, groups, 0u) / WORKGROUP;
@@ -105,7 +110,7 @@ fn block_total(block: u32, lane: u32, largest: bool) -> vec4f {
 @compute @workgroup_size(WORKGROUP)
 fn totals_record(@builtin(local_invocation_index) lane: u32) {
     let base = ((control.step + params.history - 1u) % params.history) * HISTORY_WIDTH;
-    for (var block = 0u; block < 9u; block++) {
+    for (var block = 0u; block < BLOCKS; block++) {
         let value = block_total(block, lane, block == 4u || block == 5u || block == 8u);
         if lane == 0u { history[base + 2u + block] = value; }
     }

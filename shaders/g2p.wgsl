@@ -8,6 +8,7 @@
 #include "shared/place.wgsl"
 #include "shared/matrix.wgsl"
 #include "shared/material.wgsl"
+#include "shared/driven.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read_write> position: array<vec4f>;
@@ -130,10 +131,32 @@ fn store_deformation(p: u32, f: mat3x3f) {
     deformation[3u * p + 2u] = vec4f(f[2], 0.0);
 }
 
+fn put_at(p: u32, place: vec3f) {
+    var x = place;
+    let inside_domain = keep_inside(&x);
+    if !inside_domain {
+        atomicAdd(&control.escaped, 1u);
+        deformation[3u * p + 1u].w = 0.0;
+    }
+    position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
+}
+
+// Moves a driven particle: it keeps its shape.
+fn carry(p: u32, time: f32) {
+    let x = position[p].xyz;
+    let s = support_of(p);
+    affine[3u * p].w += ghost_change(x) / f32(control.substeps);
+    // Shares of the step at the ends of this sub-step.
+    let parts = (vec2f(f32(control.substep)) - vec2f(1.0, 0.0)) / f32(control.substeps);
+    let place = rigid_place(s, x, parts.x, parts.y, time);
+    velocity[p] = vec4f(rigid_velocity(s, place, parts.y), velocity[p].w);
+    put_at(p, place);
+}
+
 // Moves a particle with velocity v; `trial` is its deformation gradient before plastic flow, `stored` where it is in memory already.
 // Returns false after a fault.
 fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
-    var x = position[p].xyz;
+    let x = position[p].xyz;
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
     let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
     let f = returned.deformation;
@@ -143,17 +166,16 @@ fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
         return false;
     }
     affine[3u * p].w += ghost_change(x) / f32(control.substeps);
-    x += time * v;
-    let inside_domain = keep_inside(&x);
-    if !inside_domain {
-        atomicAdd(&control.escaped, 1u);
-        deformation[3u * p + 1u].w = 0.0;
-    }
-    position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
+    put_at(p, x + time * v);
     let tau = kirchhoff_stress(material.kind, f, material) * velocity[p].w;
-    if returned.plastic_strain > 0.0 { affine[3u * p + 1u].w += returned.plastic_strain; }
+    var heat = stress[2u * p].w;
+    if returned.plastic_strain > 0.0 {
+        affine[3u * p + 1u].w += returned.plastic_strain;
+        let lost = elastic_energy(material.kind, trial, material) - elastic_energy(material.kind, f, material);
+        heat += velocity[p].w * lost;
+    }
     if !stored || returned.plastic_strain > 0.0 { store_deformation(p, f); }
-    stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, 0.0);
+    stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, heat);
     stress[2u * p + 1u] = vec4f(tau[0].y, tau[1].z, tau[0].z, 0.0);
     return true;
 }
@@ -172,6 +194,10 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     let p = thread_index(group, groups, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     let time = control.dt / f32(control.substeps);
+    if is_driven(p) {
+        carry(p, time);
+        return;
+    }
     let x = position[p].xyz;
     let cell = nearest_inside(vec3i(floor((x - params.origin) / params.spacing)));
     let at = place_at(x, vec3f(cell) + 0.5);
@@ -195,6 +221,7 @@ fn g2p_cells(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) group
     read_rows(slot);
     for (var i = first; i < end; i++) {
         let p = order[i];
+        if is_driven(p) { continue; }
         let at = place_at(position[p].xyz, middle);
         let motion = motion_at(at);
         store_motion(p, motion, at);
@@ -209,5 +236,6 @@ fn g2p_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
                  @builtin(local_invocation_index) lane: u32) {
     let p = thread_index(group, groups, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
-    _ = advance(p, velocity[p].xyz, deformation_of(p), true, control.dt / f32(control.substeps));
+    let time = control.dt / f32(control.substeps);
+    if is_driven(p) { carry(p, time); } else { _ = advance(p, velocity[p].xyz, deformation_of(p), true, time); }
 }

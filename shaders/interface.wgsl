@@ -36,7 +36,9 @@ fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         let p = order[i];
         let lambda = materials[bitcast<u32>(affine[3u * p + 2u].w)].ghost_modulus;
         volume += volume_of(p);
-        compliance += 1.0 / (lambda * max(1.0 - affine[3u * p].w / lambda, SMALLEST_GHOST_VOLUME));
+        // What is driven does not give way.
+        let soft = select(1.0, 0.0, DRIVEN && deformation[3u * p + 1u].w == 2.0);
+        compliance += soft / (lambda * max(1.0 - affine[3u * p].w / lambda, SMALLEST_GHOST_VOLUME));
     }
     fill[slot] = vec2f(volume, compliance / f32(max(end - first, 1u)));
 }

@@ -5,6 +5,7 @@
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/grid_wall.wgsl"
+#include "shared/given.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -14,9 +15,15 @@
 @compute @workgroup_size(WORKGROUP)
 fn mpm_grid_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
-    if slot >= params.slots || node[slot].w <= 0.0 { return; }
     let time = control.dt / f32(control.substeps);
-    let v = node[slot].xyz + time * work[params.slots + slot].xyz / node[slot].w;
-    node[slot] = vec4f(velocity_at_wall(cell_of(slot), v), node[slot].w);
+    var given = vec4f(0.0);
+    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+        let here = node[slot];
+        if here.w <= 0.0 || (DRIVEN && has(cells[slot], NODE_DRIVEN)) { continue; }
+        let free = here.xyz + time * work[params.slots + slot].xyz / here.w;
+        let v = velocity_at_wall(cell_of(slot), free);
+        node[slot] = vec4f(v, here.w);
+        given += given_to(here.w, free, v);
+    }
+    add_given(thread_index(group, groups, 0u) / WORKGROUP, lane, given, false);
 }

@@ -6,6 +6,7 @@
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/given.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -126,10 +127,15 @@ fn film_force(c: vec3i, count: u32) -> vec3f {
 @compute @workgroup_size(WORKGROUP)
 fn solid_predictor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
-    if slot >= params.slots || node[slot].w <= 0.0 { return; }
-    var v = node[slot].xyz + control.dt * params.gravity;
-    let count = select(0u, block_size(), has(cells[slot], NODE_FILM));
-    v -= control.dt * film_force(cell_of(slot), count) / max(node[slot].w, params.mass_floor);
-    node[slot] = vec4f(v, node[slot].w);
+    var given = vec4f(0.0);
+    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+        let here = node[slot];
+        if here.w <= 0.0 || (DRIVEN && has(cells[slot], NODE_DRIVEN)) { continue; }
+        let count = select(0u, block_size(), has(cells[slot], NODE_FILM));
+        let film = film_force(cell_of(slot), count) / max(here.w, params.mass_floor);
+        let v = here.xyz + control.dt * (params.gravity - film);
+        node[slot] = vec4f(v, here.w);
+        given += given_to(here.w, here.xyz, v);
+    }
+    add_given(thread_index(group, groups, 0u) / WORKGROUP, lane, given, true);
 }

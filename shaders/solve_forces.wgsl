@@ -183,6 +183,6 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     work[slot] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass);
     if !SOLIDS || !has(word, NODE_SOLID) { return; }
     for (var turn = 0u; turn < u32(deep); turn++) { forces.solid = wide_force(slot, c, true); }
-    let mass = max(node[slot].w, params.mass_floor);
-    work[params.slots + slot] = vec4f(forces.solid * face_area() / mass, 1.0 / mass);
+    let inverse = select(1.0 / max(node[slot].w, params.mass_floor), 0.0, DRIVEN && has(word, NODE_DRIVEN));
+    work[params.slots + slot] = vec4f(forces.solid * face_area() * inverse, inverse);
 }

@@ -11,14 +11,18 @@
 #include "shared/ars.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/extents.wgsl"
+#include "shared/material.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(4) var<storage, read> energy: array<f32>;
 @group(0) @binding(5) var<storage, read> velocity: array<vec4f>;
-@group(0) @binding(6) var<storage, read_write> maxima: array<vec4f>; // rate, sound speed, particle speed, -
+@group(0) @binding(6) var<storage, read_write> maxima: array<vec4f>; // rate, sound speed, particle speed, elastic wave speed
 @group(0) @binding(7) var<storage, read> extra: array<u32>;
+@group(0) @binding(8) var<storage, read> position: array<vec4f>;
+@group(0) @binding(10) var<storage, read> affine: array<vec4f>;
+@group(0) @binding(11) var<storage, read> deformation: array<vec4f>;
 
 // Pressure differences below this share of p are noise of the solve, not a force.
 const PRESSURE_NOISE = 1e-6;
@@ -94,11 +98,17 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
 fn time_step_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                        @builtin(local_invocation_index) lane: u32) {
     let total = groups.x * groups.y * WORKGROUP;
-    var speed = 0.0;
+    var speed = vec2f(0.0); // of particles, of elastic waves
     for (var p = thread_index(group, groups, lane); p < params.particles; p += total) {
-        speed = max(speed, length(velocity[p].xyz));
+        let state = deformation[3u * p + 1u].w;
+        if state == 0.0 { continue; }
+        let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+        let density = position[p].w / velocity[p].w;
+        // A driven particle carries no wave.
+        let wave = select(wave_speed(material.kind, material, density), 0.0, state == 2.0);
+        speed = max(speed, vec2f(length(velocity[p].xyz), wave));
     }
-    let largest = workgroup_max4(lane, vec4f(0.0, 0.0, speed, 0.0));
+    let largest = workgroup_max4(lane, vec4f(0.0, 0.0, speed));
     if lane == 0u {
         let at = thread_index(group, groups, 0u) / WORKGROUP;
         maxima[at] = max(maxima[at], largest);
@@ -121,7 +131,7 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
         dt = min(dt, params.cfl / max(largest.x, 1e-30));
         if control.dt_previous > 0.0 { dt = min(dt, params.max_growth * control.dt_previous); }
     }
-    let elastic_step = params.elastic_cfl * params.spacing / max(params.wave_speed, 1e-30);
+    let elastic_step = params.elastic_cfl * params.spacing / max(largest.w, 1e-30);
     if SOLIDS {
         dt = min(dt, params.cfl * params.spacing / max(largest.z, 1e-30));
         dt = min(dt, f32(params.max_substeps) * elastic_step);

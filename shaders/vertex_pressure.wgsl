@@ -104,6 +104,6 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         return;
     }
     let s = s_gas + s_solid;
-    pressure[slot] = select(0.0, (s_gas * gas_pressure + s_solid * q) / s, s > 0.0);
+    pressure[slot] = select(q, (s_gas * gas_pressure + s_solid * q) / s, s > 0.0);
     stiffness[slot] = s;
 }

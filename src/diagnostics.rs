@@ -41,12 +41,17 @@ pub struct StepRecord {
     pub owed: Total,
     /// Gas, impulse and work that have left through the boundary since the start.
     pub crossed: Total,
-    /// Solids: mass and momentum; `energy` is kinetic.
+    /// Solids: mass and momentum; `energy` is kinetic, that of the affine motion around each particle included.
     pub solid: Total,
     /// Elastic energy \[J\].
     pub elastic_energy: f32,
     /// Energy of the ghost pressure \[J\].
     pub ghost_energy: f32,
+    /// Heat of plastic flow since the start, in the particles that are still there \[J\].
+    pub plastic_heat: f32,
+    /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start. What clamped and driven
+    /// parts give is not in it. Mass is 0.
+    pub given: Total,
     /// Conjugate gradient iterations.
     pub iterations: u32,
     /// Relative residual of the solve.
@@ -76,13 +81,14 @@ pub struct StepRecord {
 }
 
 impl StepRecord {
-    /// From the vec4 entries of the history ring, see `totals_record` in `shaders/diagnostics.wgsl`.
+    /// From the vec4 entries of the history ring (`given` of this step alone), see `totals_record` in `shaders/diagnostics.wgsl`.
     #[must_use]
     pub(crate) fn from_raw(raw: &[[f32; 4]]) -> Self {
         let total =
             |flow: [f32; 4], energy: f32| Total { mass: flow[0], momentum: [flow[1], flow[2], flow[3]], energy };
         let [head, counts, gas, owed, crossed, heat] = [raw[0], raw[1], raw[2], raw[3], raw[4], raw[5]];
         let [extremes, gas_speed, solid, solid_heat, solid_speed] = [raw[6], raw[7], raw[8], raw[9], raw[10]];
+        let given = raw[11];
         Self {
             step: head[2].to_bits(),
             dt: head[0],
@@ -103,9 +109,21 @@ impl StepRecord {
             solid: total(solid, solid_heat[0]),
             elastic_energy: solid_heat[1],
             ghost_energy: solid_heat[2],
+            plastic_heat: solid_heat[3],
+            given: total([0.0, given[0], given[1], given[2]], given[3]),
             solid_speed: solid_speed[0].max(0.0),
             ..Self::default()
         }
+    }
+
+    /// Adds what bodies were given in this step to the sum so far, and takes the sum.
+    pub(crate) fn add_up(&mut self, sum: &mut [f64; 4]) {
+        let Total { momentum: [x, y, z], energy, .. } = self.given;
+        for (total, step) in sum.iter_mut().zip([x, y, z, energy]) {
+            *total += f64::from(step);
+        }
+        let [x, y, z, energy] = sum.map(|total| total as f32);
+        self.given = Total { mass: 0.0, momentum: [x, y, z], energy };
     }
 
     /// From two vec4 entries per probe.

@@ -7,7 +7,7 @@ use crate::scene::{self, Scene};
 use crate::snapshot::{ParticleSample, Snapshot};
 use crate::stage::{
     Carried, CarrierVelocity, CoupledSolve, FluidUpdate, G2p, GasAdvection, InterfaceStage, IntermediatePressure,
-    MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, TimeStep, Totals, Transfer,
+    MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::{self, NO_FAULT, STAGES};
 use crate::state::{Control, HISTORY, State};
@@ -21,6 +21,7 @@ pub struct Simulation {
     time_step: TimeStep,
     particle_sort: Option<ParticleSort>,
     p2g: Option<P2g>,
+    supports: Option<Supports>,
     interface: InterfaceStage,
     carrier: CarrierVelocity,
     gas_advection: GasAdvection,
@@ -32,6 +33,8 @@ pub struct Simulation {
     odd_even: Option<OddEven>,
     totals: Totals,
     gamma: f64,
+    /// Momentum and energy that bodies were given from outside since the start.
+    given: [f64; 4],
     /// Pressure solves per step.
     solves: u32,
     time: f64,
@@ -65,6 +68,7 @@ impl Simulation {
             time_step: TimeStep::new(parts, coupled_solve.pcg.control.raw())?,
             particle_sort: solids.then(|| ParticleSort::new(parts)).transpose()?,
             p2g: solids.then(|| P2g::new(parts, transfer)).transpose()?,
+            supports: scene.has_supports().then(|| Supports::new(parts)).transpose()?,
             interface: InterfaceStage::new(parts)?,
             carrier: CarrierVelocity::new(parts, scene.consistent())?,
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
@@ -76,6 +80,7 @@ impl Simulation {
             odd_even: (scene.numerics.filter > 0.0).then(|| OddEven::new(parts, scene.numerics.filter)).transpose()?,
             totals: Totals::new(parts)?,
             gamma: scene.gas.gamma,
+            given: [0.0; 4],
             solves: scene.solves(),
             time: 0.0,
             step: 0,
@@ -100,11 +105,15 @@ impl Simulation {
     pub fn record_step(&self, pass: &mut Pass) {
         let state = &self.state;
         self.time_step.record(pass, state); // dt from gas, solids and the time asked for
+        if let Some(supports) = &self.supports {
+            supports.record_motions(pass, state);
+        }
         if let (Some(particle_sort), Some(p2g)) = (&self.particle_sort, &self.p2g) {
             particle_sort.record(pass, state, "BEGIN");
             p2g.record(pass, state); // (1) particles to grid
         }
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
+        self.record_held(pass, "BEGIN");
         self.time_step.record_listed(pass);
         self.record_advection(pass, 0, Carried::Now, "BEGIN"); // (3) eqs. 10-12
         if self.solves == 1 {
@@ -147,6 +156,13 @@ impl Simulation {
         self.fluid_update.record(pass, state, &self.carrier); // eqs. 14 and 3, local gradients
     }
 
+    /// Clamped and driven nodes, friction at walls.
+    fn record_held(&self, pass: &mut Pass, phase: &str) {
+        if let Some(supports) = &self.supports {
+            supports.record_nodes(pass, &self.state, phase);
+        }
+    }
+
     /// One elastic sub-step. The first recorded one may be the first of a step or the continuation of a long one.
     fn record_substep(&self, pass: &mut Pass, recorded: u32) {
         let state = &self.state;
@@ -158,6 +174,7 @@ impl Simulation {
         }
         particle_sort.record(pass, state, "AGAIN");
         p2g.record_substep(pass, state, false);
+        self.record_held(pass, "AGAIN");
         mpm_grid_update.record(pass, state); // (6) elasticity, walls
         g2p.record(pass, state); // (7) grid to particles
     }
@@ -239,7 +256,7 @@ impl Simulation {
     }
 
     /// Records of the steps since the last reading.
-    fn read_history(&self, step: u64, records: &mut Vec<StepRecord>) -> Result<()> {
+    fn read_history(&mut self, step: u64, records: &mut Vec<StepRecord>) -> Result<()> {
         if step == self.step {
             return Ok(());
         }
@@ -254,6 +271,7 @@ impl Simulation {
             record.probes = StepRecord::probes_from_raw(&probes[2 * slot * count..2 * (slot + 1) * count]);
             time += f64::from(record.dt);
             record.time = time;
+            record.add_up(&mut self.given);
             records.push(record);
         }
         Ok(())

@@ -1,6 +1,6 @@
 // The word of a slot: kind of the cell, kind one step ago, and what is known of its node and vertex.
 // Bits 0..1 kind, 2..3 previous kind, then the flags; bits 16..31 hold the blocked fraction R as a 16-bit share, in GHOST slots
-// the place of their rule.
+// the place of their rule, in WALL slots the friction of the bodies there, in thousandths.
 
 fn kind_of(word: u32) -> u32 { return word & 3u; }
 fn previous_kind_of(word: u32) -> u32 { return (word >> 2u) & 3u; }
@@ -8,4 +8,9 @@ fn has(word: u32, flag: u32) -> bool { return (word & flag) != 0u; }
 fn blocked_of(word: u32) -> f32 { return f32(word >> 16u) / 65535.0; }
 fn word_with_blocked(word: u32, fraction: f32) -> u32 {
     return (word & 0xffffu) | (u32(clamp(fraction, 0.0, 1.0) * 65535.0 + 0.5) << 16u);
+}
+
+fn friction_of(word: u32) -> f32 { return 1e-3 * f32(word >> 16u); }
+fn word_with_friction(word: u32, friction: f32) -> u32 {
+    return (word & 0xffffu) | (u32(1e3 * min(friction, STICK) + 0.5) << 16u);
 }

@@ -1,5 +1,5 @@
-// Walls of the solid grid: a node beyond a wall may not move outward. [numerics: one-sided, nothing is glued]
-// Needs the binding cells.
+// Walls of the solid grid: a node beyond a wall may not move outward, and what the wall stops rubs against it: the velocity along the
+// wall loses the friction's share of what the wall takes across. A body that sticks stops. Needs the binding cells.
 
 fn stops_at(side: u32) -> bool { return ((params.wall_sides >> side) & 1u) == 1u; }
 
@@ -18,5 +18,14 @@ fn velocity_at_wall(c: vec3i, v: vec3f) -> vec3f {
             if kind_of(cells[slot - step_of(a)]) == WALL { out[a] = max(out[a], 0.0); }
         }
     }
+    if FRICTION && kind_of(cells[slot]) == WALL { return rubbed(v, out, friction_of(cells[slot])); }
     return out;
+}
+
+// `v` before and `stopped` after the wall. [Coulomb]
+fn rubbed(v: vec3f, stopped: vec3f, friction: f32) -> vec3f {
+    if friction >= 0.5 * STICK { return vec3f(0.0); }
+    let push = length(v - stopped);
+    let speed = length(stopped);
+    return stopped * max(1.0 - friction * push / max(speed, 1e-30), 0.0);
 }

@@ -4,11 +4,10 @@ struct MaterialParams {
     mu: f32,            // shear modulus [Pa]
     lambda: f32,        // first Lame constant [Pa]
     yield_stress: f32,  // [Pa]; the largest f32 for laws that do not yield
-    density: f32,       // lowest density of the bodies made of it [kg m^-3]
     kind: u32,          // position in the registry
     ghost_modulus: f32, // of the ghost pressure, q = -ghost_modulus (J - 1) [Pa]
     hardening: f32,     // growth of the yield stress per equivalent plastic strain [Pa]
-    friction: f32,      // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
+    @size(8) friction: f32, // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
 }
 
 // What plastic flow leaves of a deformation gradient.

@@ -11,6 +11,8 @@ override ARS: bool;             // two solves per step, ARS(2,2,2)
 override LIMITER: bool;         // conservative flux limiter for positivity
 override BLENDING: bool;        // blocked fraction of partly filled cells
 override LEDGER: bool;          // gas of covered cells is kept and given back
+override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed
+override FRICTION: bool;        // some body does not slip
 override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity
 override PERIODIC: u32;          // axes whose ends meet, as bits
 override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
@@ -32,7 +34,6 @@ struct Params {
     max_growth: f32,            // cap of dt / previous dt
     fixed_step: f32,            // [s] 0 = from the bounds
     elastic_cfl: f32,
-    wave_speed: f32,            // [m s^-1] fastest elastic wave of any body
     solid_threshold: f32,       // share of a cell that makes it solid
     mass_floor: f32,            // [kg] least node mass that the pressure solve sees
     tolerance: f32,             // of the solve, relative

@@ -10,13 +10,14 @@ use crate::snapshot::Snapshot;
 
 /// Columns of `diagnostics.csv`.
 #[rustfmt::skip]
-const STEP_COLUMNS: [&str; 39] = [
+const STEP_COLUMNS: [&str; 44] = [
     "step", "time", "dt",
     "gas_mass", "gas_momentum_x", "gas_momentum_y", "gas_momentum_z", "gas_energy",
     "owed_mass", "owed_momentum_x", "owed_momentum_y", "owed_momentum_z", "owed_energy",
     "crossed_mass", "crossed_momentum_x", "crossed_momentum_y", "crossed_momentum_z", "crossed_energy",
     "solid_mass", "solid_momentum_x", "solid_momentum_y", "solid_momentum_z", "solid_kinetic_energy",
-    "solid_elastic_energy", "solid_ghost_energy",
+    "solid_elastic_energy", "solid_ghost_energy", "solid_plastic_heat",
+    "given_momentum_x", "given_momentum_y", "given_momentum_z", "given_energy",
     "pcg_iterations", "pcg_residual", "substeps", "extra_vertices",
     "min_density", "max_density", "min_pressure", "max_pressure", "max_gas_speed", "max_solid_speed",
     "limited_cells", "floored_cells", "clamped_particles", "acoustic_courant",
@@ -102,7 +103,9 @@ fn step_row(record: &StepRecord) -> Vec<Value> {
     for Total { mass, momentum: [x, y, z], energy } in [record.gas, record.owed, record.crossed, record.solid] {
         row.extend([mass, x, y, z, energy].map(Value::from));
     }
-    row.extend([record.elastic_energy, record.ghost_energy].map(Value::from));
+    row.extend([record.elastic_energy, record.ghost_energy, record.plastic_heat].map(Value::from));
+    let [x, y, z] = record.given.momentum;
+    row.extend([x, y, z, record.given.energy].map(Value::from));
     row.extend([record.iterations.into(), record.residual.into(), record.substeps.into(), record.extra.into()]);
     row.extend([record.density, record.pressure].into_iter().flatten().map(Value::from));
     row.extend([record.gas_speed, record.solid_speed].map(Value::from));

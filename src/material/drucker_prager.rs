@@ -3,7 +3,7 @@
 
 use std::ops::Bound;
 
-use super::{Constants, Kind, POISSON_RATIO, Parameter, YOUNG_MODULUS};
+use super::{Constants, GHOST_MODULUS, Kind, POISSON_RATIO, Parameter, YOUNG_MODULUS};
 
 /// Slope of the cone.
 const FRICTION_ANGLE: Parameter = Parameter {
@@ -29,7 +29,7 @@ const COHESION: Parameter = Parameter {
 pub(super) const KIND: Kind = Kind {
     name: "drucker_prager",
     summary: "Soil and sand: yields by friction and cohesion, bears no tension beyond its cohesion.",
-    parameters: &[YOUNG_MODULUS, POISSON_RATIO, FRICTION_ANGLE, COHESION],
+    parameters: &[YOUNG_MODULUS, POISSON_RATIO, FRICTION_ANGLE, COHESION, GHOST_MODULUS],
     constants: |values| {
         let (sine, cosine) = values[2].to_radians().sin_cos();
         // |dev tau| <= yield_stress - friction tr(tau)
@@ -37,7 +37,7 @@ pub(super) const KIND: Kind = Kind {
         Constants {
             yield_stress: 3.0 * scale * values[3] * cosine,
             friction: scale * sine,
-            ..Constants::elastic(values[0], values[1])
+            ..Constants::elastic(values[0], values[1], values[4])
         }
     },
 };

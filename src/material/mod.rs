@@ -8,19 +8,19 @@ mod drucker_prager;
 mod fixed_corotated;
 mod hencky;
 mod neo_hookean;
+mod preset;
 #[cfg(test)]
 mod tests;
+mod text;
 mod von_mises;
 mod wgsl;
 
+pub use preset::{PRESETS, Preset, Units};
 pub use wgsl::{wgsl_includes, wgsl_switch};
 
 use std::ops::{Bound, RangeBounds};
 
 use bytemuck::{Pod, Zeroable};
-use serde::de::{self, MapAccess, Visitor};
-use serde::ser::SerializeMap;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// All kinds of material. The position is the number that shaders see.
 pub const KINDS: [&Kind; 5] =
@@ -97,8 +97,18 @@ const HARDENING: Parameter = Parameter {
     summary: "Growth of the yield stress per equivalent plastic strain; 0 is perfect plasticity.",
 };
 
+/// How stiffly the ghost pressure follows the pressure of the gas. [Cao et al. 2022, eq. 17]
+const GHOST_MODULUS: Parameter = Parameter {
+    name: "ghost_modulus",
+    unit: "Pa",
+    default: Some(0.0),
+    low: Bound::Included(0.0),
+    high: Bound::Unbounded,
+    summary: "Stiffness of the ghost pressure, which couples the body to the gas; 0 stands for the first Lame constant.",
+};
+
 /// Parameters of metals, in the order of [`Constants::metal`].
-const METAL: [Parameter; 4] = [YOUNG_MODULUS, POISSON_RATIO, YIELD_STRESS, HARDENING];
+const METAL: [Parameter; 5] = [YOUNG_MODULUS, POISSON_RATIO, YIELD_STRESS, HARDENING, GHOST_MODULUS];
 
 /// Constants that every law is built from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,27 +123,38 @@ pub struct Constants {
     pub hardening: f64,
     /// Growth of the yield stress with the pressure: over minus the trace of the Kirchhoff stress `[1]`.
     pub friction: f64,
+    /// Modulus of the ghost pressure `[Pa]`.
+    pub ghost_modulus: f64,
 }
 
 impl Constants {
     /// A metal from the values of [`METAL`].
     fn metal(values: &[f64]) -> Self {
-        Constants { yield_stress: values[2], hardening: values[3], ..Constants::elastic(values[0], values[1]) }
+        Constants {
+            yield_stress: values[2],
+            hardening: values[3],
+            ..Constants::elastic(values[0], values[1], values[4])
+        }
     }
 
     /// Lame constants of an isotropic elastic law: mu = E / (2 (1 + nu)), lambda = E nu / ((1 + nu) (1 - 2 nu)).
-    fn elastic(young_modulus: f64, poisson_ratio: f64) -> Self {
+    /// A ghost modulus of 0 stands for lambda.
+    fn elastic(young_modulus: f64, poisson_ratio: f64, ghost_modulus: f64) -> Self {
         let mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
         let lambda = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio));
-        Constants { mu, lambda, yield_stress: f64::INFINITY, hardening: 0.0, friction: 0.0 }
+        let ghost_modulus = if ghost_modulus > 0.0 { ghost_modulus } else { lambda };
+        Constants { mu, lambda, yield_stress: f64::INFINITY, hardening: 0.0, friction: 0.0, ghost_modulus }
     }
 }
 
-/// A material of a scene: a kind and the values of its parameters. In TOML `shell.von_mises = { young_modulus = ... }`.
+/// A material of a scene: a kind and the values of its parameters. In TOML `shell.von_mises = { young_modulus = ... }`, or a preset
+/// such as `shell.steel = { units = "scaled" }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     kind: usize,
     values: Vec<f64>,
+    /// Position in [`PRESETS`], and its units.
+    preset: Option<(usize, Units)>,
 }
 
 /// A material as the device sees it, 32 bytes; mirror of `MaterialParams` in `shaders/shared/material.wgsl`.
@@ -146,16 +167,16 @@ pub struct MaterialParams {
     pub lambda: f32,
     /// Yield stress `[Pa]`; `f32::MAX` for laws that do not yield.
     pub yield_stress: f32,
-    /// Lowest density of the bodies made of it `[kg m^-3]`.
-    pub density: f32,
     /// Position in [`KINDS`].
     pub kind: u32,
-    /// Modulus of the ghost pressure, q = -ghost_modulus (J - 1) `[Pa]`; equal to lambda.
+    /// Modulus of the ghost pressure, q = -ghost_modulus (J - 1) `[Pa]`.
     pub ghost_modulus: f32,
     /// Growth of the yield stress per equivalent plastic strain `[Pa]`.
     pub hardening: f32,
     /// Growth of the yield stress over minus the trace of the Kirchhoff stress `[1]`.
     pub friction: f32,
+    /// Fills the last 16 bytes.
+    pub unused: u32,
 }
 
 impl Material {
@@ -165,7 +186,7 @@ impl Material {
     /// A sentence that names the unknown kind, the unknown or the missing parameter. Limits are checked by [`Material::findings`].
     pub fn new(kind: &str, given: &[(String, f64)]) -> Result<Self, String> {
         let Some(index) = KINDS.iter().position(|k| k.name == kind) else {
-            return Err(format!("unknown material kind `{kind}`, expected one of {}", kind_names()));
+            return Err(format!("unknown material `{kind}`, expected one of {}", kind_names()));
         };
         let parameters = KINDS[index].parameters;
         let names = parameters.iter().map(|p| format!("`{}`", p.name)).collect::<Vec<_>>().join(", ");
@@ -178,7 +199,36 @@ impl Material {
                 .or(p.default)
                 .ok_or_else(|| format!("missing parameter `{}` [{}] of material kind `{kind}`", p.name, p.unit))
         };
-        Ok(Material { kind: index, values: parameters.iter().map(value).collect::<Result<_, _>>()? })
+        Ok(Material { kind: index, values: parameters.iter().map(value).collect::<Result<_, _>>()?, preset: None })
+    }
+
+    /// A preset in the given units; parameters of its law that are given replace those of the preset.
+    ///
+    /// # Errors
+    /// As [`Material::new`].
+    pub fn of_preset(index: usize, units: Units, given: &[(String, f64)]) -> Result<Self, String> {
+        let preset = &PRESETS[index];
+        let law = KINDS.iter().find(|kind| kind.name == preset.law);
+        let scale = |name: &str| {
+            let stress = law.is_some_and(|law| law.parameters.iter().any(|p| p.name == name && p.unit == "Pa"));
+            if stress { units.stress() } else { 1.0 }
+        };
+        let own = preset.values.iter().filter(|(name, _)| given.iter().all(|(key, _)| key != name));
+        let own = own.map(|(name, value)| ((*name).to_owned(), value / scale(name)));
+        let all: Vec<_> = given.iter().cloned().chain(own).collect();
+        Ok(Material { preset: Some((index, units)), ..Material::new(preset.law, &all)? })
+    }
+
+    /// The key of the material in a scene: its kind, or the preset.
+    #[must_use]
+    pub fn keyword(&self) -> &'static str {
+        self.preset.map_or(self.kind().name, |(index, _)| PRESETS[index].name)
+    }
+
+    /// Density of bodies that give none `[kg m^-3]`; presets alone have one.
+    #[must_use]
+    pub fn density(&self) -> Option<f64> {
+        self.preset.map(|(index, units)| PRESETS[index].density / units.density())
     }
 
     /// Position of the kind in [`KINDS`].
@@ -223,19 +273,19 @@ impl Material {
         ((self.lambda() + 2.0 * self.mu()) / density).sqrt()
     }
 
-    /// The material as the device sees it, for a body of the given density `[kg m^-3]`.
+    /// The material as the device sees it.
     #[must_use]
-    pub fn params(&self, density: f64) -> MaterialParams {
-        let Constants { mu, lambda, yield_stress, hardening, friction } = self.constants();
+    pub fn params(&self) -> MaterialParams {
+        let Constants { mu, lambda, yield_stress, hardening, friction, ghost_modulus } = self.constants();
         MaterialParams {
             mu: mu as f32,
             lambda: lambda as f32,
             yield_stress: yield_stress.min(f64::from(f32::MAX)) as f32,
-            density: density as f32,
             kind: self.kind_index(),
-            ghost_modulus: lambda as f32,
+            ghost_modulus: ghost_modulus as f32,
             hardening: hardening as f32,
             friction: friction as f32,
+            unused: 0,
         }
     }
 
@@ -276,79 +326,9 @@ impl Parameter {
     }
 }
 
-/// The names of all kinds, quoted, for messages.
+/// The names of all kinds and presets, quoted, for messages.
 #[must_use]
 pub fn kind_names() -> String {
-    KINDS.iter().map(|kind| format!("`{}`", kind.name)).collect::<Vec<_>>().join(", ")
-}
-
-impl Serialize for Material {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let parameters = self.kind().parameters.iter().map(|p| p.name).zip(self.values.iter().copied());
-        let mut map = serializer.serialize_map(Some(1))?;
-        map.serialize_entry(self.kind().name, &parameters.collect::<std::collections::BTreeMap<_, _>>())?;
-        map.end()
-    }
-}
-
-impl<'de> Deserialize<'de> for Material {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(MaterialVisitor)
-    }
-}
-
-struct MaterialVisitor;
-
-impl<'de> Visitor<'de> for MaterialVisitor {
-    type Value = Material;
-
-    fn expecting(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
-        write!(formatter, "a table with one material kind: {}", kind_names())
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Material, A::Error> {
-        let missing = || de::Error::custom(format!("no material kind, expected one of {}", kind_names()));
-        let (kind, given) = map.next_entry::<String, std::collections::BTreeMap<String, f64>>()?.ok_or_else(missing)?;
-        if let Some(second) = map.next_key::<String>()? {
-            let message = format!("two material kinds, `{kind}` and `{second}`; a material has one, remove the other");
-            return Err(de::Error::custom(message));
-        }
-        Material::new(&kind, &given.into_iter().collect::<Vec<_>>()).map_err(de::Error::custom)
-    }
-}
-
-impl schemars::JsonSchema for Material {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Material".into()
-    }
-
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let parameter = |p: &Parameter| {
-            let text = format!("{} Allowed: {}.", p.summary, p.allowed());
-            let mut schema = serde_json::json!({ "type": "number", "description": text });
-            for (bound, inside, outside) in
-                [(p.low, "minimum", "exclusiveMinimum"), (p.high, "maximum", "exclusiveMaximum")]
-            {
-                match bound {
-                    Bound::Included(value) => schema[inside] = value.into(),
-                    Bound::Excluded(value) => schema[outside] = value.into(),
-                    Bound::Unbounded => {}
-                }
-            }
-            (p.name.to_owned(), schema)
-        };
-        let kind = |kind: &&Kind| {
-            let properties = kind.parameters.iter().map(parameter).collect::<serde_json::Map<_, _>>();
-            let required = kind.parameters.iter().filter(|p| p.default.is_none()).map(|p| p.name).collect::<Vec<_>>();
-            let parameters = serde_json::json!({
-                "type": "object", "properties": properties, "required": required, "additionalProperties": false,
-            });
-            serde_json::json!({
-                "type": "object", "description": kind.summary, "properties": { kind.name: parameters },
-                "required": [kind.name], "additionalProperties": false,
-            })
-        };
-        let kinds = KINDS.iter().map(kind).collect::<Vec<_>>();
-        schemars::json_schema!({ "description": "A material: one kind with its parameters.", "oneOf": kinds })
-    }
+    let names = KINDS.iter().map(|kind| kind.name).chain(PRESETS.iter().map(|preset| preset.name));
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }

@@ -7,7 +7,6 @@ use toml::de::{DeTable, DeValue};
 use super::check_shape;
 use super::source::{Finding, walk};
 use super::{GasState, Integrator, Obstacles, Scene};
-use crate::material::kind_names;
 
 /// Cells per active axis at least: the advection stencil needs this many.
 const FEWEST_CELLS: u32 = 3;
@@ -62,7 +61,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     let sound_domain = check.findings.is_empty();
     check.gas();
     check.boundary();
-    check.materials();
+    check.bodies();
     check.names();
     let before = check.findings.len();
     check.geometry();
@@ -100,7 +99,7 @@ impl Check<'_> {
         }
     }
 
-    fn count(&mut self, path: impl Into<String>, value: u32, least: u32, most: u32) {
+    pub(super) fn count(&mut self, path: impl Into<String>, value: u32, least: u32, most: u32) {
         if !(least..=most).contains(&value) {
             self.add(path, format!("{value} is out of range"), format!("give a whole number from {least} to {most}"));
         }
@@ -114,17 +113,6 @@ impl Check<'_> {
         } else if vector[axes..].iter().any(|x| *x != 0.0) {
             let help = format!("the scene has {axes} axes: leave the other entries out or give 0");
             self.add(path, format!("{vector:?} leaves the active axes"), help);
-        }
-    }
-
-    /// A body turns within the active axes only.
-    fn turning(&mut self, path: String, spin: [f64; 3]) {
-        let free = [3, 3, 2].map(|axes| self.scene.domain.axes() >= axes);
-        if spin.iter().any(|rate| !rate.is_finite()) {
-            self.add(path, format!("{spin:?} is not finite"), "give finite numbers");
-        } else if spin.iter().zip(free).any(|(rate, free)| !free && *rate != 0.0) {
-            let help = "in 2D a body turns about z alone, in 1D not at all: give one number, or none";
-            self.add(path, format!("{spin:?} leaves the active axes"), help);
         }
     }
 
@@ -203,35 +191,6 @@ impl Check<'_> {
         self.findings.extend(super::vortex::findings(gas));
     }
 
-    fn materials(&mut self) {
-        for (name, material) in &self.scene.materials {
-            for (parameter, value, allowed) in material.findings() {
-                let path = format!("materials.{name}.{}.{parameter}", material.kind().name);
-                self.add(path, format!("{value} is out of range"), format!("give {allowed}"));
-            }
-        }
-        for (index, body) in self.scene.bodies.iter().enumerate() {
-            let path = format!("bodies[{index}]");
-            self.positive(format!("{path}.density"), body.density, "[kg m^-3]");
-            self.planar(format!("{path}.velocity"), body.velocity);
-            self.turning(format!("{path}.spin"), body.spin);
-            self.count(format!("{path}.particles_per_cell"), body.particles_per_cell, 1, 8);
-            if !self.scene.materials.contains_key(&body.material) {
-                let known = self.scene.materials.keys().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
-                let help = if known.is_empty() {
-                    format!(
-                        "the scene has no materials; add [materials.{}] with one of {}",
-                        body.material,
-                        kind_names()
-                    )
-                } else {
-                    format!("the scene has {known}")
-                };
-                self.add(format!("{path}.material"), format!("unknown material `{}`", body.material), help);
-            }
-        }
-    }
-
     fn names(&mut self) {
         let scene = self.scene;
         let bodies = scene.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
@@ -263,7 +222,9 @@ impl Check<'_> {
         let waves = waves.filter_map(|(i, wave)| Some((format!("gas.waves[{i}].shape"), wave.shape.as_ref()?)));
         let obstacles =
             scene.obstacles.iter().enumerate().map(|(i, obstacle)| (format!("obstacles[{i}].shape"), &obstacle.shape));
-        for (path, shape) in regions.chain(waves).chain(bodies).chain(obstacles) {
+        let clamped = scene.bodies.iter().enumerate();
+        let clamped = clamped.filter_map(|(i, body)| Some((format!("bodies[{i}].clamped"), body.clamped.as_ref()?)));
+        for (path, shape) in regions.chain(waves).chain(bodies).chain(clamped).chain(obstacles) {
             check_shape::sizes(&path, shape, &mut self.findings);
         }
         for (index, probe) in scene.probes.iter().enumerate() {

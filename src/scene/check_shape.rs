@@ -141,6 +141,9 @@ pub(super) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
             let help = "it is thinner than the particle spacing, or covered by obstacles or earlier bodies: enlarge it, \
                         refine the grid or raise particles_per_cell";
             findings.push(Finding::new(&path, message, help));
+        } else if body.clamped.is_some() && !scene.seed_particles_of(index).any(|seed| seed.driven) {
+            let message = format!("the clamped part of body `{}` holds no particle", body.name);
+            findings.push(Finding::new(format!("bodies[{index}].clamped"), message, "move or enlarge it"));
         }
     }
 }

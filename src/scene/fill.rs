@@ -2,7 +2,7 @@
 
 use std::ops::{ControlFlow, Range};
 
-use super::{GasState, Scene, Shape};
+use super::{Body, GasState, Scene, Shape};
 
 /// Sub-samples per axis in cells that the surface of a region crosses.
 const SAMPLES: u32 = 4;
@@ -20,6 +20,8 @@ pub struct Seed {
     pub volume: f64,
     /// Density `[kg m^-3]`.
     pub density: f64,
+    /// Whether it is clamped or moves as prescribed.
+    pub driven: bool,
     /// Index of the body in the scene.
     pub body: u32,
     /// Index of the material among the sorted names.
@@ -103,26 +105,30 @@ impl Scene {
     /// The particles of all bodies on a regular lattice. A point in several bodies belongs to the first; obstacles come before bodies.
     #[must_use]
     pub fn seed_particles(&self) -> Vec<Seed> {
+        (0..self.bodies.len()).flat_map(|index| self.seed_particles_of(index)).collect()
+    }
+
+    /// Those of one body.
+    pub(super) fn seed_particles_of(&self, index: usize) -> impl Iterator<Item = Seed> + use<> {
+        let body = &self.bodies[index];
+        let per_cell = f64::from(body.particles_per_cell).powi(self.domain.dimension as i32);
         let mut seeds = Vec::new();
-        for (index, body) in self.bodies.iter().enumerate() {
-            let per_cell = f64::from(body.particles_per_cell).powi(self.domain.dimension as i32);
-            let seed = |position| Seed {
+        let _ = self.each_particle(index, &mut |position| {
+            seeds.push(Seed {
                 position,
                 velocity: body.velocity,
                 spin: body.spin,
                 volume: self.domain.cell_volume() / per_cell,
                 density: body.density,
+                driven: false,
                 body: index as u32,
                 material: self.material_index(&body.material).unwrap_or(0),
-            };
-            let first = seeds.len();
-            let _ = self.each_particle(index, &mut |point| {
-                seeds.push(seed(point));
-                ControlFlow::Continue(())
             });
-            turn(&mut seeds[first..]);
-        }
-        seeds
+            ControlFlow::Continue(())
+        });
+        turn(&mut seeds);
+        drive(body, &mut seeds);
+        seeds.into_iter()
     }
 
     /// How many particles [`Scene::seed_particles`] makes, without making them.
@@ -258,6 +264,18 @@ fn turn(seeds: &mut [Seed]) {
         for (d, (a, b)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
             seed.velocity[d] += seed.spin[a] * arm[b] - seed.spin[b] * arm[a];
         }
+    }
+}
+
+/// Gives the driven part of a body its prescribed motion.
+fn drive(body: &Body, seeds: &mut [Seed]) {
+    let start = body.driven_motion()[0];
+    let about = body.motion.as_ref().map_or([0.0; 3], |motion| motion.about);
+    for seed in seeds.iter_mut().filter(|seed| body.drives(seed.position)) {
+        let arm = glam::DVec3::from(seed.position) - glam::DVec3::from(about);
+        seed.driven = true;
+        seed.velocity = (glam::DVec3::from(start.velocity) + glam::DVec3::from(start.spin).cross(arm)).into();
+        seed.spin = start.spin;
     }
 }
 

@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::source::{self, Finding, Source};
-use super::{Scene, check};
+use super::{Material, Scene, check};
 use crate::{Error, Result};
 
 impl Scene {
@@ -75,6 +75,9 @@ impl Scene {
         let default = if self.domain.dimension == 1 { 4 } else { 2 };
         for body in self.bodies.iter_mut().filter(|body| body.particles_per_cell == 0) {
             body.particles_per_cell = default;
+        }
+        for body in self.bodies.iter_mut().filter(|body| body.density == 0.0) {
+            body.density = self.materials.get(&body.material).and_then(Material::density).unwrap_or(0.0);
         }
     }
 }

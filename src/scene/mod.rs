@@ -5,8 +5,10 @@
 //!
 //! Units are consistent and chosen by the scene: every field names its dimension in brackets, in kg, m, s for example.
 
+mod body;
 mod boundary;
 mod check;
+mod check_body;
 mod check_boundary;
 mod check_shape;
 mod cut;
@@ -33,10 +35,12 @@ include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
+pub use body::{Body, Contact, Friction, Motion, MotionAt};
 pub use boundary::{
     AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
     TimedState,
 };
+pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
 pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
@@ -197,39 +201,6 @@ impl From<Region> for RegionKeys {
     }
 }
 
-/// A deformable solid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Body {
-    /// Name in tables and messages, unique.
-    pub name: String,
-    /// What it fills.
-    pub shape: Shape,
-    /// Name of an entry of `materials`.
-    pub material: String,
-    /// Density `[kg m^-3]`, positive.
-    pub density: f64,
-    /// Velocity at the start `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
-    pub velocity: [f64; 3],
-    /// Angular velocity about the centre of mass at the start `[rad s^-1]`: a number about z, or three about x, y and z.
-    #[serde(default, deserialize_with = "vector::spin")]
-    #[schemars(with = "vector::Spin")]
-    pub spin: [f64; 3],
-    /// Particles per cell along each axis, 1 to 8; 4 in 1D and 2 otherwise when left out.
-    #[serde(default, deserialize_with = "particle_count")]
-    pub particles_per_cell: u32,
-}
-
-/// Refuses an explicit 0, which stands for "left out" until [`Scene::load`] has put the default in.
-fn particle_count<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
-    match u32::deserialize(deserializer)? {
-        0 => Err(serde::de::Error::custom("particles_per_cell is 0; it counts particles along one axis, 1 to 8")),
-        count => Ok(count),
-    }
-}
-
 /// A static obstacle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -327,16 +298,10 @@ impl Scene {
         self.materials.keys().position(|key| key == name).map(|index| index as u32)
     }
 
-    /// The parameters of all materials in the order of [`Scene::material_index`], as the device sees them. The density is
-    /// the lowest of the bodies made of the material, which bounds the wave speed from above.
+    /// The parameters of all materials in the order of [`Scene::material_index`], as the device sees them.
     #[must_use]
     pub fn material_parameters(&self) -> Vec<crate::material::MaterialParams> {
-        let lightest = |name: &str| {
-            let densities = self.bodies.iter().filter(|body| body.material == name).map(|body| body.density);
-            densities.fold(f64::INFINITY, f64::min)
-        };
-        let finite = |density: f64| if density.is_finite() { density } else { 1.0 };
-        self.materials.iter().map(|(name, material)| material.params(finite(lightest(name)))).collect()
+        self.materials.values().map(Material::params).collect()
     }
 
     /// The exact solution of a shock tube and the place of its jump: a scene of dimension 1 with no bodies, obstacles or gravity

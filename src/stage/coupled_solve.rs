@@ -95,8 +95,9 @@ impl CoupledSolve {
     /// Masses, right-hand side and diagonal; opens the iteration. In a phase.
     pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("coupled_solve");
-        for kernel in self.predictor.iter().flatten() {
-            pass.dispatch(kernel, &slots(state, phase));
+        if let Some([film, predictor]) = &self.predictor {
+            pass.dispatch(film, &slots(state, phase));
+            pass.dispatch(predictor, &extent(state, phase, Entry::Reduce));
         }
         pass.dispatch(&self.open, &extent(state, phase, Entry::Listed));
         record_both(pass, state, phase, &self.masses);

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `time_step` | how far may we go? |
 //! | `particle_sort` | which particles touch which cell? |
+//! | `supports` | what is held? |
 //! | `p2g` | what do the solids look like on the grid? |
 //! | `interface` | where do gas and solid meet? |
 //! | `carrier` | which velocity carries the gas through its faces? |
@@ -28,6 +29,7 @@ mod mpm_grid_update;
 mod odd_even;
 mod p2g;
 mod particle_sort;
+mod supports;
 mod time_step;
 mod totals;
 pub mod traffic;
@@ -43,6 +45,7 @@ pub use mpm_grid_update::MpmGridUpdate;
 pub use odd_even::OddEven;
 pub use p2g::{P2g, Transfer};
 pub use particle_sort::ParticleSort;
+pub use supports::Supports;
 pub use time_step::TimeStep;
 pub use totals::Totals;
 

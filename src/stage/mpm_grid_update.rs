@@ -1,10 +1,10 @@
 //! `mpm_grid_update`: how do the nodes move? Elastic force of one sub-step, walls. [Cao et al. 2022, step 6]
 
-use super::Parts;
-use super::time_step::slots;
+use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
+use crate::state::constants::Entry;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -25,6 +25,6 @@ impl MpmGridUpdate {
     /// One sub-step of the nodes.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("mpm_grid_update");
-        pass.dispatch(&self.update, &slots(state, "SUBSTEP"));
+        pass.dispatch(&self.update, &extent(state, "SUBSTEP", Entry::Reduce));
     }
 }

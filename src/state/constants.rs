@@ -35,7 +35,11 @@ pub const STAGES: [&str; 10] = [
 /// Groups, at most, that leave one partial result each.
 pub const PARTIALS: u32 = 1024;
 /// vec4 entries of one record of the history ring.
-pub const HISTORY_WIDTH: u32 = 11;
+pub const HISTORY_WIDTH: u32 = 12;
+/// Blocks of partial results that the totals and the books of a step take.
+pub const BLOCKS: u32 = 10;
+/// The block of what walls, films and gravity give to bodies.
+pub const BLOCK_GIVEN: u32 = 9;
 /// Fault word of a healthy run.
 pub const NO_FAULT: u32 = u32::MAX;
 /// Dispatches of the longest prefix sum that a step runs.
@@ -88,42 +92,44 @@ pub fn extent_offset(phase: &str, entry: Entry) -> u64 {
     ((at * PHASE_WIDTH) as u64 + entry as u64) * 16
 }
 
-/// The constants as WGSL, and the switch over the registered materials.
+/// Flags of a slot, from bit 4 of its word.
+const FLAGS: [&str; 12] = [
+    "NODE_GAS",
+    "NODE_REGULAR",
+    "NODE_INTERIOR",
+    "NODE_SOLID",
+    "NODE_DEEP",
+    "NODE_FILM",
+    "VERTEX_GAS",
+    "VERTEX_REGULAR",
+    "VERTEX_SOLID",
+    "VERTEX_DEEP",
+    "INTERIOR",
+    "NODE_DRIVEN",
+];
+
+/// Lists of names that count from 0, each with its prefix.
+const COUNTED: [(&str, &[&str]); 4] = [
+    ("RULE", &RULES),
+    ("INTERFACE", &["RESOLVED", "H", "SINGLE"]),
+    ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP"]),
+    ("EXTENT", &["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "COLOR", "SCAN"]),
+];
+
+/// The constants as WGSL.
 #[must_use]
 pub fn source() -> String {
     let mut text = String::new();
     let mut put = |name: &str, value: u32| {
         let _ = writeln!(text, "const {name} = {value}u;");
     };
-    for (name, value) in [("GAS", GAS), ("SOLID", SOLID), ("WALL", WALL), ("GHOST", GHOST)] {
-        put(name, value);
-    }
-    let flags = [
-        "NODE_GAS",
-        "NODE_REGULAR",
-        "NODE_INTERIOR",
-        "NODE_SOLID",
-        "NODE_DEEP",
-        "NODE_FILM",
-        "VERTEX_GAS",
-        "VERTEX_REGULAR",
-        "VERTEX_SOLID",
-        "VERTEX_DEEP",
-        "INTERIOR",
-    ];
-    for (bit, name) in flags.iter().enumerate() {
+    for (bit, name) in FLAGS.iter().enumerate() {
         put(name, 1 << (4 + bit));
     }
-    for (value, name) in RULES.iter().enumerate() {
-        put(&format!("RULE_{name}"), value as u32);
-    }
-    put("RULE_SHIFT", RULE_SHIFT);
-    put("MAX_OPENINGS", super::MAX_OPENINGS as u32);
-    for (value, name) in ["INTERFACE_RESOLVED", "INTERFACE_H", "INTERFACE_SINGLE"].iter().enumerate() {
-        put(name, value as u32);
-    }
-    for (value, name) in ["PHASE_IDLE", "PHASE_SOLVE", "PHASE_BETWEEN", "PHASE_SUBSTEP"].iter().enumerate() {
-        put(name, value as u32);
+    for (prefix, names) in COUNTED {
+        for (value, name) in names.iter().enumerate() {
+            put(&format!("{prefix}_{name}"), value as u32);
+        }
     }
     for (value, name) in STAGES.iter().enumerate() {
         put(&format!("STAGE_{}", name.to_uppercase()), value as u32);
@@ -131,21 +137,31 @@ pub fn source() -> String {
     for (value, name) in PHASES.iter().enumerate() {
         put(&format!("PHASE_{name}_EXTENTS"), (PHASE_WIDTH * value) as u32);
     }
-    for (value, name) in
-        ["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "COLOR", "SCAN"].iter().enumerate()
-    {
-        put(&format!("EXTENT_{name}"), value as u32);
-    }
     for (name, value) in super::cut::FIELDS {
         put(&format!("CUT_{name}"), value);
     }
-    put("CUT_WIDTH", super::cut::WIDTH as u32);
-    put("MAX_GROUPS", 65_535);
-    put("PARTIALS", PARTIALS);
-    put("SCAN_DISPATCHES", SCAN_DISPATCHES as u32);
-    put("HISTORY_WIDTH", HISTORY_WIDTH);
-    put("NO_FAULT", NO_FAULT);
-    put("NO_EXTRA", u32::MAX);
+    let numbers = [
+        ("GAS", GAS),
+        ("SOLID", SOLID),
+        ("WALL", WALL),
+        ("GHOST", GHOST),
+        ("RULE_SHIFT", RULE_SHIFT),
+        ("MAX_OPENINGS", super::MAX_OPENINGS as u32),
+        ("MAX_BODIES", crate::scene::MAX_BODIES as u32),
+        ("CUT_WIDTH", super::cut::WIDTH as u32),
+        ("MAX_GROUPS", 65_535),
+        ("PARTIALS", PARTIALS),
+        ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
+        ("HISTORY_WIDTH", HISTORY_WIDTH),
+        ("BLOCKS", BLOCKS),
+        ("BLOCK_GIVEN", BLOCK_GIVEN),
+        ("NO_FAULT", NO_FAULT),
+        ("NO_EXTRA", u32::MAX),
+    ];
+    for (name, value) in numbers {
+        put(name, value);
+    }
+    let _ = writeln!(text, "const STICK = {:?};", super::supports::STICK);
     text.push_str(crate::numerics::pcg::source());
     text
 }
@@ -164,4 +180,4 @@ pub fn source_for(shader: &str) -> String {
 }
 
 /// Shaders that include `shared/material.wgsl`.
-const MATERIAL_SHADERS: [&str; 3] = ["interface.wgsl", "g2p.wgsl", "diagnostics.wgsl"];
+const MATERIAL_SHADERS: [&str; 4] = ["interface.wgsl", "g2p.wgsl", "diagnostics.wgsl", "time_step.wgsl"];

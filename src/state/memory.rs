@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::{
-    HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, constants, control::Control, extra_capacity,
+    HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, constants, control::Control,
+    extra_capacity,
 };
 use crate::error::{Error, Result};
 use crate::numerics::{PcgControl, Scan};
-use crate::scene::Scene;
+use crate::scene::{MAX_BODIES, Scene};
 
 /// Bytes in a gibibyte.
 const GIB: f64 = (1u64 << 30) as f64;
@@ -85,6 +86,9 @@ impl MemoryPlan {
         }
         plan.add("fixed", &[("openings", MAX_OPENINGS as u64, size_of::<Opening>() as u64)]);
         plan.add("fixed", &[("knots", Openings::new(scene).knots.len() as u64, size_of::<Knot>() as u64)]);
+        plan.add("fixed", &[("supports", MAX_BODIES as u64, size_of::<Support>() as u64)]);
+        let motions = super::Supports::new(scene).motions.len() as u64;
+        plan.add("fixed", &[("motions", motions, size_of::<super::MotionAt>() as u64)]);
         plan.add_fixed(scene.probes.len() as u64);
         plan
     }
@@ -95,7 +99,7 @@ impl MemoryPlan {
         let history = u64::from(HISTORY);
         self.add("fixed", &[("params", 1, size_of::<Params>() as u64), ("control", 1, size_of::<Control>() as u64)]);
         self.add("fixed", &[("extents", extents, 4), ("materials", MAX_MATERIALS as u64 * 8, 4)]);
-        self.add("fixed", &[("partials", 9 * u64::from(constants::PARTIALS) + 1, 16)]);
+        self.add("fixed", &[("partials", u64::from(constants::BLOCKS * constants::PARTIALS), 16)]);
         self.add("fixed", &[("history", history * u64::from(constants::HISTORY_WIDTH), 16)]);
         self.add("fixed", &[("probe_cells", probes, 4), ("probe_history", 2 * history * probes, 16)]);
         self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 20, 4)]);

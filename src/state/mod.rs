@@ -10,6 +10,7 @@ pub mod memory;
 pub mod openings;
 pub mod params;
 pub mod particles;
+pub mod supports;
 
 pub use control::Control;
 pub use gas::GasState;
@@ -19,6 +20,7 @@ pub use memory::MemoryPlan;
 pub use openings::{Knot, MAX_OPENINGS, Opening, Openings};
 pub use params::{HISTORY, Params};
 pub use particles::{ParticleStart, Particles};
+pub use supports::{MotionAt, Support, Supports};
 
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel};
@@ -46,6 +48,10 @@ pub struct State {
     pub openings: Buffer<Opening>,
     /// Tables of times of the inlets.
     pub knots: Buffer<Knot>,
+    /// What holds bodies, now.
+    pub supports: Buffer<Support>,
+    /// Motions of driven parts over time.
+    pub motions: Buffer<MotionAt>,
     /// Materials, as shaders see them.
     pub materials: Buffer<f32>,
     /// Gas.
@@ -60,7 +66,7 @@ pub struct State {
     pub stiffness: Buffer<f32>,
     /// Vectors of the conjugate gradient method.
     pub pcg: PcgVectors,
-    /// Partial results of reductions: 9 blocks of one vec4 per group, and one vec4 more.
+    /// Partial results of reductions: [`constants::BLOCKS`] blocks of one vec4 per group.
     pub partials: Buffer<[f32; 4]>,
     /// Records of the latest steps.
     pub history: Buffer<[f32; 4]>,
@@ -98,16 +104,18 @@ impl State {
         let limits = SolidLimits {
             particles: start.len() as u32,
             max_density: start.max_density,
-            wave_speed: start.wave_speed,
             per_cell: per_cell.fold(0.0, f64::max),
         };
         let capacity = extra_capacity(slots, start.len(), domain.dimension);
         let params = Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity));
         let unknowns = slots + 2 * capacity;
         let openings = Openings::new(scene);
+        let supports = Supports::new(scene);
         let geometry = scene.cut_geometry();
         let table = cut::table(&grid, &geometry);
         let mut overrides = params::overrides(scene, !start.is_empty());
+        overrides.push(("DRIVEN", f64::from(u8::from(supports.driven))));
+        overrides.push(("FRICTION", f64::from(u8::from(supports.friction))));
         overrides.push(("CUT", f64::from(u8::from(!table.is_empty()))));
         let state = State {
             grid,
@@ -117,6 +125,8 @@ impl State {
             extents: Buffer::indirect(gpu, "extents", 4 * constants::PHASE_WIDTH * constants::PHASES.len())?,
             openings: Buffer::uniform_storage(gpu, "openings", &openings.padded())?,
             knots: Buffer::from_slice(gpu, "knots", &openings.knots)?,
+            supports: Buffer::uniform_storage(gpu, "supports", &supports.padded())?,
+            motions: Buffer::from_slice(gpu, "motions", &supports.motions)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
             gas: GasState::new(gpu, slots, usize::from(scene.solves() == 2))?,
             interface: Interface::new(gpu, slots, !start.is_empty(), table.len())?,
@@ -124,7 +134,7 @@ impl State {
             pressure: Buffer::new(gpu, "pressure", unknowns)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
             pcg: PcgVectors::new(gpu, unknowns)?,
-            partials: Buffer::new(gpu, "partials", 9 * constants::PARTIALS as usize + 1)?,
+            partials: Buffer::new(gpu, "partials", (constants::BLOCKS * constants::PARTIALS) as usize)?,
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
@@ -242,6 +252,8 @@ impl State {
             ("materials", self.materials.raw()),
             ("openings", self.openings.raw()),
             ("knots", self.knots.raw()),
+            ("supports", self.supports.raw()),
+            ("motions", self.motions.raw()),
             ("conserved", self.gas.conserved.raw()),
             ("energy", self.gas.energy.raw()),
             ("work", self.gas.work.raw()),

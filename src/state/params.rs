@@ -41,8 +41,6 @@ pub struct Params {
     pub fixed_step: f32,
     /// Courant number of the elastic sub-steps.
     pub elastic_cfl: f32,
-    /// Fastest elastic wave of any body \[m s^-1\].
-    pub wave_speed: f32,
     /// Share of a cell that makes it solid.
     pub solid_threshold: f32,
     /// Least node mass that the pressure solve sees \[kg\].
@@ -69,8 +67,6 @@ pub struct Params {
     pub march: u32,
     /// Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+.
     pub wall_sides: u32,
-    /// Room up to the next 16 bytes.
-    pub unused: [u32; 3],
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -82,8 +78,6 @@ pub struct SolidLimits {
     pub particles: u32,
     /// Largest density of a particle \[kg m^-3\].
     pub max_density: f64,
-    /// Fastest elastic wave \[m s^-1\].
-    pub wave_speed: f64,
     /// Largest number of particles that fill one cell at rest.
     pub per_cell: f64,
 }
@@ -144,7 +138,6 @@ impl Params {
             max_growth: time.max_growth as f32,
             fixed_step: time.fixed_step.unwrap_or(0.0) as f32,
             elastic_cfl: numerics.elastic_cfl as f32,
-            wave_speed: solids.wave_speed as f32,
             solid_threshold: numerics.solid_threshold as f32,
             mass_floor: (MASS_FLOOR * solids.max_density * cell_volume) as f32,
             tolerance: numerics.tolerance as f32,
@@ -158,7 +151,6 @@ impl Params {
             groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, limits.groups),
             march: limits.march,
             wall_sides: wall_sides(scene),
-            unused: [0; 3],
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {

@@ -15,7 +15,7 @@ pub struct Particles {
     pub velocity: Buffer<[f32; 4]>,
     /// Columns of the affine matrix \[s^-1\]; w: ghost pressure \[Pa\], plastic strain, material index.
     pub affine: Buffer<[f32; 4]>,
-    /// Columns of the deformation gradient; w: body index, 1 while inside the domain, unused.
+    /// Columns of the deformation gradient; w: body index, 1 while inside the domain or 2 if driven, unused.
     pub deformation: Buffer<[f32; 4]>,
     /// Kirchhoff stress times volume at rest \[J\]: xx, yy, zz; then xy, yz, zx.
     pub stress: Buffer<[f32; 4]>,
@@ -36,8 +36,6 @@ pub struct ParticleStart {
     deformation: Vec<[f32; 4]>,
     /// Largest density \[kg m^-3\].
     pub max_density: f64,
-    /// Fastest elastic wave \[m s^-1\].
-    pub wave_speed: f64,
 }
 
 impl ParticleStart {
@@ -45,20 +43,18 @@ impl ParticleStart {
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let mut start = Self::default();
-        let materials: Vec<_> = scene.materials.values().collect();
         let bits = f32::from_bits;
         for seed in scene.seed_particles() {
             let [x, y, z] = seed.position.map(|v| v as f32);
             let [u, v, w] = seed.velocity.map(|v| v as f32);
             start.position.push([x, y, z, (seed.density * seed.volume) as f32]);
             start.velocity.push([u, v, w, seed.volume as f32]);
+            let word = if seed.driven { 2.0 } else { 1.0 };
             let ghost = scene.gas.ambient.pressure as f32;
             let [x, y, z] = seed.spin.map(|rate| rate as f32);
             start.affine.extend([[0.0, z, -y, ghost], [-z, 0.0, x, 0.0], [y, -x, 0.0, bits(seed.material)]]);
-            start.deformation.extend([[1.0, 0.0, 0.0, bits(seed.body)], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]]);
+            start.deformation.extend([[1.0, 0.0, 0.0, bits(seed.body)], [0.0, 1.0, 0.0, word], [0.0, 0.0, 1.0, 0.0]]);
             start.max_density = start.max_density.max(seed.density);
-            let wave_speed = materials[seed.material as usize].wave_speed(seed.density);
-            start.wave_speed = start.wave_speed.max(wave_speed);
         }
         start
     }

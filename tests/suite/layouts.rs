@@ -53,7 +53,6 @@ fn params() {
             max_growth,
             fixed_step,
             elastic_cfl,
-            wave_speed,
             solid_threshold,
             mass_floor,
             tolerance,
@@ -111,7 +110,7 @@ fn material() {
         "g2p.wgsl",
         "MaterialParams",
         MaterialParams,
-        [mu, lambda, yield_stress, density, kind, ghost_modulus, hardening, friction,]
+        [mu, lambda, yield_stress, kind, ghost_modulus, hardening, friction,]
     );
 }
 

@@ -23,5 +23,6 @@ mod render;
 mod scenes;
 mod shaders;
 mod solids;
+mod supports;
 mod twins;
 mod verify;

@@ -64,7 +64,7 @@ fn ask(gpu: &Gpu, material: &Material, given: &[DMat3]) -> Vec<Answer> {
     let params = Buffer::<brisance::material::MaterialParams>::new(&gpu, "material", 1).expect("memory");
     let matrices = Buffer::<f32>::new(&gpu, "given", 12 * given.len()).expect("memory");
     let answers = Buffer::<f32>::new(&gpu, "answers", 28 * given.len()).expect("memory");
-    params.write(&gpu, 0, &[material.params(1.0)]);
+    params.write(&gpu, 0, &[material.params()]);
     matrices.write(&gpu, 0, &given.iter().flat_map(|f| columns(*f)).collect::<Vec<_>>());
     let names = [("material", params.raw()), ("given", matrices.raw()), ("answers", answers.raw())];
     let mut pass = Pass::new(&gpu, "ask");

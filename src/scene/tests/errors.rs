@@ -112,6 +112,34 @@ fn bodies() {
     expect(&format!("{sphere}velocity = [0.0, 0.0, 1.0]\n"), &[], &["bodies[0].velocity", "active axes"]);
     let twice = format!("{sphere}{}", sphere.strip_prefix(BASE).expect("it starts with the base"));
     expect(&twice, &[], &["bodies[1].name", "`b` is taken"]);
+    for (line, words) in [
+        ("friction = -0.1", ["bodies[0].friction", "at least 0"]),
+        ("friction = \"glue\"", ["bodies[0].friction", "\"stick\" or a coefficient"]),
+        ("velocity = [1, 0]\nmotion = { velocity = [1, 0] }", ["bodies[0].motion", "velocity of its own"]),
+        ("motion = { spin = [1, 0, 0] }", ["bodies[0].motion.spin", "about z alone"]),
+        ("motion = { table = [{ time = 1 }, { time = 1 }] }", ["bodies[0].motion.table", "in order of time"]),
+        ("clamped = { sphere = { center = [0, 0], radius = -1 } }", ["bodies[0].clamped.sphere.radius", "above 0"]),
+        ("clamped = { sphere = { center = [1.5, 0.5], radius = 0.1 } }", ["bodies[0].clamped", "holds no particle"]),
+    ] {
+        expect(&format!("{sphere}{line}\n"), &[], &words);
+    }
+    expect(&sphere.replace("density = 1.0\n", ""), &[], &["bodies[0].density", "presets"]);
+}
+
+#[test]
+fn presets() {
+    let scene = |rest: &str| with(&format!("[materials.hull]\nsteel = {{ {rest} }}\n"));
+    expect(&scene("units = \"imperial\""), &[], &["si", "scaled"]);
+    expect(&scene("units = 3"), &[], &["`units`", "scaled"]);
+    expect(&scene("cohesion = 3"), &[], &["`cohesion`", "`yield_stress`"]);
+    expect(&scene("yield_stress = -3"), &[], &["materials.hull.steel.yield_stress", "above 0"]);
+    let body =
+        "[[bodies]]\nname = \"b\"\nmaterial = \"hull\"\nshape = { sphere = { center = [1, 0.5], radius = 0.3 } }\n";
+    let scene = parse(&format!("{}{body}", scene("units = \"scaled\", yield_stress = 5.0")), &[]);
+    let hull = &scene.materials["hull"];
+    assert_eq!(hull.parameter("yield_stress"), Some(5.0));
+    assert_eq!(hull.parameter("young_modulus"), Some(2e11 / 101_325.0));
+    assert_eq!((hull.parameter("poisson_ratio"), scene.bodies[0].density), (Some(0.3), 7850.0 / 1.225));
 }
 
 #[test]

@@ -1,0 +1,34 @@
+// supports, first part: velocities of driven parts in the middle of the step that has just been chosen, and their pivots.
+#include "shared/params.wgsl"
+#include "shared/control.wgsl"
+#include "shared/support.wgsl"
+
+struct MotionAt {
+    velocity: vec3f,    // [m s^-1]
+    time: f32,          // [s]
+    spin: vec3f,        // [rad s^-1]
+}
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> motions: array<MotionAt>;
+@group(0) @binding(3) var<storage, read_write> supports: array<Support, MAX_BODIES>;
+
+@compute @workgroup_size(WORKGROUP)
+fn motions_now(@builtin(local_invocation_index) lane: u32) {
+    for (var k = lane; k < params.bodies; k += WORKGROUP) {
+        let time = control.time + 0.5 * control.duration;
+        let first = supports[k].first;
+        let last = first + supports[k].entries - 1u;
+        var next = first;
+        while next < last && motions[next].time <= time { next += 1u; }
+        let before = motions[max(next, first + 1u) - 1u];
+        let after = motions[next];
+        let span = after.time - before.time;
+        var share = 1.0;
+        if span > 0.0 { share = clamp((time - before.time) / span, 0.0, 1.0); }
+        supports[k].velocity = mix(before.velocity, after.velocity, share);
+        supports[k].spin = mix(before.spin, after.spin, share);
+        supports[k].pivot += supports[k].advance;
+        supports[k].advance = control.duration * supports[k].velocity;
+    }
+}

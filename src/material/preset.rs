@@ -1,0 +1,95 @@
+//! Presets: well-known materials by name, in SI units or scaled to the air around them.
+
+use serde::{Deserialize, Serialize};
+
+/// A material that scenes may name instead of a law and its numbers.
+#[derive(Debug)]
+pub struct Preset {
+    /// Keyword in scenes.
+    pub name: &'static str,
+    /// One sentence for documentation.
+    pub summary: &'static str,
+    /// Keyword of its law.
+    pub law: &'static str,
+    /// Parameters of the law in SI units; the others take their defaults.
+    pub values: &'static [(&'static str, f64)],
+    /// Density `[kg m^-3]` of bodies that give none.
+    pub density: f64,
+}
+
+/// The units of a preset.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Units {
+    /// Metres, kilograms, seconds, pascals.
+    #[default]
+    Si,
+    /// Stresses in atmospheres, densities in that of air: air at rest has density 1 and pressure 1, as in most scenes here.
+    Scaled,
+}
+
+/// One atmosphere \[Pa\].
+const ATMOSPHERE: f64 = 101_325.0;
+/// Air at 15 degrees and one atmosphere \[kg m^-3\]. [ISO 2533]
+const AIR: f64 = 1.225;
+
+impl Units {
+    /// Pascals in a unit of stress.
+    #[must_use]
+    pub fn stress(self) -> f64 {
+        if self == Units::Si { 1.0 } else { ATMOSPHERE }
+    }
+
+    /// Kilograms per cubic metre in a unit of density.
+    #[must_use]
+    pub fn density(self) -> f64 {
+        if self == Units::Si { 1.0 } else { AIR }
+    }
+}
+
+/// All presets. Yield stresses are norms of the deviator, sqrt(2/3) of those of a thin rod. The cohesion of a brittle material
+/// follows from its compressive strength f and friction angle a: f (1 - sin a) / (2 cos a).
+pub const PRESETS: [Preset; 6] = [
+    Preset {
+        name: "rubber",
+        summary: "Natural rubber.",
+        law: "neo_hookean",
+        values: &[("young_modulus", 5e6), ("poisson_ratio", 0.45)],
+        density: 1100.0,
+    },
+    Preset {
+        name: "steel",
+        summary: "Structural steel, yields at 250 MPa in a rod.",
+        law: "von_mises",
+        values: &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)],
+        density: 7850.0,
+    },
+    Preset {
+        name: "aluminium",
+        summary: "Aluminium 6061-T6, yields at 276 MPa in a rod.",
+        law: "von_mises",
+        values: &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)],
+        density: 2700.0,
+    },
+    Preset {
+        name: "concrete",
+        summary: "Concrete of a compressive strength of 30 MPa.",
+        law: "drucker_prager",
+        values: &[("young_modulus", 3e10), ("poisson_ratio", 0.2), ("friction_angle", 37.0), ("cohesion", 7.5e6)],
+        density: 2400.0,
+    },
+    Preset {
+        name: "ice",
+        summary: "Ice of a compressive strength of 10 MPa.",
+        law: "drucker_prager",
+        values: &[("young_modulus", 9.3e9), ("poisson_ratio", 0.33), ("friction_angle", 45.0), ("cohesion", 2.1e6)],
+        density: 917.0,
+    },
+    Preset {
+        name: "soil",
+        summary: "Moist sandy soil.",
+        law: "drucker_prager",
+        values: &[("young_modulus", 2e7), ("poisson_ratio", 0.3), ("friction_angle", 30.0), ("cohesion", 5e3)],
+        density: 1800.0,
+    },
+];

@@ -1,0 +1,91 @@
+//! What holds bodies: friction, and prescribed motions. One entry per body.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::scene::{MAX_BODIES, Scene};
+
+/// How a body is held. Mirror of `Support` in `shaders/shared/support.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Support {
+    /// Velocity of the driven part now \[m s^-1\].
+    pub velocity: [f32; 3],
+    /// Coefficient of friction at walls and obstacles \[1\]; [`STICK`] for a body that sticks.
+    pub friction: f32,
+    /// Angular velocity of the driven part now \[rad s^-1\].
+    pub spin: [f32; 3],
+    /// First entry of the motion over time.
+    pub first: u32,
+    /// The point that the driven part turns about, at the start of the step \[m\].
+    pub pivot: [f32; 3],
+    /// Entries of the motion over time.
+    pub entries: u32,
+    /// How far that point moves in this step \[m\].
+    pub advance: [f32; 3],
+    /// Fills the last 16 bytes.
+    pub unused: u32,
+}
+
+/// One entry of a motion over time. Mirror of `MotionAt` in `shaders/supports.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct MotionAt {
+    /// Velocity \[m s^-1\].
+    pub velocity: [f32; 3],
+    /// When \[s\].
+    pub time: f32,
+    /// Angular velocity \[rad s^-1\].
+    pub spin: [f32; 3],
+    /// Fills the last 16 bytes.
+    pub unused: u32,
+}
+
+/// A coefficient of friction that holds everything; the word of a cell has room for it.
+pub const STICK: f32 = 65.0;
+
+/// The supports of a scene.
+#[derive(Clone, Debug)]
+pub struct Supports {
+    /// One entry per body.
+    pub table: Vec<Support>,
+    /// Motions over time, one after the other.
+    pub motions: Vec<MotionAt>,
+    /// Whether some body has a driven part.
+    pub driven: bool,
+    /// Whether some body does not slip.
+    pub friction: bool,
+}
+
+impl Supports {
+    /// Those of a scene.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let single = |v: [f64; 3]| v.map(|x| x as f32);
+        let mut supports = Self { table: Vec::new(), motions: Vec::new(), driven: false, friction: false };
+        for body in &scene.bodies {
+            let first = supports.motions.len() as u32;
+            for at in body.driven_motion() {
+                let (velocity, spin) = (single(at.velocity), single(at.spin));
+                supports.motions.push(MotionAt { velocity, time: at.time as f32, spin, unused: 0 });
+            }
+            supports.driven |= body.is_driven();
+            supports.friction |= body.friction.coefficient() > 0.0;
+            supports.table.push(Support {
+                friction: (body.friction.coefficient() as f32).min(STICK),
+                first,
+                entries: supports.motions.len() as u32 - first,
+                pivot: body.motion.as_ref().map_or([0.0; 3], |motion| single(motion.about)),
+                ..Support::default()
+            });
+        }
+        supports
+    }
+
+    /// The table with all the room it has on the device.
+    #[must_use]
+    pub fn padded(&self) -> Vec<Support> {
+        let mut table = self.table.clone();
+        table.resize(MAX_BODIES, Support::default());
+        table
+    }
+}

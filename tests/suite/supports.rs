@@ -1,0 +1,124 @@
+//! What holds bodies, against mechanics and gas dynamics: prescribed motion, clamped parts, friction.
+
+use brisance::gpu::Gpu;
+use brisance::scene::Scene;
+use brisance::simulation::Simulation;
+use brisance::snapshot::Snapshot;
+use glam::DVec3;
+
+use crate::common::gpu_or_skip;
+
+const THIN: &str = "[gas]\nambient = { density = 1e-4, pressure = 1e-4 }\n";
+/// In vacuum the ghost pressure only adds stiffness: here it has next to none.
+const RUBBER: &str =
+    "[materials.rubber]\nneo_hookean = { young_modulus = 100.0, poisson_ratio = 0.3, ghost_modulus = 0.1 }\n";
+
+fn scene(domain: &str, gas: &str, body: &str, rest: &str) -> Scene {
+    let body = format!("[[bodies]]\nname = \"body\"\nmaterial = \"rubber\"\n{body}\n");
+    let text = format!("title = \"t\"\n{rest}\n[domain]\n{domain}\n{gas}{RUBBER}{body}");
+    Scene::parse(&text, "test.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The start and the end.
+fn run(gpu: &Gpu, scene: &Scene) -> [Snapshot; 2] {
+    let mut simulation = Simulation::new(gpu, scene).unwrap_or_else(|error| panic!("{error}"));
+    let before = simulation.snapshot().expect("a device");
+    simulation.advance_to(scene.time.until).unwrap_or_else(|error| panic!("{error}"));
+    [before, simulation.snapshot().expect("a device")]
+}
+
+fn mean(snapshot: &Snapshot) -> DVec3 {
+    let sum: DVec3 = snapshot.particles.iter().map(|p| DVec3::from(p.position.map(f64::from))).sum();
+    sum / snapshot.particles.len() as f64
+}
+
+/// A piston that moves at the unit speed through gas at rest: a shock ahead of it, a fan behind. [Courant & Friedrichs 1948]
+#[test]
+fn a_driven_piston_makes_the_exact_shock_and_fan() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let gas = "[gas]\nambient = { density = 1.0, pressure = 1.0 }\n";
+    let body = "density = 1.0\nmotion = { velocity = [1.0] }\nshape = { box = { center = [1.0], size = [0.2] } }\nfriction = \"stick\"";
+    let scene = scene("dimension = 1\ncells = [300]\nsize = [3.0]", gas, body, "[time]\nuntil = 0.4\n");
+    let [before, after] = run(&gpu, &scene);
+    assert!((mean(&after).x - mean(&before).x - 0.4).abs() < 1e-5, "{}", mean(&after).x);
+    assert!(after.particles.iter().all(|p| p.deformation[0][0] == 1.0), "it keeps its shape");
+    let sound = 1.4_f64.sqrt();
+    let shock = 0.6 + (0.36 + 1.4_f64).sqrt();
+    let near = |from: f64, to: f64| {
+        let cells = (from / 0.01) as usize..(to / 0.01) as usize;
+        let count = cells.len() as f64;
+        cells.map(|k| f64::from(after.pressure[k])).sum::<f64>() / count
+    };
+    let ahead = near(1.56, 1.80);
+    assert!((ahead / (1.0 + shock) - 1.0).abs() < 0.01, "pressure ahead {ahead} {}", 1.0 + shock);
+    let front = (0..300).rfind(|&k| after.pressure[k] > 1.96).expect("a shock") as f64 * 0.01 + 0.01;
+    assert!((front - (1.1 + 0.4 * shock)).abs() < 0.02, "shock at {front} {}", 1.1 + 0.4 * shock);
+    let behind = near(1.0, 1.28);
+    let exact = (1.0 - 0.2 / sound).powi(7);
+    assert!((behind / exact - 1.0).abs() < 0.04, "pressure behind {behind} {exact}");
+}
+
+#[test]
+fn a_turning_body_comes_back_after_a_turn() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let turn = "density = 1.0\nshape = { box = { center = [0.5, 0.62], size = [0.1, 0.3] } }\n\
+                motion = { spin = 6.283185307, about = [0.5, 0.5], velocity = [0.1, 0.0] }";
+    let domain = "dimension = 2\ncells = [24, 24]\nsize = [1.0, 1.0]";
+    let [before, after] = run(&gpu, &scene(domain, THIN, turn, "[time]\nuntil = 1.0\n"));
+    for (a, b) in before.particles.iter().zip(&after.particles) {
+        let moved = DVec3::from(b.position.map(f64::from)) - DVec3::from(a.position.map(f64::from));
+        assert!((moved - DVec3::new(0.1, 0.0, 0.0)).length() < 1e-4, "{moved}");
+        assert_eq!(a.deformation, b.deformation);
+    }
+}
+
+#[test]
+fn a_motion_follows_its_table() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let body = "density = 1.0\nshape = { box = { center = [0.3], size = [0.2] } }\n\
+                motion = { table = [{ time = 0.0 }, { time = 1.0, velocity = [1.0] }] }";
+    let scene = scene("dimension = 1\ncells = [50]\nsize = [1.0]", THIN, body, "[time]\nuntil = 0.6\n");
+    let [before, after] = run(&gpu, &scene);
+    let moved = mean(&after).x - mean(&before).x;
+    assert!((moved - 0.18).abs() < 1e-4, "{moved}");
+}
+
+/// A bar that hangs from one end, released under gravity: its tip falls twice as far as it hangs in the end, in half a period.
+#[test]
+fn a_clamped_bar_swings_about_its_static_length() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let body = "density = 1.0\nshape = { box = { center = [0.5], size = [0.6] } }\n\
+                clamped = { box = { center = [0.15], size = [0.2] } }";
+    // from the clamp at 0.25 to the tip at 0.8
+    let (length, modulus, gravity) = (0.55, 100.0 * 0.7 / (1.3 * 0.4), 4.0);
+    let half = 2.0 * length / f64::sqrt(modulus);
+    let rest = format!("gravity = [{gravity}]\n[time]\nuntil = {half}\n");
+    let scene = scene("dimension = 1\ncells = [200]\nsize = [1.0]", THIN, body, &rest);
+    let [before, after] = run(&gpu, &scene);
+    let tip = |snapshot: &Snapshot| snapshot.particles.iter().map(|p| p.position[0]).fold(0.0, f32::max);
+    let fallen = f64::from(tip(&after) - tip(&before));
+    let exact = gravity * length * length / modulus;
+    assert!((fallen / exact - 1.0).abs() < 0.03, "{fallen} {exact}");
+    let held = before.particles.iter().zip(&after.particles).filter(|(a, _)| a.position[0] < 0.25);
+    assert!(held.clone().count() > 0 && held.clone().all(|(a, b)| a.position == b.position), "the clamp holds");
+}
+
+/// A block slides along the floor: friction takes its share of the weight.
+#[test]
+fn a_sliding_block_slows_down_by_its_friction() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let speed = |friction: &str| {
+        let body = format!(
+            "density = 1.0\nvelocity = [1.0, 0.0]\nfriction = {friction}\n\
+             shape = {{ box = {{ center = [0.35, 0.1], size = [0.4, 0.2] }} }}"
+        );
+        let domain = "dimension = 2\ncells = [60, 20]\nsize = [1.5, 0.5]";
+        let scene = scene(domain, THIN, &body, "gravity = [0.0, -1.0]\n[time]\nuntil = 0.5\n");
+        let [_, after] = run(&gpu, &scene);
+        after.particles.iter().map(|p| f64::from(p.velocity[0])).sum::<f64>() / after.particles.len() as f64
+    };
+    let (slip, rubbed, stuck) = (speed("\"slip\""), speed("0.3"), speed("\"stick\""));
+    assert!((slip - 1.0).abs() < 2e-3, "{slip}");
+    assert!((rubbed - 0.85).abs() < 0.015, "{rubbed}");
+    assert!(stuck.abs() < 0.2, "{stuck}");
+}
