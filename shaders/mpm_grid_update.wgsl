@@ -23,7 +23,7 @@ fn mpm_grid_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         let free = here.xyz + time * work[params.slots + slot].xyz / here.w;
         let v = velocity_at_wall(cell_of(slot), free);
         node[slot] = vec4f(v, here.w);
-        given += given_to(here.w, free, v);
+        given += given_to(here.w, v - free, here.xyz, v);
     }
     add_given(thread_index(group, groups, 0u) / WORKGROUP, lane, given, false);
 }

@@ -135,7 +135,7 @@ fn solid_predictor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         let film = film_force(cell_of(slot), count) / max(here.w, params.mass_floor);
         let v = here.xyz + control.dt * (params.gravity - film);
         node[slot] = vec4f(v, here.w);
-        given += given_to(here.w, here.xyz, v);
+        given += given_to(here.w, v - here.xyz, here.xyz, v);
     }
     add_given(thread_index(group, groups, 0u) / WORKGROUP, lane, given, true);
 }

@@ -3,9 +3,9 @@
 
 @group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
 
-// What takes a mass from one velocity to another.
-fn given_to(mass: f32, before: vec3f, after: vec3f) -> vec4f {
-    return mass * vec4f(after - before, 0.5 * dot(after - before, after + before));
+// A change of velocity of a mass that goes from `before` to `after`: other forces may have their share in that.
+fn given_to(mass: f32, change: vec3f, before: vec3f, after: vec3f) -> vec4f {
+    return mass * vec4f(change, 0.5 * dot(change, after + before));
 }
 
 // `first`: nothing has been given in this step before.
