@@ -6,13 +6,14 @@
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/light_node.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> energy: array<f32>;    // second third: predicted pressure of gas cells
 @group(0) @binding(4) var<storage, read> ghost: array<f32>;
 @group(0) @binding(5) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(6) var<storage, read_write> work: array<vec4f>;  // first part: film pressure at vertices of walls, per axis across
+@group(0) @binding(6) var<storage, read_write> work: array<vec4f>;  // first part: film pressure at vertices of walls, per axis across; second: what light nodes leave
 @group(0) @binding(7) var<storage, read> extra: array<u32>;
 
 // How far along the wall the film looks for gas, in cells.
@@ -123,13 +124,27 @@ fn film_force(c: vec3i, count: u32) -> vec3f {
     return force * face_area();
 }
 
+// Velocity that the film gives to a node.
+fn film_kick(slot: u32) -> vec3f {
+    let count = select(0u, block_size(), has(cells[slot], NODE_FILM));
+    return -control.dt * film_force(cell_of(slot), count) / max(node[slot].w, params.mass_floor);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn film_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+             @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    var left = vec3f(0.0);
+    if has(cells[slot], NODE_FILM) { left = share_left(slot) * film_kick(slot); }
+    work[params.slots + slot] = vec4f(left, 0.0);
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn solid_predictor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots || node[slot].w <= 0.0 { return; }
-    var v = node[slot].xyz + control.dt * params.gravity;
-    let count = select(0u, block_size(), has(cells[slot], NODE_FILM));
-    v -= control.dt * film_force(cell_of(slot), count) / max(node[slot].w, params.mass_floor);
-    node[slot] = vec4f(v, node[slot].w);
+    let v = node[slot].xyz + control.dt * params.gravity + film_kick(slot);
+    node[slot] = vec4f(v + gain_around(slot, block_size()), node[slot].w);
 }
