@@ -25,7 +25,7 @@ pub(super) const CASES: &[Case] = &[
         id: "free_cylinder",
         title: "Free cylinder behind a shock",
         group: GROUP,
-        quick: true,
+        quick: false,
         source: "W. D. Henshaw, D. W. Schwendeman, J. Comput. Phys. 216 (2006) 744; conservative cut-cell solver, 200 cells per unit.",
         run: free,
     },

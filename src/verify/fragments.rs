@@ -21,7 +21,7 @@ pub(super) const CASES: &[Case] = &[
         id: "materials_in_flow",
         title: "Materials in a strong flow",
         group: GROUP,
-        quick: true,
+        quick: false,
         source: "Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Table 1: the moduli.",
         run: materials,
     },
