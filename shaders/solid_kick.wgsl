@@ -4,12 +4,13 @@
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/system.wgsl"
+#include "shared/light_node.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
 @group(0) @binding(4) var<storage, read> pressure: array<f32>;
-@group(0) @binding(5) var<storage, read> work: array<vec4f>;        // second half: M^-1 (G Q + H h)
+@group(0) @binding(5) var<storage, read_write> work: array<vec4f>;  // second half: M^-1 (G Q + H h), then what light nodes leave
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> ghost: array<f32>;   // Q* before, Q - Q* after
 
@@ -23,6 +24,24 @@ fn solid_kick(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         node[slot] = vec4f(node[slot].xyz - control.dt * work[params.slots + slot].xyz, node[slot].w);
     }
     if has(word, VERTEX_SOLID) { ghost[slot] = pressure[ghost_index(slot)] - ghost[slot]; }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    var left = vec3f(0.0);
+    if has(cells[slot], NODE_SOLID) { left = -control.dt * share_left(slot) * work[params.slots + slot].xyz; }
+    work[params.slots + slot] = vec4f(left, 0.0);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solid_kick_share(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                    @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots || node[slot].w <= 0.0 || (DRIVEN && has(cells[slot], NODE_DRIVEN)) { return; }
+    node[slot] = vec4f(node[slot].xyz + gain_around(slot, block_size()), node[slot].w);
 }
 
 // Whether a particle may look at a vertex in this step: it is near enough to give one of the nodes around the vertex mass.

@@ -7,13 +7,14 @@
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
 #include "shared/given.wgsl"
+#include "shared/light_node.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> energy: array<f32>;    // second third: predicted pressure of gas cells
 @group(0) @binding(4) var<storage, read> ghost: array<f32>;
 @group(0) @binding(5) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(6) var<storage, read_write> work: array<vec4f>;  // first part: film pressure at vertices of walls, per axis across
+@group(0) @binding(6) var<storage, read_write> work: array<vec4f>;  // first part: film pressure at vertices of walls, per axis across; second: what light nodes leave
 @group(0) @binding(7) var<storage, read> extra: array<u32>;
 
 // How far along the wall the film looks for gas, in cells.
@@ -124,6 +125,22 @@ fn film_force(c: vec3i, count: u32) -> vec3f {
     return force * face_area();
 }
 
+// Velocity that the film gives to a node.
+fn film_kick(slot: u32) -> vec3f {
+    let count = select(0u, block_size(), has(cells[slot], NODE_FILM));
+    return -control.dt * film_force(cell_of(slot), count) / max(node[slot].w, params.mass_floor);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn film_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+             @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    var left = vec3f(0.0);
+    if has(cells[slot], NODE_FILM) && !(DRIVEN && has(cells[slot], NODE_DRIVEN)) { left = share_left(slot) * film_kick(slot); }
+    work[params.slots + slot] = vec4f(left, 0.0);
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn solid_predictor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
@@ -131,11 +148,9 @@ fn solid_predictor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
         let here = node[slot];
         if here.w <= 0.0 || (DRIVEN && has(cells[slot], NODE_DRIVEN)) { continue; }
-        let count = select(0u, block_size(), has(cells[slot], NODE_FILM));
-        let film = film_force(cell_of(slot), count) / max(here.w, params.mass_floor);
-        let v = here.xyz + control.dt * (params.gravity - film);
-        node[slot] = vec4f(v, here.w);
-        given += given_to(here.w, v - here.xyz, here.xyz, v);
+        let change = control.dt * params.gravity + film_kick(slot) + gain_around(slot, block_size());
+        node[slot] = vec4f(here.xyz + change, here.w);
+        given += given_to(here.w, change, here.xyz, here.xyz + change);
     }
     add_given(thread_index(group, groups, 0u) / WORKGROUP, lane, given, true);
 }

@@ -59,6 +59,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/grid_wall.wgsl",
     "shared/index.wgsl",
     "shared/interior.wgsl",
+    "shared/light_node.wgsl",
     "shared/limiter.wgsl",
     "shared/listed.wgsl",
     "shared/material.wgsl",

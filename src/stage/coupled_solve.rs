@@ -14,7 +14,8 @@ use crate::state::constants::Entry;
 pub struct CoupledSolve {
     /// The iteration.
     pub pcg: Pcg,
-    predictor: Option<[Bound; 2]>,
+    film: Vec<Bound>,
+    predictor: Vec<Bound>,
     masses: [Bound; 2],
     open: Bound,
     forces_of_pressure: [Bound; 2],
@@ -23,7 +24,7 @@ pub struct CoupledSolve {
     reference: Bound,
     forces: [Bound; 2],
     add: Bound,
-    kick: Option<[Bound; 2]>,
+    kick: Vec<Bound>,
 }
 
 /// Kernels over the vertices: right-hand side and diagonal, operator.
@@ -70,14 +71,14 @@ impl CoupledSolve {
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), state.params.groups, limits)?;
         let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
         let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
-        let optional = |shader: &str, entry: &str| -> Result<Option<Bound>> {
-            if state.has_solids() { state.bind(gpu, shader, entry, &[], &[]).map(Some) } else { Ok(None) }
+        let solid = |shader: &str, entries: &[&str]| -> Result<Vec<Bound>> {
+            let entries = if state.has_solids() { entries } else { &[] };
+            entries.iter().map(|entry| state.bind(gpu, shader, entry, &[], &[])).collect()
         };
         Ok(Self {
             pcg,
-            predictor: optional("solid_predictor.wgsl", "film_pressure")?
-                .zip(optional("solid_predictor.wgsl", "solid_predictor")?)
-                .map(Into::into),
+            film: solid("solid_predictor.wgsl", &["film_pressure", "film_left"])?,
+            predictor: solid("solid_predictor.wgsl", &["solid_predictor"])?,
             masses: setup("solve_masses")?,
             open: state.bind(gpu, "solve_open.wgsl", "solve_open", &[], &[("LISTED", 1.0)])?,
             forces_of_pressure: forces(state.pressure.raw())?,
@@ -86,18 +87,21 @@ impl CoupledSolve {
             reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
             add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[], &[])?,
-            kick: optional("solid_kick.wgsl", "solid_kick")?
-                .zip(optional("solid_kick.wgsl", "solid_kick_spread")?)
-                .map(Into::into),
+            kick: solid(
+                "solid_kick.wgsl",
+                &["solid_kick", "solid_kick_left", "solid_kick_share", "solid_kick_spread"],
+            )?,
         })
     }
 
     /// Masses, right-hand side and diagonal; opens the iteration. In a phase.
     pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("coupled_solve");
-        if let Some([film, predictor]) = &self.predictor {
-            pass.dispatch(film, &slots(state, phase));
-            pass.dispatch(predictor, &extent(state, phase, Entry::Reduce));
+        for kernel in &self.film {
+            pass.dispatch(kernel, &slots(state, phase));
+        }
+        for kernel in &self.predictor {
+            pass.dispatch(kernel, &extent(state, phase, Entry::Reduce));
         }
         pass.dispatch(&self.open, &extent(state, phase, Entry::Listed));
         record_both(pass, state, phase, &self.masses);
@@ -142,7 +146,7 @@ impl CoupledSolve {
     /// Pressure kick of the solid nodes, change of the ghost pressure.
     pub fn record_solid(&self, pass: &mut Pass, state: &State) {
         pass.stage("coupled_solve");
-        for kernel in self.kick.iter().flatten() {
+        for kernel in &self.kick {
             pass.dispatch(kernel, &slots(state, "UPDATE"));
         }
     }

@@ -17,19 +17,27 @@
 
 mod blast_2d;
 mod blasts;
+mod books;
 mod buoyancy;
+mod cylinders;
 mod document;
+mod drifting;
 mod explosions;
 mod forward_step;
+mod fragments;
 pub mod gasdynamics;
 mod jet;
 pub mod muscl;
+mod pistons;
 mod plane;
 mod plane_flows;
+mod plates;
 mod plot;
 mod profile;
 mod row;
 mod session;
+mod shells;
+mod solids;
 mod steady;
 mod table;
 mod tube_errors;
@@ -40,7 +48,7 @@ pub use document::{Head, html, json, markdown};
 pub use plot::{Plot, Style};
 pub use profile::Profile;
 pub use row::{Limit, Row, Solver, Verdict, short};
-pub use session::{Common, Findings, Integrator, Run, Session, Setting, Suite, pair_name};
+pub use session::{Common, Findings, Integrator, Journey, Run, Session, Setting, Suite, pair_name};
 pub use table::table;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -70,7 +78,9 @@ pub struct Case {
 pub fn cases() -> impl Iterator<Item = &'static Case> {
     let lines = [tubes::CASES, blasts::CASES, waves::CASES];
     let spaces = [blast_2d::CASES, explosions::CASES, forward_step::CASES, steady::CASES, jet::CASES];
-    lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES]).flatten()
+    let coupled = [plates::CASES, pistons::CASES, drifting::CASES, shells::CASES, cylinders::CASES, fragments::CASES];
+    let gas = lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES]);
+    gas.chain(coupled).chain([solids::CASES]).flatten()
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.

@@ -1,6 +1,7 @@
 //! Bodies in thin gas against mechanics: spin, fall, collision.
 
 use brisance::bodies::BodyState;
+use brisance::expect::Budget;
 use brisance::gpu::Gpu;
 use brisance::scene::Scene;
 use brisance::simulation::Simulation;
@@ -91,4 +92,26 @@ fn two_bars_exchange_their_velocities() {
     let momentum = after.iter().map(|body| body.mass * body.velocity[0]).sum::<f64>();
     assert!(momentum.abs() < 1e-4, "{momentum}");
     assert!(speed(&after[0]) < -0.36 && speed(&after[1]) > 0.36, "{} {}", speed(&after[0]), speed(&after[1]));
+}
+
+/// Nodes lighter than the mass floor of the solve must not keep momentum for themselves: gas, solids and walls hold all of it.
+#[test]
+fn momentum_of_gas_solids_and_walls_closes() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let text = format!(
+        "title = \"t\"\n[time]\nuntil = 0.1\n[domain]\ndimension = 2\ncells = [24, 24]\nsize = [1.0, 1.0]\n\
+         [gas]\nambient = {{ density = 1.4, pressure = 1.0 }}\n\
+         [[gas.regions]]\nshape = {{ half_space = {{ point = [0.3, 0.0], normal = [1.0, 0.0] }} }}\n\
+         density = 5.4\nvelocity = [2.2, 0.0]\npressure = 10.0\n{RUBBER}[[bodies]]\nname = \"disc\"\n\
+         material = \"rubber\"\ndensity = 10.0\nshape = {{ sphere = {{ center = [0.5, 0.47], radius = 0.12 }} }}\n"
+    );
+    let scene = Scene::parse(&text, "test.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap_or_else(|error| panic!("{error}"));
+    let start = Budget::read(&simulation, &scene, 0.0).unwrap();
+    simulation.advance_to(scene.time.until).unwrap_or_else(|error| panic!("{error}"));
+    let end = Budget::read(&simulation, &scene, 0.0).unwrap();
+    let body = &simulation.snapshot().unwrap().bodies(1)[0];
+    let gap = (end.momentum[0] - start.momentum[0]).hypot(end.momentum[1] - start.momentum[1]);
+    assert!(body.velocity[0] > 0.2, "{:?}", body.velocity);
+    assert!(gap < 1e-4 * body.mass * body.velocity[0], "{gap:e} of {:e}", body.mass * body.velocity[0]);
 }

@@ -1,0 +1,139 @@
+//! What coupled cases measure: how bodies move, and whether mass, momentum and energy close.
+
+use super::plot::{Plot, Style};
+use super::row::Limit;
+use super::session::{Journey, Session};
+use crate::bodies::BodyState;
+use crate::snapshot::{ParticleSample, Snapshot};
+
+/// Who demands closed books.
+const LAW: &str = "conservation law";
+/// Why momentum across a wall does not close.
+const FILM: &str = "the film between a body and a wall pushes both; what the wall takes is not in the books yet";
+
+/// A place and a velocity that are known at a time \[s, m, m/s\].
+pub(super) type Station = [f64; 3];
+
+impl Journey {
+    /// Time and state of a body at the start and at each stop.
+    pub(super) fn path(&self, body: usize) -> Vec<(f64, BodyState)> {
+        let count = self.run.scene.bodies.len();
+        let states = self.stops.iter().map(|stop| (stop.time, stop.bodies(count).swap_remove(body)));
+        states.collect()
+    }
+
+    /// Momentum that the particles got, one by one, at the stop where it was most \[kg m/s\].
+    fn exchanged(&self) -> f64 {
+        let start = &self.stops[0].particles;
+        let got = |stop: &Snapshot| {
+            let pairs = stop.particles.iter().zip(start);
+            let change = |k: usize, (now, then): (&ParticleSample, &ParticleSample)| {
+                f64::from(now.velocity[k] - then.velocity[k]).powi(2)
+            };
+            pairs.map(|pair| f64::from(pair.0.mass) * (0..3).map(|k| change(k, pair)).sum::<f64>().sqrt()).sum::<f64>()
+        };
+        self.stops.iter().map(got).fold(0.0, f64::max)
+    }
+
+    /// What is missing from the momentum of gas, solids and walls \[kg m/s\].
+    /// `weights` of x and y; z is not weighed.
+    fn momentum_gap(&self, weights: [f64; 2]) -> f64 {
+        let [start, end] = &self.books;
+        let gap = |axis: usize, weight: f64| (weight * (end.momentum[axis] - start.momentum[axis])).powi(2);
+        (gap(0, weights[0]) + gap(1, weights[1]) + gap(2, 1.0)).sqrt()
+    }
+
+    /// Relative change of energy, with what has crossed the sides.
+    pub(super) fn energy_drift(&self) -> f64 {
+        self.books[1].drift_since(&self.books[0])["energy"]
+    }
+}
+
+/// Rows on mass, momentum, energy and solver of a coupled run; the momentum is compared with what the solids got.
+pub(super) fn report(session: &mut Session<'_>, journey: &Journey, energy: Option<f64>) {
+    report_against(session, journey, energy, [1.0, 1.0], journey.exchanged());
+}
+
+/// As [`report`], for a body that lies on a wall across y: along y the film between them pushes, and the books do not know it.
+pub(super) fn report_on_floor(session: &mut Session<'_>, journey: &Journey) {
+    report_against(session, journey, None, [1.0, 0.0], journey.exchanged());
+    let row = session.check(
+        &journey.run,
+        "momentum missing along y, over that exchanged",
+        journey.momentum_gap([0.0, 1.0]) / journey.exchanged(),
+    );
+    row.source(LAW).pass(Limit::AtMost(1e-4)).known(Limit::AtMost(0.15), FILM);
+}
+
+/// As [`report`], with the momentum compared with an impulse \[kg m/s\].
+/// `axes` weigh what is missing along x and y.
+pub(super) fn report_against(
+    session: &mut Session<'_>,
+    journey: &Journey,
+    energy: Option<f64>,
+    axes: [f64; 2],
+    impulse: f64,
+) {
+    let run = &journey.run;
+    let drift = journey.books[1].drift_since(&journey.books[0]);
+    session.check(run, "gas mass, drift", drift["gas_mass"].abs()).source(LAW).pass(Limit::AtMost(1e-6));
+    let row = session.check(run, "momentum missing, over that exchanged", journey.momentum_gap(axes) / impulse);
+    row.source(LAW).pass(Limit::AtMost(1e-4));
+    let row = session.check(run, "energy, drift", journey.energy_drift());
+    row.source(LAW);
+    if let Some(most) = energy {
+        row.pass(Limit::Between(-most, most));
+    }
+    session.check(run, "PCG iterations per step, mean", run.solver.mean_iterations).source("method");
+}
+
+/// How far displacement and velocity of the first body may be from those of a table, as a share of each \[1\].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gates {
+    /// Share of the displacement.
+    pub place: f64,
+    /// Share of the velocity.
+    pub velocity: f64,
+}
+
+/// Rows on the displacement along x of the first body: the last entry of a table, and the worst of all.
+pub(super) fn report_motion(
+    session: &mut Session<'_>,
+    journey: &Journey,
+    source: &str,
+    table: &[Station],
+    gates: Option<Gates>,
+) {
+    let path = journey.path(0);
+    let start = path[0].1.centroid[0];
+    let mut worst = [0.0_f64; 2];
+    for (time, place, velocity) in table.iter().map(|[t, x, v]| (*t, *x, *v)) {
+        let Some((_, body)) = path.iter().find(|(at, _)| (at - time).abs() < 1e-6 * time) else { continue };
+        let ours = [body.centroid[0] - start, body.velocity[0]];
+        let errors = [(ours[0] / place - 1.0).abs(), (ours[1] / velocity - 1.0).abs()];
+        worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];
+        if Some(&[time, place, velocity]) == table.last() {
+            session.check(&journey.run, &format!("displacement at {time}"), ours[0]).reference(place, source);
+            session.check(&journey.run, &format!("velocity at {time}"), ours[1]).reference(velocity, source);
+        }
+    }
+    let count = table.len();
+    let names = [("displacement", gates.map(|gates| gates.place)), ("velocity", gates.map(|gates| gates.velocity))];
+    for ((name, gate), error) in names.into_iter().zip(worst) {
+        let row = session.check(&journey.run, &format!("{name}, largest relative error of {count} times"), error);
+        row.source(source);
+        if let Some(gate) = gate {
+            row.pass(Limit::AtMost(gate));
+        }
+    }
+}
+
+/// Displacement of the first body over time, ours and that of a table.
+pub(super) fn motion_plot(journey: &Journey, source: &str, table: &[Station]) -> Plot {
+    let path = journey.path(0);
+    let start = path[0].1.centroid[0];
+    let ours = path.iter().map(|(time, body)| [*time, body.centroid[0] - start]).collect();
+    Plot::new(format!("{}: displacement", journey.run.scene.title), "time", "displacement")
+        .with(source, Style::Reference, table.iter().map(|[time, place, _]| [*time, *place]).collect())
+        .with(journey.run.label.clone(), Style::Marks, ours)
+}

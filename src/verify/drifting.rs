@@ -1,0 +1,101 @@
+//! What must not happen: bodies at rest, or drifting with the gas, in a uniform state.
+
+use super::Case;
+use super::row::Limit;
+use super::session::{Journey, Session, Setting, Suite};
+use crate::Result;
+use crate::snapshot::kind;
+
+/// Heading of all 2D and 3D cases with bodies.
+pub(super) const GROUP: &str = "Coupling in 2D and 3D";
+
+/// The cases of this module.
+pub(super) const CASES: &[Case] = &[
+    Case {
+        id: "slab_at_rest",
+        title: "Slab at rest",
+        group: super::plates::GROUP,
+        quick: true,
+        source: "Exact: a uniform state stays.",
+        run: |session| rest(session, "coupled/slab_at_rest.toml", [0.7, 13.2]),
+    },
+    Case {
+        id: "shell_at_rest",
+        title: "Shell at rest",
+        group: GROUP,
+        quick: true,
+        source: "Exact: a uniform state stays; Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Fig. 13.",
+        run: |session| rest(session, "coupled/shell_at_rest.toml", [2.0, 26.4]),
+    },
+    Case {
+        id: "translation",
+        title: "Disc that drifts with the gas",
+        group: GROUP,
+        quick: true,
+        source: "Exact; L. Monasse et al., J. Comput. Phys. 231 (2012) 2977, demand it.",
+        run: translation,
+    },
+];
+
+/// Largest speed over that of sound in the first and in the second half of a run, until the first end in the quick suite and the second in
+/// the full one, 1000 steps.
+fn rest(session: &mut Session<'_>, path: &str, ends: [f64; 2]) -> Result<()> {
+    let until = ends[usize::from(session.suite == Suite::Full)];
+    let journey = session.follow(path, Setting::standard(0), &[], [0.5 * until, until])?;
+    let sound = journey.run.scene.gas.ambient.sound_speed(journey.run.scene.gas.gamma);
+    let half = journey.run.records.iter().filter(|record| record.time <= 0.5 * until).count();
+    let most = |records: &[crate::diagnostics::StepRecord]| {
+        let speeds = records.iter().map(|record| f64::from(record.gas_speed.max(record.solid_speed)));
+        speeds.fold(0.0, f64::max) / sound
+    };
+    let parts = [most(&journey.run.records[..half]), most(&journey.run.records[half..])];
+    let row = session.check(&journey.run, "largest speed over that of sound", parts[0].max(parts[1]));
+    row.reference(0.0, "exact").pass(Limit::AtMost(1e-3)).good(Limit::AtMost(1e-6));
+    // the quick suite is too short to tell noise from growth; the largest of some hundred noisy steps scatters by a half
+    let full = session.suite == Suite::Full;
+    let row = session.check(&journey.run, "second half of the steps over the first", parts[1] / parts[0]);
+    row.source("no growth");
+    if full {
+        row.pass(Limit::AtMost(1.5));
+    }
+    books_at_rest(session, &journey);
+    Ok(())
+}
+
+/// Books where nothing is exchanged: the gap of the momentum has nothing to be compared with but mass times speed of sound.
+fn books_at_rest(session: &mut Session<'_>, journey: &Journey) {
+    let [start, end] = &journey.books;
+    let drift = end.drift_since(start);
+    let run = &journey.run;
+    for (name, most) in [("gas_mass", 1e-6), ("energy", 3e-5)] {
+        let quantity = format!("{}, drift", name.replace('_', " "));
+        session.check(run, &quantity, drift[name].abs()).source("conservation law").pass(Limit::AtMost(most));
+    }
+    session.check(run, "PCG iterations per step, mean", run.solver.mean_iterations).source("method");
+}
+
+/// Why the pressure changes.
+const COVERED: &str =
+    "cells that the body covers or leaves are gas or solid as a whole, and their gas is settled over some steps";
+
+fn translation(session: &mut Session<'_>) -> Result<()> {
+    let cells: &[u32] = if session.suite == Suite::Quick { &[60] } else { &[60, 120] };
+    for &cells in cells {
+        let path = "validation/translation.toml";
+        let journey = session.follow(path, Setting::standard(cells), &[], [0.85, 1.7])?;
+        let run = &journey.run;
+        let gas = |stop: &crate::snapshot::Snapshot| {
+            let cells = stop.kind.iter().zip(&stop.pressure).filter(|(kind, _)| **kind == kind::GAS);
+            cells.map(|(_, p)| (f64::from(*p) - 1.0).abs()).fold(0.0, f64::max)
+        };
+        let row = session.check(run, "pressure, largest change after 20 cells", gas(&run.snapshot));
+        row.reference(0.0, "exact").pass(Limit::AtMost(1e-2)).known(Limit::AtMost(0.1), COVERED);
+        let history = run.records.iter().map(|record| (record.pressure[1] - 1.0).max(1.0 - record.pressure[0]));
+        session.check(run, "pressure, largest change of all steps", history.fold(0.0, f32::max).into()).source("exact");
+        let (_, body) = journey.path(0).swap_remove(2);
+        let off = (body.centroid[0] - 1.45).hypot(body.centroid[1] - 0.5) / run.scene.domain.spacing();
+        session.check(run, "centre, cells off its place", off).source("exact").pass(Limit::AtMost(0.1));
+        books_at_rest(session, &journey);
+    }
+    Ok(())
+}

@@ -1,0 +1,112 @@
+//! Exploding shells: the hardest case for the books of energy.
+
+use super::Case;
+use super::books;
+use super::drifting::GROUP;
+use super::plot::{Plot, Style};
+use super::row::Limit;
+use super::session::{Journey, Run, Session, Setting, Suite};
+use crate::Result;
+
+/// The cases of this module.
+pub(super) const CASES: &[Case] = &[Case {
+    id: "exploding_shell",
+    title: "Exploding soft shell",
+    group: GROUP,
+    quick: true,
+    source: "Conservation laws and symmetry; after Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Fig. 3.",
+    run: shells,
+}];
+
+/// A variant: its name, what differs from the scene, the energy it may lose, and how many iterations a step may take on average.
+struct Shell {
+    name: &'static str,
+    overrides: &'static [&'static str],
+    energy: f64,
+}
+
+const SHELLS: [Shell; 5] = [
+    Shell { name: "base", overrides: &[], energy: 0.015 },
+    Shell { name: "light", overrides: &["bodies[0].density=1.0"], energy: 0.04 },
+    Shell { name: "stiff", overrides: &["materials.rubber.neo_hookean.young_modulus=1e4"], energy: 0.015 },
+    Shell { name: "tearing", overrides: &["materials.rubber.neo_hookean.young_modulus=10.0"], energy: 0.04 },
+    Shell { name: "hot", overrides: &["gas.regions[0].density=10.0", "gas.regions[0].pressure=100.0"], energy: 0.06 },
+];
+
+/// Why the hot shell loses energy.
+const TRANSFERS: &str = "transfers between particles and grid and elastic sub-steps damp the torn ring";
+/// Why the hot shell leaves the middle.
+const TORN: &str = "the ring tears; rounding decides which fragment goes first";
+
+const PATH: &str = "validation/exploding_shell.toml";
+/// Stops of a run.
+const TIMES: [f64; 7] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35];
+
+fn shells(session: &mut Session<'_>) -> Result<()> {
+    let quick = session.suite == Suite::Quick;
+    let cells = if quick { 64 } else { 96 };
+    let mut plot = Plot::new("Exploding shells: radius of the ring", "time", "mean radius");
+    for shell in SHELLS.iter().filter(|shell| !quick || shell.name == "base") {
+        let overrides: Vec<String> = shell.overrides.iter().map(|&text| text.to_owned()).collect();
+        let mut journey = session.follow(PATH, Setting::standard(cells), &overrides, TIMES)?;
+        journey.run.label = format!("{} {}", journey.run.label, shell.name);
+        report(session, &journey, shell);
+        plot = plot.with(shell.name, Style::Both, radii(&journey));
+    }
+    session.plot(plot);
+    twice(session)
+}
+
+fn report(session: &mut Session<'_>, journey: &Journey, shell: &Shell) {
+    books::report(session, journey, None);
+    let row = session.check(&journey.run, "energy, drift, goal", journey.energy_drift());
+    row.source("conservation law").pass(Limit::Between(-shell.energy, shell.energy));
+    if shell.name == "hot" {
+        row.known(Limit::Between(-0.16, 0.16), TRANSFERS);
+    }
+    let (_, body) = journey.path(0).swap_remove(TIMES.len());
+    let run = &journey.run;
+    let row = session.check(run, "PCG iterations per step, mean, goal", run.solver.mean_iterations);
+    row.source("default rules").pass(Limit::AtMost(12.0));
+    let off = (body.centroid[0] - 0.5).hypot(body.centroid[1] - 0.5);
+    let row = session.check(run, "centre of mass, off the middle", off).source("symmetry").pass(Limit::AtMost(1e-3));
+    if shell.name == "hot" {
+        row.known(Limit::AtMost(2e-2), TORN);
+    }
+    session.check(run, "pieces", body.pieces.into()).source("method");
+    session.check(run, "cells where the energy floor acted", run.summary.floored as f64).source("method");
+    let ratios = run.snapshot.particles.iter().map(|particle| f64::from(particle.volume_ratio()));
+    let [low, high] = ratios.fold([f64::NAN; 2], |[low, high], ratio| [low.min(ratio), high.max(ratio)]);
+    session.check(run, "least volume ratio of a particle", low).source("method").pass(Limit::Above(0.0));
+    session.check(run, "largest volume ratio of a particle", high).source("method");
+}
+
+/// Mean distance of the particles from the middle.
+fn radii(journey: &Journey) -> Vec<[f64; 2]> {
+    let mean = |stop: &crate::snapshot::Snapshot| {
+        let distances =
+            stop.particles.iter().map(|p| f64::from(p.position[0] - 0.5).hypot(f64::from(p.position[1] - 0.5)));
+        distances.sum::<f64>() / stop.particles.len() as f64
+    };
+    journey.stops.iter().map(|stop| [stop.time, mean(stop)]).collect()
+}
+
+/// Two runs must leave the same bits in every cell and particle.
+fn twice(session: &mut Session<'_>) -> Result<()> {
+    let short = ["time.until=0.1".to_owned()];
+    let mut runs = Vec::new();
+    for _ in 0..2 {
+        runs.push(session.run(PATH, Setting::standard(64), &short)?);
+    }
+    let bits = |run: &Run| {
+        let state = &run.snapshot;
+        let floats = state.velocity.iter().flatten().chain(&state.density).chain(&state.energy);
+        let particles = state.particles.iter().flat_map(|p| p.position.into_iter().chain(p.velocity));
+        floats.copied().chain(particles).map(f32::to_bits).collect::<Vec<_>>()
+    };
+    let pairs = bits(&runs[0]).into_iter().zip(bits(&runs[1]));
+    let differ = pairs.filter(|(one, other)| one != other).count() as f64;
+    let row = session.check(&runs[0], "values that differ between two runs", differ);
+    row.reference(0.0, "method").pass(Limit::AtMost(0.0));
+    Ok(())
+}
