@@ -130,6 +130,18 @@ fn store_deformation(p: u32, f: mat3x3f) {
     deformation[3u * p + 2u] = vec4f(f[2], 0.0);
 }
 
+// Shared volume: the ghost pressure goes to what the volumetric part of the law says, as fast as an elastic wave passes this many cells.
+const RELAXED_CELLS = 10.0;
+
+fn relaxation(p: u32, q: f32, f: mat3x3f, material: MaterialParams, time: f32) -> f32 {
+    var volumetric = material;
+    volumetric.mu = 0.0;
+    let tau = kirchhoff_stress(material.kind, f, volumetric);
+    let swollen = params.ambient_pressure - (tau[0].x + tau[1].y + tau[2].z) / (3.0 * determinant(f));
+    let speed = wave_speed(material.kind, material, position[p].w / velocity[p].w);
+    return (1.0 - exp(-time * speed / (RELAXED_CELLS * params.spacing))) * (swollen - q);
+}
+
 // Moves a particle with velocity v; `trial` is its deformation gradient before plastic flow, `stored` where it is in memory already.
 // Returns false after a fault.
 fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
@@ -143,6 +155,7 @@ fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
         return false;
     }
     affine[3u * p].w += ghost_change(x) / f32(control.substeps);
+    if SHARED_VOLUME { affine[3u * p].w += relaxation(p, affine[3u * p].w, f, material, time); }
     x += time * v;
     let inside_domain = keep_inside(&x);
     if !inside_domain {
@@ -150,7 +163,7 @@ fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
         deformation[3u * p + 1u].w = 0.0;
     }
     position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
-    let tau = kirchhoff_stress(material.kind, f, material) * velocity[p].w;
+    let tau = kirchhoff_stress(material.kind, f, elastic_part(material)) * velocity[p].w;
     if returned.plastic_strain > 0.0 { affine[3u * p + 1u].w += returned.plastic_strain; }
     if !stored || returned.plastic_strain > 0.0 { store_deformation(p, f); }
     stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, 0.0);

@@ -6,8 +6,8 @@ use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::{ParticleSample, Snapshot};
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, FluidUpdate, G2p, GasAdvection, InterfaceStage, IntermediatePressure,
-    MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, TimeStep, Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, ElasticOrder, FluidUpdate, G2p, GasAdvection, InterfaceStage,
+    IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::{self, NO_FAULT, STAGES};
 use crate::state::{Control, HISTORY, State};
@@ -25,6 +25,7 @@ pub struct Simulation {
     carrier: CarrierVelocity,
     gas_advection: GasAdvection,
     intermediate_pressure: IntermediatePressure,
+    elastic_order: Option<ElasticOrder>,
     coupled_solve: CoupledSolve,
     fluid_update: FluidUpdate,
     mpm_grid_update: Option<MpmGridUpdate>,
@@ -60,7 +61,7 @@ impl Simulation {
             scene::Transfer::Auto if gpu.is_software() => Transfer::Gather,
             scene::Transfer::Auto => Transfer::Scatter,
         };
-        let coupled_solve = CoupledSolve::new(parts)?;
+        let coupled_solve = CoupledSolve::new(parts, scene.numerics.solid_update)?;
         let simulation = Simulation {
             time_step: TimeStep::new(parts, coupled_solve.pcg.control.raw())?,
             particle_sort: solids.then(|| ParticleSort::new(parts)).transpose()?,
@@ -69,6 +70,7 @@ impl Simulation {
             carrier: CarrierVelocity::new(parts, scene.consistent())?,
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
+            elastic_order: ElasticOrder::new(parts, scene)?,
             coupled_solve,
             fluid_update: FluidUpdate::new(parts)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
@@ -103,6 +105,10 @@ impl Simulation {
         if let (Some(particle_sort), Some(p2g)) = (&self.particle_sort, &self.p2g) {
             particle_sort.record(pass, state, "BEGIN");
             p2g.record(pass, state); // (1) particles to grid
+            if let Some(elastic_order) = &self.elastic_order {
+                p2g.record_force(pass, state);
+                elastic_order.record_start(pass, state);
+            }
         }
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
         self.time_step.record_listed(pass);
@@ -117,6 +123,9 @@ impl Simulation {
             self.record_pressure(pass, "SECOND");
         }
         self.coupled_solve.record_solid(pass, state); // eq. 36
+        if let Some(elastic_order) = &self.elastic_order {
+            elastic_order.record_after(pass, state);
+        }
         for substep in 0..self.recorded.1 {
             self.record_substep(pass, substep);
         }
@@ -140,6 +149,9 @@ impl Simulation {
             self.carrier.record(pass, state, Carried::Star, phase);
         }
         self.intermediate_pressure.record(pass, state, phase); // (4) eqs. 9 and 17
+        if let Some(elastic_order) = &self.elastic_order {
+            elastic_order.record_before(pass, state, phase);
+        }
         self.coupled_solve.record_setup(pass, state, phase);
         self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
         self.time_step.record_solved(pass);
@@ -153,12 +165,20 @@ impl Simulation {
         self.time_step.record_substep(pass);
         let stages = (&self.particle_sort, &self.p2g, &self.mpm_grid_update, &self.g2p);
         let (Some(particle_sort), Some(p2g), Some(mpm_grid_update), Some(g2p)) = stages else { return };
-        if recorded == 0 {
-            p2g.record_substep(pass, state, true);
+        let elastic_order = self.elastic_order.as_ref();
+        if elastic_order.is_none_or(ElasticOrder::has_substeps) {
+            if recorded == 0 {
+                p2g.record_substep(pass, state, true);
+            }
+            particle_sort.record(pass, state, "AGAIN");
+            p2g.record_substep(pass, state, false);
         }
-        particle_sort.record(pass, state, "AGAIN");
-        p2g.record_substep(pass, state, false);
-        mpm_grid_update.record(pass, state); // (6) elasticity, walls
+        if let Some(elastic_order) = elastic_order {
+            elastic_order.record_substep(pass, state);
+        }
+        if elastic_order.is_none_or(ElasticOrder::has_substeps) {
+            mpm_grid_update.record(pass, state); // (6) elasticity, walls
+        }
         g2p.record(pass, state); // (7) grid to particles
     }
 

@@ -11,6 +11,13 @@ struct MaterialParams {
     friction: f32,      // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
 }
 
+// What the law says of the stress of a body: all, or with a shared volume its shear part alone.
+fn elastic_part(m: MaterialParams) -> MaterialParams {
+    var part = m;
+    if SHARED_VOLUME { part.lambda = 0.0; }
+    return part;
+}
+
 // What plastic flow leaves of a deformation gradient.
 struct PlasticReturn {
     deformation: mat3x3f,  // the elastic part

@@ -9,6 +9,7 @@ mod boundary;
 mod check;
 mod check_boundary;
 mod check_shape;
+mod coupling;
 mod cut;
 mod distance;
 mod fill;
@@ -38,12 +39,13 @@ pub use boundary::{
     TimedState,
 };
 pub use check_boundary::MAX_OPENINGS;
+pub use coupling::{Coupling, Ghost, Power, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};
 pub use polyhedron::Part;
 pub use settings::{
-    Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Obstacles, Output, Pair, Power,
+    Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Obstacles, Output, Pair,
     RenderMode, RenderSettings, Time, Transfer,
 };
 pub use shape::Shape;
