@@ -6,6 +6,22 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::source::Finding;
 
+/// Pressure unknowns where gas and solid meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InterfacePressure {
+    /// One pressure where the solid is resolved, three (gas, solid, interface) at fragments.
+    Resolved,
+    /// Gas, solid and interface pressure at every touched vertex: the paper's form.
+    H,
+    /// One pressure everywhere.
+    Single,
+    /// `h` with `numerics.ghost = "shared_volume"`, where the stress of the solid bears a part of the gas pressure and so the
+    /// ghost pressure differs from it; else `resolved`.
+    #[default]
+    Auto,
+}
+
 /// Velocity in the power that the gas gives to bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -55,6 +71,16 @@ pub enum Ghost {
 }
 
 impl Scene {
+    /// The pressure unknowns of this scene, never [`InterfacePressure::Auto`].
+    #[must_use]
+    pub fn interface_pressure(&self) -> InterfacePressure {
+        match (self.numerics.interface, self.numerics.ghost) {
+            (InterfacePressure::Auto, Ghost::SharedVolume) => InterfacePressure::H,
+            (InterfacePressure::Auto, Ghost::Absorbs) => InterfacePressure::Resolved,
+            (chosen, _) => chosen,
+        }
+    }
+
     /// Whether the gas pays bodies with the mean of their velocities before and after the solve.
     #[must_use]
     pub fn midpoint_power(&self) -> bool {
@@ -103,7 +129,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Ghost, Power};
+    use super::{Ghost, InterfacePressure, Power};
     use crate::scene::Scene;
 
     fn slab(keys: &[&str]) -> crate::Result<Scene> {
@@ -130,6 +156,9 @@ mod tests {
         assert!(!slab(&["ghost=shared_volume"]).unwrap().midpoint_power());
         assert!(!slab(&["power=end"]).unwrap().midpoint_power());
         assert!(slab(&["power=midpoint"]).unwrap().midpoint_power());
+        assert_eq!(plain.interface_pressure(), InterfacePressure::Resolved);
+        assert_eq!(slab(&["ghost=shared_volume"]).unwrap().interface_pressure(), InterfacePressure::H);
+        assert_eq!(slab(&["interface=single"]).unwrap().interface_pressure(), InterfacePressure::Single);
         assert_eq!(slab(&["coupling=last"]).unwrap().max_substeps(), 1);
     }
 }

@@ -39,14 +39,14 @@ pub use boundary::{
     TimedState,
 };
 pub use check_boundary::MAX_OPENINGS;
-pub use coupling::{Coupling, Ghost, Power, SolidUpdate};
+pub use coupling::{Coupling, Ghost, InterfacePressure, Power, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};
 pub use polyhedron::Part;
 pub use settings::{
-    Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Obstacles, Output, Pair,
-    RenderMode, RenderSettings, Time, Transfer,
+    Camera, Colormap, Expect, ExpectedBody, Field, Film, Numerics, Obstacles, Output, Pair, RenderMode, RenderSettings,
+    Time, Transfer,
 };
 pub use shape::Shape;
 pub use vortex::Vortex;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Coupling, FaceVelocity, Ghost, Integrator, Power, SolidUpdate, vector};
+use super::{Coupling, FaceVelocity, Ghost, Integrator, InterfacePressure, Power, SolidUpdate, vector};
 
 /// How long, and how finely in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -139,19 +139,6 @@ pub enum Obstacles {
     /// `cut` where that is possible, else `cells`.
     #[default]
     Auto,
-}
-
-/// Pressure unknowns where gas and solid meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum InterfacePressure {
-    /// One pressure where the solid is resolved, three (gas, solid, interface) at fragments.
-    #[default]
-    Resolved,
-    /// Gas, solid and interface pressure at every touched vertex: the paper's form.
-    H,
-    /// One pressure everywhere.
-    Single,
 }
 
 /// Pressure of the gas film between a body and a wall of the domain.

@@ -193,8 +193,8 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
             "INTERFACE",
-            match numerics.interface {
-                InterfacePressure::Resolved => 0.0,
+            match scene.interface_pressure() {
+                InterfacePressure::Resolved | InterfacePressure::Auto => 0.0,
                 InterfacePressure::H => 1.0,
                 InterfacePressure::Single => 2.0,
             },

@@ -15,6 +15,7 @@
 //! }
 //! ```
 
+mod ablations;
 mod blast_2d;
 mod blasts;
 mod buoyancy;
@@ -70,7 +71,7 @@ pub struct Case {
 pub fn cases() -> impl Iterator<Item = &'static Case> {
     let lines = [tubes::CASES, blasts::CASES, waves::CASES];
     let spaces = [blast_2d::CASES, explosions::CASES, forward_step::CASES, steady::CASES, jet::CASES];
-    lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES]).flatten()
+    lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES, ablations::CASES]).flatten()
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.

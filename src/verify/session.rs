@@ -278,13 +278,25 @@ impl<'a> Session<'a> {
     }
 }
 
+/// Fastest wave of the ghost pressure in any body, sqrt(lambda / rho); 0 without bodies.
+fn ghost_speed(scene: &Scene) -> f64 {
+    let speeds = scene.bodies.iter().filter_map(|body| {
+        let material = scene.materials.get(&body.material)?;
+        Some((material.lambda() / body.density).sqrt())
+    });
+    speeds.fold(0.0, f64::max)
+}
+
 impl Run {
     fn new(scene: Scene, snapshot: Snapshot, records: Vec<StepRecord>, label: String) -> Self {
         let mut summary = Summary::default();
         summary.add(&records);
         let bound = |courant: f64| iteration_bound(scene.domain.dimension, courant, scene.numerics.tolerance);
-        let courant = records.iter().map(|record| f64::from(record.courant)).fold(0.0, f64::max);
-        let load = records.iter().map(|record| f64::from(record.iterations) / bound(record.courant.into()));
+        // bodies whose ghost pressure is faster than the sound of the gas set the condition of the system
+        let ghost = ghost_speed(&scene) / scene.domain.spacing();
+        let courant_of = |record: &StepRecord| f64::from(record.courant).max(ghost * f64::from(record.dt));
+        let courant = records.iter().map(courant_of).fold(0.0, f64::max);
+        let load = records.iter().map(|record| f64::from(record.iterations) / bound(courant_of(record)));
         let solver_load = load.fold(0.0, f64::max);
         let solver = Solver {
             steps: summary.steps,

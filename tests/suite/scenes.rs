@@ -62,6 +62,9 @@ scenes! {
     hot_bubble: "validation/hot_bubble.toml", "domain.cells=[20, 40]", "time.until=20.0";
     kelvin_helmholtz: "gas/kelvin_helmholtz.toml", "domain.cells=[48, 48]", "time.until=0.5";
     mach_diamond_of_the_paper: "paper/mach_diamond.toml", "domain.cells=[48, 48]", "time.until=0.5";
+    static_load: "validation/static_load.toml";
+    blasted_ellipse: "paper/blasted_ellipse.toml", "domain.cells=[32, 32]";
+    supernova_2d: "paper/supernova_2d.toml", "domain.cells=[40, 16]";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";
     shell_at_rest: "coupled/shell_at_rest.toml";

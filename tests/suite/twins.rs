@@ -54,8 +54,8 @@ fn problem_of(scene: &Scene) -> Problem {
         Pair::B2b1 => twin::Pair::B2b1,
         Pair::B1b0 => twin::Pair::B1b0,
     };
-    problem.numerics.shared = match scene.numerics.interface {
-        InterfacePressure::Resolved => Shared::Resolved,
+    problem.numerics.shared = match scene.interface_pressure() {
+        InterfacePressure::Resolved | InterfacePressure::Auto => Shared::Resolved,
         InterfacePressure::H => Shared::H,
         InterfacePressure::Single => Shared::Single,
     };
