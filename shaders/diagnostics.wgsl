@@ -81,7 +81,7 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
         let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
         let q = affine[3u * p].w;
         body += mass * vec4f(1.0, v);
-        heat += vec4f(0.5 * mass * dot(v, v), velocity[p].w * elastic_energy(material.kind, f, elastic_part(material)),
+        heat += vec4f(0.5 * mass * dot(v, v), velocity[p].w * elastic_energy(material.kind, f, elastic_part(material, SHARED_VOLUME)),
             velocity[p].w * 0.5 * q * q / material.ghost_modulus, 0.0);
         speed = max(speed, length(v));
     }

@@ -163,7 +163,7 @@ fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
         deformation[3u * p + 1u].w = 0.0;
     }
     position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
-    let tau = kirchhoff_stress(material.kind, f, elastic_part(material)) * velocity[p].w;
+    let tau = kirchhoff_stress(material.kind, f, elastic_part(material, SHARED_VOLUME)) * velocity[p].w;
     if returned.plastic_strain > 0.0 { affine[3u * p + 1u].w += returned.plastic_strain; }
     if !stored || returned.plastic_strain > 0.0 { store_deformation(p, f); }
     stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, 0.0);

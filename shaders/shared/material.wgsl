@@ -11,10 +11,10 @@ struct MaterialParams {
     friction: f32,      // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
 }
 
-// What the law says of the stress of a body: all, or with a shared volume its shear part alone.
-fn elastic_part(m: MaterialParams) -> MaterialParams {
+// A law, or what is left of it where the ghost pressure has its volumetric part.
+fn elastic_part(m: MaterialParams, without_volume: bool) -> MaterialParams {
     var part = m;
-    if SHARED_VOLUME { part.lambda = 0.0; }
+    if without_volume { part.lambda = 0.0; }
     return part;
 }
 
