@@ -172,7 +172,7 @@ fn quiet_shell(session: &mut Session<'_>) -> Result<()> {
         let mut all = numerics(keys);
         all.push(format!("materials.rubber.neo_hookean.young_modulus={young:?}"));
         // about as many elastic sub-steps for both
-        all.push(format!("time.until={}", if young > 1e3 { 1.5 } else { 6.0 }));
+        all.push(format!("time.until={}", if young > 1e3 || session.suite == Suite::Quick { 1.5 } else { 6.0 }));
         let run = session.run("coupled/shell_at_rest.toml", Setting::standard(32), &all)?;
         let name = format!("{}, E {young}", keys.join(" "));
         let row = session.check(&run, &format!("largest speed of the gas, {name}"), run.summary.max_speed);
@@ -190,7 +190,7 @@ fn blasted_ellipse(session: &mut Session<'_>) -> Result<()> {
     let mut plot = Plot::new("Blasted ellipse: largest pressure of the gas", "time", "pressure").logarithmic();
     // the second has the steps of the third, so that the order alone differs
     let mut forms: Vec<&[&str]> = vec![&["coupling=first"], &["coupling=first", "max_substeps=1"], &["coupling=last"]];
-    let (mut cells, mut until) = (32, 0.08);
+    let (mut cells, mut until) = (24, 0.08);
     if session.suite == Suite::Full {
         (cells, until) = (48, 0.15);
         let others: [&[&str]; 3] = [&["pair=b2b1"], &["interface=h"], &["solid_update=gradients"]];
@@ -236,7 +236,7 @@ fn roughness(run: &Run) -> f64 {
 fn supernova(session: &mut Session<'_>) -> Result<()> {
     for blending in ["true", "false"] {
         let all = numerics(&[&format!("blending={blending}")]);
-        let cells = if session.suite == Suite::Quick { 60 } else { 120 };
+        let cells = if session.suite == Suite::Quick { 40 } else { 80 };
         let run = session.run("paper/supernova_2d.toml", Setting::standard(cells), &all)?;
         let bodies = run.snapshot.bodies(run.scene.bodies.len());
         let floored: u32 = run.records.iter().map(|record| record.floored).sum();

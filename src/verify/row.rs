@@ -93,7 +93,7 @@ pub struct Solver {
     pub mean_iterations: f64,
     /// Most iterations of one step.
     pub max_iterations: u32,
-    /// Largest Courant number c dt / dx of a step, of sound in the gas or of the ghost pressure in a body.
+    /// Largest acoustic Courant number c dt / dx of a step.
     pub courant: f64,
     /// Iterations that suffice at that Courant number, see [`super::iteration_bound`].
     pub bound: f64,
