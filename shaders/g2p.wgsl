@@ -153,6 +153,18 @@ fn carry(p: u32, time: f32) {
     put_at(p, place);
 }
 
+// Shared volume: the ghost pressure goes to what the volumetric part of the law says, as fast as an elastic wave passes this many cells.
+const RELAXED_CELLS = 10.0;
+
+fn relaxation(p: u32, q: f32, f: mat3x3f, material: MaterialParams, time: f32) -> f32 {
+    var volumetric = material;
+    volumetric.mu = 0.0;
+    let tau = kirchhoff_stress(material.kind, f, volumetric);
+    let swollen = params.ambient_pressure - (tau[0].x + tau[1].y + tau[2].z) / (3.0 * determinant(f));
+    let speed = wave_speed(material.kind, material, position[p].w / velocity[p].w);
+    return (1.0 - exp(-time * speed / (RELAXED_CELLS * params.spacing))) * (swollen - q);
+}
+
 // Moves a particle with velocity v; `trial` is its deformation gradient before plastic flow, `stored` where it is in memory already.
 // Returns false after a fault.
 fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
@@ -166,8 +178,9 @@ fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
         return false;
     }
     affine[3u * p].w += ghost_change(x) / f32(control.substeps);
+    if SHARED_VOLUME { affine[3u * p].w += relaxation(p, affine[3u * p].w, f, material, time); }
     put_at(p, x + time * v);
-    let tau = kirchhoff_stress(material.kind, f, material) * velocity[p].w;
+    let tau = kirchhoff_stress(material.kind, f, elastic_part(material, SHARED_VOLUME)) * velocity[p].w;
     var heat = stress[2u * p].w;
     if returned.plastic_strain > 0.0 {
         affine[3u * p + 1u].w += returned.plastic_strain;

@@ -4,10 +4,10 @@ use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
 use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
-use crate::snapshot::{ParticleSample, Snapshot};
+use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, FluidUpdate, G2p, GasAdvection, InterfaceStage, IntermediatePressure,
-    MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, ElasticOrder, FluidUpdate, G2p, GasAdvection, InterfaceStage,
+    IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::{self, NO_FAULT, STAGES};
 use crate::state::{Control, HISTORY, State};
@@ -26,6 +26,7 @@ pub struct Simulation {
     carrier: CarrierVelocity,
     gas_advection: GasAdvection,
     intermediate_pressure: IntermediatePressure,
+    elastic_order: Option<ElasticOrder>,
     coupled_solve: CoupledSolve,
     fluid_update: FluidUpdate,
     mpm_grid_update: Option<MpmGridUpdate>,
@@ -63,7 +64,7 @@ impl Simulation {
             scene::Transfer::Auto if gpu.is_software() => Transfer::Gather,
             scene::Transfer::Auto => Transfer::Scatter,
         };
-        let coupled_solve = CoupledSolve::new(parts)?;
+        let coupled_solve = CoupledSolve::new(parts, scene.numerics.solid_update)?;
         let simulation = Simulation {
             time_step: TimeStep::new(parts, coupled_solve.pcg.control.raw())?,
             particle_sort: solids.then(|| ParticleSort::new(parts)).transpose()?,
@@ -73,6 +74,7 @@ impl Simulation {
             carrier: CarrierVelocity::new(parts, scene.consistent())?,
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
+            elastic_order: ElasticOrder::new(parts, scene)?,
             coupled_solve,
             fluid_update: FluidUpdate::new(parts)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
@@ -111,6 +113,10 @@ impl Simulation {
         if let (Some(particle_sort), Some(p2g)) = (&self.particle_sort, &self.p2g) {
             particle_sort.record(pass, state, "BEGIN");
             p2g.record(pass, state); // (1) particles to grid
+            if let Some(elastic_order) = &self.elastic_order {
+                p2g.record_force(pass, state);
+                elastic_order.record_start(pass, state);
+            }
         }
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
         self.record_held(pass, "BEGIN");
@@ -126,6 +132,9 @@ impl Simulation {
             self.record_pressure(pass, "SECOND");
         }
         self.coupled_solve.record_solid(pass, state); // eq. 36
+        if let Some(elastic_order) = &self.elastic_order {
+            elastic_order.record_after(pass, state);
+        }
         for substep in 0..self.recorded.1 {
             self.record_substep(pass, substep);
         }
@@ -149,6 +158,9 @@ impl Simulation {
             self.carrier.record(pass, state, Carried::Star, phase);
         }
         self.intermediate_pressure.record(pass, state, phase); // (4) eqs. 9 and 17
+        if let Some(elastic_order) = &self.elastic_order {
+            elastic_order.record_before(pass, state, phase);
+        }
         self.coupled_solve.record_setup(pass, state, phase);
         self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
         self.time_step.record_solved(pass);
@@ -169,13 +181,21 @@ impl Simulation {
         self.time_step.record_substep(pass);
         let stages = (&self.particle_sort, &self.p2g, &self.mpm_grid_update, &self.g2p);
         let (Some(particle_sort), Some(p2g), Some(mpm_grid_update), Some(g2p)) = stages else { return };
-        if recorded == 0 {
-            p2g.record_substep(pass, state, true);
+        let elastic_order = self.elastic_order.as_ref();
+        if elastic_order.is_none_or(ElasticOrder::has_substeps) {
+            if recorded == 0 {
+                p2g.record_substep(pass, state, true);
+            }
+            particle_sort.record(pass, state, "AGAIN");
+            p2g.record_substep(pass, state, false);
+            self.record_held(pass, "AGAIN");
         }
-        particle_sort.record(pass, state, "AGAIN");
-        p2g.record_substep(pass, state, false);
-        self.record_held(pass, "AGAIN");
-        mpm_grid_update.record(pass, state); // (6) elasticity, walls
+        if let Some(elastic_order) = elastic_order {
+            elastic_order.record_substep(pass, state);
+        }
+        if elastic_order.is_none_or(ElasticOrder::has_substeps) {
+            mpm_grid_update.record(pass, state); // (6) elasticity, walls
+        }
         g2p.record(pass, state); // (7) grid to particles
     }
 
@@ -334,51 +354,6 @@ impl Simulation {
     /// # Errors
     /// Driver errors.
     pub fn snapshot(&self) -> Result<Snapshot> {
-        let (grid, gpu) = (self.state.grid, &self.gpu);
-        let flow = grid.unpadded(&readback::read(gpu, &self.state.gas.conserved)?);
-        let energy = grid.unpadded(&readback::read_range(gpu, &self.state.gas.energy, 0, grid.slots())?);
-        let kind = grid.unpadded(&readback::read(gpu, &self.state.interface.cells)?);
-        let pressure = |(u, e): (&[f32; 4], &f32)| {
-            let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
-            (self.gamma as f32 - 1.0) * (e - kinetic)
-        };
-        Ok(Snapshot {
-            time: self.time,
-            step: self.step,
-            grid,
-            gamma: self.gamma,
-            kind: kind.iter().map(|word| (word & 3) as u8).collect(),
-            density: flow.iter().map(|u| u[0]).collect(),
-            velocity: flow.iter().map(|u| [u[1] / u[0], u[2] / u[0], u[3] / u[0]]).collect(),
-            pressure: flow.iter().zip(&energy).map(pressure).collect(),
-            energy,
-            particles: self.read_particles()?,
-        })
-    }
-
-    /// The particles that are inside the domain.
-    fn read_particles(&self) -> Result<Vec<ParticleSample>> {
-        let (gpu, particles) = (&self.gpu, &self.state.particles);
-        let position = readback::read(gpu, &particles.position)?;
-        let velocity = readback::read(gpu, &particles.velocity)?;
-        let affine = readback::read(gpu, &particles.affine)?;
-        let deformation = readback::read(gpu, &particles.deformation)?;
-        let xyz = |v: [f32; 4]| [v[0], v[1], v[2]];
-        let sample = |p: usize| ParticleSample {
-            position: xyz(position[p]),
-            velocity: xyz(velocity[p]),
-            vorticity: {
-                let [a, b, c] = [0, 1, 2].map(|column| affine[3 * p + column]);
-                [b[2] - c[1], c[0] - a[2], a[1] - b[0]]
-            },
-            mass: position[p][3],
-            volume0: velocity[p][3],
-            ghost_pressure: affine[3 * p][3],
-            plastic_strain: affine[3 * p + 1][3],
-            deformation: [xyz(deformation[3 * p]), xyz(deformation[3 * p + 1]), xyz(deformation[3 * p + 2])],
-            body: deformation[3 * p][3].to_bits(),
-            material: affine[3 * p + 2][3].to_bits(),
-        };
-        Ok((0..position.len()).filter(|&p| deformation[3 * p + 1][3] > 0.0).map(sample).collect())
+        Snapshot::read(&self.gpu, &self.state, (self.time, self.step), self.gamma)
     }
 }

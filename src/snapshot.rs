@@ -1,6 +1,8 @@
 //! A CPU copy of the state at one time: what tests, tables and exporters see.
 
-use crate::state::Grid;
+use crate::error::Result;
+use crate::gpu::{Gpu, readback};
+use crate::state::{Grid, State};
 
 /// Kind of a cell, bits 0..1 of a cell word.
 pub mod kind {
@@ -75,4 +77,59 @@ impl ParticleSample {
     pub fn volume_ratio(&self) -> f32 {
         glam::Mat3::from_cols_array_2d(&self.deformation).determinant()
     }
+}
+
+impl Snapshot {
+    /// Copies the state of the device at a time \[s\] after so many steps.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub(crate) fn read(gpu: &Gpu, state: &State, (time, step): (f64, u64), gamma: f64) -> Result<Snapshot> {
+        let grid = state.grid;
+        let flow = grid.unpadded(&readback::read(gpu, &state.gas.conserved)?);
+        let energy = grid.unpadded(&readback::read_range(gpu, &state.gas.energy, 0, grid.slots())?);
+        let kind = grid.unpadded(&readback::read(gpu, &state.interface.cells)?);
+        let pressure = |(u, e): (&[f32; 4], &f32)| {
+            let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
+            (gamma as f32 - 1.0) * (e - kinetic)
+        };
+        Ok(Snapshot {
+            time,
+            step,
+            grid,
+            gamma,
+            kind: kind.iter().map(|word| (word & 3) as u8).collect(),
+            density: flow.iter().map(|u| u[0]).collect(),
+            velocity: flow.iter().map(|u| [u[1] / u[0], u[2] / u[0], u[3] / u[0]]).collect(),
+            pressure: flow.iter().zip(&energy).map(pressure).collect(),
+            energy,
+            particles: read_particles(gpu, state)?,
+        })
+    }
+}
+
+/// The particles that are inside the domain.
+fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
+    let particles = &state.particles;
+    let position = readback::read(gpu, &particles.position)?;
+    let velocity = readback::read(gpu, &particles.velocity)?;
+    let affine = readback::read(gpu, &particles.affine)?;
+    let deformation = readback::read(gpu, &particles.deformation)?;
+    let xyz = |v: [f32; 4]| [v[0], v[1], v[2]];
+    let sample = |p: usize| ParticleSample {
+        position: xyz(position[p]),
+        velocity: xyz(velocity[p]),
+        vorticity: {
+            let [a, b, c] = [0, 1, 2].map(|column| affine[3 * p + column]);
+            [b[2] - c[1], c[0] - a[2], a[1] - b[0]]
+        },
+        mass: position[p][3],
+        volume0: velocity[p][3],
+        ghost_pressure: affine[3 * p][3],
+        plastic_strain: affine[3 * p + 1][3],
+        deformation: [xyz(deformation[3 * p]), xyz(deformation[3 * p + 1]), xyz(deformation[3 * p + 2])],
+        body: deformation[3 * p][3].to_bits(),
+        material: affine[3 * p + 2][3].to_bits(),
+    };
+    Ok((0..position.len()).filter(|&p| deformation[3 * p + 1][3] > 0.0).map(sample).collect())
 }

@@ -10,6 +10,13 @@ struct MaterialParams {
     @size(8) friction: f32, // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
 }
 
+// A law, or what is left of it where the ghost pressure has its volumetric part.
+fn elastic_part(m: MaterialParams, without_volume: bool) -> MaterialParams {
+    var part = m;
+    if without_volume { part.lambda = 0.0; }
+    return part;
+}
+
 // What plastic flow leaves of a deformation gradient.
 struct PlasticReturn {
     deformation: mat3x3f,  // the elastic part

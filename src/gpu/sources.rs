@@ -77,6 +77,8 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/thread.wgsl",
     "shared/view.wgsl",
     "slice.wgsl",
+    "solid_elastic.wgsl",
+    "solid_gradient.wgsl",
     "solid_kick.wgsl",
     "solid_predictor.wgsl",
     "solve_diagonal.wgsl",

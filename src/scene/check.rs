@@ -280,6 +280,7 @@ impl Check<'_> {
             self.ars222();
         }
         self.count("numerics.max_substeps", numerics.max_substeps, 1, 10_000);
+        self.findings.extend(super::coupling::findings(self.scene));
     }
 
     /// What two solves per step cannot do.

@@ -11,6 +11,7 @@ mod check;
 mod check_body;
 mod check_boundary;
 mod check_shape;
+mod coupling;
 mod cut;
 mod distance;
 mod fill;
@@ -42,13 +43,14 @@ pub use boundary::{
 };
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
+pub use coupling::{Coupling, Ghost, InterfacePressure, Power, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};
 pub use polyhedron::Part;
 pub use settings::{
-    Camera, Colormap, Expect, ExpectedBody, Field, Film, InterfacePressure, Numerics, Obstacles, Output, Pair, Power,
-    RenderMode, RenderSettings, Time, Transfer,
+    Camera, Colormap, Expect, ExpectedBody, Field, Film, Numerics, Obstacles, Output, Pair, RenderMode, RenderSettings,
+    Time, Transfer,
 };
 pub use shape::Shape;
 pub use vortex::Vortex;

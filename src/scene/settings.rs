@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FaceVelocity, Integrator, vector};
+use super::{Coupling, FaceVelocity, Ghost, Integrator, InterfacePressure, Power, SolidUpdate, vector};
 
 /// How long, and how finely in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -69,6 +69,12 @@ pub struct Numerics {
     pub film: Film,
     /// Velocity in the power that the gas gives to bodies.
     pub power: Power,
+    /// What the solved pressure does to the nodes of bodies.
+    pub solid_update: SolidUpdate,
+    /// Order of the pressure solve and of the elastic step.
+    pub coupling: Coupling,
+    /// How the ghost pressure and the elastic law of a body share its volume.
+    pub ghost: Ghost,
     /// Keep the gas of covered cells in a ledger and give it back when cells are uncovered.
     pub ledger: bool,
     /// Limit fluxes so that density and internal energy stay positive.
@@ -77,7 +83,7 @@ pub struct Numerics {
     pub blending: bool,
     /// Fraction of a cell that elastic waves cross in one sub-step, above 0 and at most 1.
     pub elastic_cfl: f64,
-    /// Elastic sub-steps per step at most; the step is shortened to fit.
+    /// Elastic sub-steps per step at most; the step is shortened to fit. With `numerics.coupling = "last"` there is one.
     pub max_substeps: u32,
     /// How particles give their momentum to the grid.
     pub transfer: Transfer,
@@ -97,6 +103,9 @@ impl Default for Numerics {
             solid_threshold: 0.5,
             film: Film::default(),
             power: Power::default(),
+            solid_update: SolidUpdate::default(),
+            coupling: Coupling::default(),
+            ghost: Ghost::default(),
             ledger: true,
             limiter: true,
             blending: true,
@@ -132,19 +141,6 @@ pub enum Obstacles {
     Auto,
 }
 
-/// Pressure unknowns where gas and solid meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum InterfacePressure {
-    /// One pressure where the solid is resolved, three (gas, solid, interface) at fragments.
-    #[default]
-    Resolved,
-    /// Gas, solid and interface pressure at every touched vertex: the paper's form.
-    H,
-    /// One pressure everywhere.
-    Single,
-}
-
 /// Pressure of the gas film between a body and a wall of the domain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -154,17 +150,6 @@ pub enum Film {
     Nearest,
     /// The ghost pressure of the body itself.
     Ghost,
-}
-
-/// Velocity in the power that the gas gives to bodies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Power {
-    /// Mean of the velocities before and after the solve.
-    #[default]
-    Midpoint,
-    /// Velocity after the solve.
-    End,
 }
 
 /// How particles give their momentum to the grid; all ways leave the same bits on every run.

@@ -6,6 +6,7 @@ use super::{Parts, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::numerics::{Pcg, Width};
+use crate::scene::SolidUpdate;
 use crate::state::State;
 use crate::state::constants::Entry;
 
@@ -24,6 +25,8 @@ pub struct CoupledSolve {
     reference: Bound,
     forces: [Bound; 2],
     add: Bound,
+    /// The other update of the solid.
+    gradient: Vec<Bound>,
     kick: Vec<Bound>,
 }
 
@@ -65,7 +68,7 @@ impl CoupledSolve {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
+    pub fn new(parts: Parts<'_>, solid_update: SolidUpdate) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let limits = (state.params.tolerance, state.params.max_iterations);
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), state.params.groups, limits)?;
@@ -87,6 +90,10 @@ impl CoupledSolve {
             reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
             add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[], &[])?,
+            gradient: match solid_update {
+                SolidUpdate::Forces => Vec::new(),
+                SolidUpdate::Gradients => solid("solid_gradient.wgsl", &["solid_gradient"])?,
+            },
             kick: solid(
                 "solid_kick.wgsl",
                 &["solid_kick", "solid_kick_left", "solid_kick_share", "solid_kick_spread"],
@@ -140,6 +147,9 @@ impl CoupledSolve {
         pass.dispatch(&self.add, &extent(state, "UPDATE", Entry::Reduce));
         if state.has_solids() {
             pass.dispatch(&self.forces_of_pressure[1], &extent(state, "UPDATE", Entry::Listed));
+        }
+        for kernel in &self.gradient {
+            pass.dispatch(kernel, &slots(state, "UPDATE"));
         }
     }
 

@@ -10,6 +10,7 @@
 //! | `carrier` | which velocity carries the gas through its faces? |
 //! | `gas_advection` | where does the gas carry itself? |
 //! | `intermediate_pressure` | which pressure does the advected gas have? |
+//! | `elastic_order` | what does the solve know of elasticity? |
 //! | `coupled_solve` | which pressure and velocity satisfy both sides? |
 //! | `fluid_update` | what does that pressure do to the gas? |
 //! | `mpm_grid_update` | how do the nodes move? |
@@ -20,6 +21,7 @@
 
 mod carrier;
 mod coupled_solve;
+mod elastic_order;
 mod fluid_update;
 mod g2p;
 mod gas_advection;
@@ -36,6 +38,7 @@ pub mod traffic;
 
 pub use carrier::{Carried, CarrierVelocity};
 pub use coupled_solve::CoupledSolve;
+pub use elastic_order::ElasticOrder;
 pub use fluid_update::FluidUpdate;
 pub use g2p::G2p;
 pub use gas_advection::GasAdvection;

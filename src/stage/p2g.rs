@@ -133,6 +133,12 @@ impl P2g {
         self.mass.record(pass, state, "BEGIN");
     }
 
+    /// Elastic force at the start of a step.
+    pub fn record_force(&self, pass: &mut Pass, state: &State) {
+        pass.stage("p2g");
+        self.force.record(pass, state, "BEGIN");
+    }
+
     /// Elastic force for the next sub-step; mass and velocity again if the particles have moved since.
     pub fn record_substep(&self, pass: &mut Pass, state: &State, first: bool) {
         pass.stage("p2g");

@@ -79,6 +79,8 @@ impl MemoryPlan {
             "nodes",
             &[("node", if scene.consistent() { slots } else { solid }, 16), ("cell_start", solid + 1, 4)],
         );
+        let elastic = if particles == 0 { 0 } else { scene.elastic_vectors() as u64 * slots };
+        plan.add("nodes", &[("elastic", elastic, 16)]);
         let scan = Scan::planned_bytes(slots as u32 + 1);
         plan.add("interface", &[("list scan", scan, 1)]);
         if particles > 0 {

@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::{Grid, constants};
 use crate::gpu::WORKGROUP;
 use crate::numerics::Scan;
-use crate::scene::{Boundary, Integrator, InterfacePressure, Pair, Power, Scene};
+use crate::scene::{Boundary, Ghost, Integrator, InterfacePressure, Pair, Scene};
 
 /// Mirror of `Params` in `shaders/shared/params.wgsl`.
 #[repr(C)]
@@ -147,7 +147,7 @@ impl Params {
             crowd: (CROWDING * solids.per_cell.max(1.0)) as f32,
             history: HISTORY,
             bodies: scene.bodies.len() as u32,
-            max_substeps: numerics.max_substeps,
+            max_substeps: scene.max_substeps(),
             groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, limits.groups),
             march: limits.march,
             wall_sides: wall_sides(scene),
@@ -179,13 +179,14 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("LIMITER", flag(numerics.limiter)),
         ("BLENDING", flag(numerics.blending)),
         ("LEDGER", flag(numerics.ledger)),
-        ("MIDPOINT_POWER", flag(numerics.power == Power::Midpoint)),
+        ("MIDPOINT_POWER", flag(scene.midpoint_power())),
+        ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
             "INTERFACE",
-            match numerics.interface {
-                InterfacePressure::Resolved => 0.0,
+            match scene.interface_pressure() {
+                InterfacePressure::Resolved | InterfacePressure::Auto => 0.0,
                 InterfacePressure::H => 1.0,
                 InterfacePressure::Single => 2.0,
             },

@@ -25,6 +25,8 @@ pub struct Particles {
     pub cell_start: Buffer<u32>,
     /// Velocity and mass of the grid nodes, padded slots.
     pub node: Buffer<[f32; 4]>,
+    /// What the pressure solve is told of elasticity, see `shaders/solid_elastic.wgsl`; in scenes that want it.
+    pub elastic: Buffer<[f32; 4]>,
 }
 
 /// Host arrays of the particles at the start.
@@ -73,11 +75,12 @@ impl ParticleStart {
 }
 
 impl Particles {
-    /// Allocates and uploads. `carrier`: gas without bodies also wants room per slot in `node`.
+    /// Allocates and uploads. `carrier`: gas without bodies also wants room per slot in `node`; `elastic`: vectors per slot
+    /// that the order of the elastic step wants.
     ///
     /// # Errors
     /// If the device has no room.
-    pub fn new(gpu: &Gpu, slots: usize, start: &ParticleStart, carrier: bool) -> Result<Self> {
+    pub fn new(gpu: &Gpu, slots: usize, start: &ParticleStart, carrier: bool, elastic: usize) -> Result<Self> {
         let count = start.len();
         let solid_slots = if start.is_empty() { 1 } else { slots };
         let particles = Self {
@@ -90,6 +93,7 @@ impl Particles {
             order: Buffer::new(gpu, "order", count)?,
             cell_start: Buffer::new(gpu, "cell_start", solid_slots + 1)?,
             node: Buffer::new(gpu, "node", if carrier { slots } else { solid_slots })?,
+            elastic: Buffer::new(gpu, "elastic", if count == 0 { 0 } else { elastic * slots })?,
         };
         Ok(particles)
     }

@@ -15,6 +15,7 @@
 //! }
 //! ```
 
+mod ablations;
 mod blast_2d;
 mod blasts;
 mod books;
@@ -80,7 +81,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
     let spaces = [blast_2d::CASES, explosions::CASES, forward_step::CASES, steady::CASES, jet::CASES];
     let coupled = [plates::CASES, pistons::CASES, drifting::CASES, shells::CASES, cylinders::CASES, fragments::CASES];
     let gas = lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES]);
-    gas.chain(coupled).chain([solids::CASES]).flatten()
+    gas.chain(coupled).chain([solids::CASES, ablations::CASES]).flatten()
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.

@@ -97,7 +97,7 @@ pub struct Run {
     pub label: String,
     /// What the solver took.
     pub solver: Solver,
-    /// Most iterations of a step as a share of its bound.
+    /// Most iterations of a step as a share of its bound; 0 with bodies, whose systems the bound is not for.
     pub solver_load: f64,
 }
 
@@ -313,7 +313,8 @@ impl<'a> Session<'a> {
         }
         let least = |k: usize| self.health.iter().map(|(_, own)| own[k]).fold(f64::INFINITY, f64::min);
         let (density, pressure) = (least(0), least(1));
-        let hardest = self.health.iter().max_by(|a, b| a.1[2].total_cmp(&b.1[2])).copied();
+        let bounded = self.health.iter().filter(|(_, own)| own[2] > 0.0);
+        let hardest = bounded.max_by(|a, b| a.1[2].total_cmp(&b.1[2])).copied();
         self.push("lowest density of all runs", density).source("physics").pass(Limit::Above(0.0));
         self.push("lowest pressure of all runs", pressure).source("physics").pass(Limit::Above(0.0));
         if let Some((solver, [_, _, load])) = hardest.filter(|(_, own)| own[2] > 0.0) {
@@ -330,7 +331,8 @@ impl Run {
         let bound = |courant: f64| iteration_bound(scene.domain.dimension, courant, scene.numerics.tolerance);
         let courant = records.iter().map(|record| f64::from(record.courant)).fold(0.0, f64::max);
         let load = records.iter().map(|record| f64::from(record.iterations) / bound(record.courant.into()));
-        let solver_load = load.fold(0.0, f64::max);
+        // the bound is that of a uniform gas: bodies and light nodes around fragments have conditions of their own
+        let solver_load = if scene.bodies.is_empty() { load.fold(0.0, f64::max) } else { 0.0 };
         let solver = Solver {
             steps: summary.steps,
             mean_iterations: summary.iterations as f64 / summary.steps.max(1) as f64,

@@ -207,6 +207,27 @@ fn ball_on_the_floor_with_the_film_of_its_own_pressure() {
     body(2, &[&AT_THE_SIDES[..], &other].concat());
 }
 
+#[test]
+fn ball_moved_by_local_gradients() {
+    body(3, &["numerics.solid_update=gradients"]);
+    body(3, &[&AT_THE_SIDES[..], &["numerics.solid_update=gradients", "numerics.interface=h"]].concat());
+}
+
+#[test]
+fn ball_whose_elastic_step_comes_first() {
+    let short = ["numerics.coupling=last", "time.fixed_step=0.004"];
+    body(3, &short);
+    body(3, &[&AT_THE_SIDES[..], &short].concat());
+}
+
+/// Stiff enough for sub-steps, so that what the solve gives is spread.
+#[test]
+fn ball_that_shares_its_volume() {
+    let stiff = ["numerics.ghost=shared_volume", "materials.rubber.neo_hookean.young_modulus=1000.0"];
+    body(3, &stiff);
+    body(3, &[&AT_THE_SIDES[..], &["numerics.ghost=shared_volume"]].concat());
+}
+
 /// A block that fills a corner of the box: whole rows of the pressure system with nothing but the body and the sides around.
 #[test]
 fn block_in_a_corner_in_space() {

@@ -78,6 +78,9 @@ scenes! {
     elastic_waves: "validation/elastic_waves.toml", "time.until=1e-3";
     colliding_discs: "validation/colliding_discs.toml", "time.until=0.5";
     spinning_disc: "validation/spinning_disc.toml", "time.until=0.02";
+    static_load: "validation/static_load.toml";
+    blasted_ellipse: "paper/blasted_ellipse.toml", "domain.cells=[32, 32]";
+    supernova_2d: "paper/supernova_2d.toml", "domain.cells=[40, 16]";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";
     shell_at_rest: "coupled/shell_at_rest.toml";

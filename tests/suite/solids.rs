@@ -115,3 +115,22 @@ fn momentum_of_gas_solids_and_walls_closes() {
     assert!(body.velocity[0] > 0.2, "{:?}", body.velocity);
     assert!(gap < 1e-4 * body.mass * body.velocity[0], "{gap:e} of {:e}", body.mass * body.velocity[0]);
 }
+
+/// Prestressed at pressure 1 and held between gas of pressure 2: the exact strain of the law is 0.00738.
+#[test]
+fn a_steady_load_strains_a_slab_that_shares_its_volume() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (ghost, low, high) in [("shared_volume", 0.00723, 0.00753), ("absorbs", 0.0, 0.003)] {
+        let overrides = [format!("numerics.ghost={ghost}")];
+        let scene =
+            Scene::shipped("validation/static_load.toml", &overrides).and_then(|scene| scene.with_resolution(25));
+        let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+        let mut simulation = Simulation::new(&gpu, &scene).unwrap_or_else(|error| panic!("{error}"));
+        simulation.advance_to(scene.time.until).unwrap_or_else(|error| panic!("{error}"));
+        let particles = simulation.snapshot().expect("a device").particles;
+        let sum: f64 = particles.iter().map(|particle| 1.0 - f64::from(particle.deformation[0][0])).sum();
+        let strain = sum / particles.len() as f64;
+        eprintln!("{ghost}: strain {strain:.5}");
+        assert!(strain > low && strain < high, "{ghost}: {strain}");
+    }
+}

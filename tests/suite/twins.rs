@@ -1,7 +1,7 @@
 //! A simulation on the device and its CPU twin: same start, same steps, compared field by field.
 
 use brisance::gpu::{Buffer, Detail, Gpu, readback};
-use brisance::scene::{Boundary, Film, Integrator, InterfacePressure, Pair, Power, Scene};
+use brisance::scene::{Boundary, Coupling, Film, Ghost, Integrator, InterfacePressure, Pair, Scene, SolidUpdate};
 use brisance::simulation::Simulation;
 use glam::{DMat3, DVec3};
 
@@ -54,14 +54,18 @@ fn problem_of(scene: &Scene) -> Problem {
         Pair::B2b1 => twin::Pair::B2b1,
         Pair::B1b0 => twin::Pair::B1b0,
     };
-    problem.numerics.shared = match scene.numerics.interface {
-        InterfacePressure::Resolved => Shared::Resolved,
+    problem.numerics.shared = match scene.interface_pressure() {
+        InterfacePressure::Resolved | InterfacePressure::Auto => Shared::Resolved,
         InterfacePressure::H => Shared::H,
         InterfacePressure::Single => Shared::Single,
     };
     problem.numerics.tolerance = 1e-9;
     problem.numerics.film_nearest = scene.numerics.film == Film::Nearest;
-    problem.numerics.power_midpoint = scene.numerics.power == Power::Midpoint;
+    problem.numerics.power_midpoint = scene.midpoint_power();
+    problem.numerics.gradients = scene.numerics.solid_update == SolidUpdate::Gradients;
+    problem.numerics.coupling_last = scene.numerics.coupling == Coupling::Last;
+    problem.numerics.shared_volume = scene.numerics.ghost == Ghost::SharedVolume;
+    problem.numerics.max_substeps = scene.max_substeps() as usize;
     problem.numerics.blending = scene.numerics.blending;
     problem.numerics.predictor = scene.integrator() != Integrator::Paper;
     problem.numerics.consistent = scene.consistent();

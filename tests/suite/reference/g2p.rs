@@ -1,5 +1,6 @@
 //! Nodes to particles: velocity, affine matrix, deformation, plasticity, ghost pressure, position.
 
+use super::ablation;
 use super::grid::add;
 use super::interface::{Interface, touches};
 use super::p2g::support;
@@ -60,6 +61,9 @@ pub(crate) fn g2p(
         let (deformation, plastic) = problem.materials[particle.material].plastic_return(trial);
         particle.deformation = deformation;
         particle.plastic_strain += plastic;
+        if problem.numerics.shared_volume {
+            ablation::relax(problem, particle, dt);
+        }
         particle.position += v * dt;
         confine(problem, particle);
     }

@@ -1,5 +1,6 @@
 //! CPU twins: one step as plain loops over slices in f64. Same stages, same index space as the GPU code.
 
+pub(crate) mod ablation;
 pub(crate) mod ars222;
 pub(crate) mod boundary;
 pub(crate) mod carrier;
@@ -91,6 +92,12 @@ pub(crate) struct Numerics {
     pub(crate) film_nearest: bool,
     /// Power at the interface with the mean of the old and new solid velocity; otherwise the new one.
     pub(crate) power_midpoint: bool,
+    /// Solid nodes follow the local pressure gradient.
+    pub(crate) gradients: bool,
+    /// The elastic step comes before the solve.
+    pub(crate) coupling_last: bool,
+    /// The ghost pressure follows the volumetric part of the law.
+    pub(crate) shared_volume: bool,
     pub(crate) ledger: bool,
     pub(crate) limiter: bool,
     pub(crate) blending: bool,
@@ -116,6 +123,9 @@ impl Default for Numerics {
             solid_threshold: 0.5,
             film_nearest: true,
             power_midpoint: true,
+            gradients: false,
+            coupling_last: false,
+            shared_volume: false,
             ledger: true,
             limiter: true,
             blending: true,

@@ -4,8 +4,8 @@ use super::coupled_solve::{Inputs, Solution, coupled_solve};
 use super::p2g::Nodes;
 use super::{Problem, State};
 use super::{
-    ars222, boundary, fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger, mpm_grid_update, p2g,
-    particle_sort, time_step,
+    ablation, ars222, boundary, fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger,
+    mpm_grid_update, p2g, particle_sort, time_step,
 };
 
 /// What a step did.
@@ -52,33 +52,33 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let film = interface::film_force(problem, &faces.cells, &bins, &intermediate.vertex_pressure);
     let floor = problem.numerics.mass_floor * bins.density * problem.grid.volume();
     let floored: Vec<f64> = nodes.mass.iter().map(|mass| if *mass > 0.0 { mass.max(floor) } else { 0.0 }).collect();
+    let predicted = ablation::elastic_first(problem, &faces.cells, &mut nodes, &floored, dt);
     mpm_grid_update::add_gravity(problem, &mut nodes, dt);
     mpm_grid_update::add_forces(&mut nodes.velocity, &floored, &film, dt);
 
-    let solution = coupled_solve(&Inputs {
-        problem,
-        interface: &faces,
-        bins: &bins,
-        intermediate: &intermediate,
-        nodes: &nodes,
-        dt,
-    });
+    let (interface, inner) = (&faces, &intermediate);
+    let inputs = Inputs { problem, interface, bins: &bins, intermediate: inner, nodes: &nodes, dt };
+    let mut solution = coupled_solve(&inputs);
+    if problem.numerics.gradients {
+        ablation::by_gradients(&inputs, &mut solution, floor);
+    }
     state.gas = fluid_update::fluid_update(problem, &faces, (&star, &intermediate), &solution, &nodes.velocity, dt);
     state.open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
     let touched = fluid_update::energy_floor(problem, &faces.cells, &star, &mut state.gas, &mut state.ledger);
 
-    let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);
     let change = g2p::ghost_change(problem, &faces, &bins, &solution.pressure[2]);
-    let (share, sub_dt) = (1.0 / substeps as f64, dt / substeps as f64);
-    nodes.velocity.clone_from(&solution.solid_velocity);
-    for index in 0..if state.particles.is_empty() { 0 } else { substeps } {
-        if index > 0 {
-            nodes = p2g::p2g(problem, &state.particles);
+    let push = match predicted {
+        None => {
+            nodes.velocity.clone_from(&solution.solid_velocity);
+            None
         }
-        mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, sub_dt);
-        mpm_grid_update::walls(problem, &faces.cells, &mut nodes.velocity);
-        g2p::g2p(problem, &nodes.velocity, &change, share, sub_dt, &mut state.particles);
-    }
+        Some(predicted) => {
+            let (before, push) = predicted.spread(&solution.solid_velocity, dt);
+            nodes.velocity = before;
+            Some(push)
+        }
+    };
+    let substeps = elastic_substeps(problem, &faces.cells, (&change, push.as_deref()), &mut nodes, state, dt);
     gas_advection::fill_ghosts(problem, &faces.cells, &mut state.gas);
     state.time += dt;
     let report = Report {
@@ -90,6 +90,33 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
         substeps,
     };
     (report, Trace { solution, nodes, shared: faces.shared })
+}
+
+/// Moves the particles; `push`: acceleration that is spread over the sub-steps. Returns their number.
+fn elastic_substeps(
+    problem: &Problem,
+    cells: &[u32],
+    (change, push): (&[f64], Option<&[[f64; 3]]>),
+    nodes: &mut Nodes,
+    state: &mut State,
+    dt: f64,
+) -> usize {
+    let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);
+    let (share, sub_dt) = (1.0 / substeps as f64, dt / substeps as f64);
+    for index in 0..if state.particles.is_empty() { 0 } else { substeps } {
+        if index > 0 {
+            *nodes = p2g::p2g(problem, &state.particles);
+        }
+        for (v, push) in nodes.velocity.iter_mut().zip(push.into_iter().flatten()) {
+            *v = [0, 1, 2].map(|d| v[d] + sub_dt * push[d]);
+        }
+        if !problem.numerics.coupling_last {
+            mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, sub_dt);
+        }
+        mpm_grid_update::walls(problem, cells, &mut nodes.velocity);
+        g2p::g2p(problem, &nodes.velocity, change, share, sub_dt, &mut state.particles);
+    }
+    substeps
 }
 
 /// Runs to a time with steps by rule; the last one is shortened.

@@ -1,0 +1,164 @@
+//! How gas and solid are coupled: the method's own rules, and the paper's other ways to compare them with.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Scene;
+use super::source::Finding;
+
+/// Pressure unknowns where gas and solid meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InterfacePressure {
+    /// One pressure where the solid is resolved, three (gas, solid, interface) at fragments.
+    Resolved,
+    /// Gas, solid and interface pressure at every touched vertex: the paper's form.
+    H,
+    /// One pressure everywhere.
+    Single,
+    /// `h` with `numerics.ghost = "shared_volume"`, where the stress of the solid bears a part of the gas pressure and so the
+    /// ghost pressure differs from it; else `resolved`.
+    #[default]
+    Auto,
+}
+
+/// Velocity in the power that the gas gives to bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Power {
+    /// Mean of the velocities before and after the solve.
+    Midpoint,
+    /// Velocity after the solve.
+    End,
+    /// `end` with `numerics.ghost = "shared_volume"`, whose solve starts from a predicted velocity; else `midpoint`.
+    #[default]
+    Auto,
+}
+
+/// What the solved pressure does to the nodes of bodies. [Cao et al. 2022, eq. 36 and fig. 13]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SolidUpdate {
+    /// The forces that the solve itself knows, (G Q + H h) / M: momentum is conserved.
+    #[default]
+    Forces,
+    /// The pressure gradient of the node's own cell over the density of the solid there, as the gas has it: an ablation.
+    Gradients,
+}
+
+/// Order of the pressure solve and of the elastic step. [Cao et al. 2022, section 2.8 and fig. 14]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Coupling {
+    /// The solve first, then elastic sub-steps.
+    #[default]
+    First,
+    /// One explicit elastic step first, then the solve, whose velocities move the particles: an ablation. Steps are as short as
+    /// elastic waves demand, whatever `numerics.max_substeps` says.
+    Last,
+}
+
+/// How the ghost pressure and the elastic law of a body share its volume.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Ghost {
+    /// The law keeps its volumetric part, and the ghost pressure takes up what the gas does: a steady pressure strains nothing.
+    #[default]
+    Absorbs,
+    /// The law bears shear alone, and the ghost pressure follows the law's volumetric part: a steady pressure strains the
+    /// body as it should. First order in the time step.
+    SharedVolume,
+}
+
+impl Scene {
+    /// The pressure unknowns of this scene, never [`InterfacePressure::Auto`].
+    #[must_use]
+    pub fn interface_pressure(&self) -> InterfacePressure {
+        match (self.numerics.interface, self.numerics.ghost) {
+            (InterfacePressure::Auto, Ghost::SharedVolume) => InterfacePressure::H,
+            (InterfacePressure::Auto, Ghost::Absorbs) => InterfacePressure::Resolved,
+            (chosen, _) => chosen,
+        }
+    }
+
+    /// Whether the gas pays bodies with the mean of their velocities before and after the solve.
+    #[must_use]
+    pub fn midpoint_power(&self) -> bool {
+        match self.numerics.power {
+            Power::Midpoint => true,
+            Power::End => false,
+            Power::Auto => self.numerics.ghost == Ghost::Absorbs,
+        }
+    }
+
+    /// Vectors per slot that the order of the elastic step has to keep.
+    #[must_use]
+    pub fn elastic_vectors(&self) -> usize {
+        match (self.numerics.ghost, self.numerics.coupling) {
+            (Ghost::SharedVolume, _) => 2,
+            (_, Coupling::Last) => 1,
+            _ => 0,
+        }
+    }
+
+    /// Elastic sub-steps per step at most.
+    #[must_use]
+    pub fn max_substeps(&self) -> u32 {
+        if self.numerics.coupling == Coupling::Last { 1 } else { self.numerics.max_substeps }
+    }
+}
+
+/// Choices that do not go together.
+pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
+    let numerics = &scene.numerics;
+    let mut findings = Vec::new();
+    if numerics.ghost == Ghost::SharedVolume && numerics.power == Power::Midpoint {
+        let message = "\"midpoint\" with numerics.ghost = \"shared_volume\" adds energy";
+        findings.push(Finding::new(
+            "numerics.power",
+            message,
+            "give \"end\", or \"auto\", which chooses for the scene",
+        ));
+    }
+    if numerics.ghost == Ghost::SharedVolume && numerics.coupling == Coupling::Last {
+        let message = "\"last\" with numerics.ghost = \"shared_volume\", which has an order of its own";
+        findings.push(Finding::new("numerics.coupling", message, "give \"first\", or numerics.ghost = \"absorbs\""));
+    }
+    findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ghost, InterfacePressure, Power};
+    use crate::scene::Scene;
+
+    fn slab(keys: &[&str]) -> crate::Result<Scene> {
+        let overrides: Vec<String> = keys.iter().map(|key| format!("numerics.{key}")).collect();
+        Scene::shipped("coupled/slab_at_rest.toml", &overrides)
+    }
+
+    #[test]
+    fn choices_that_do_not_go_together_are_refused() {
+        for (keys, place) in [
+            (["ghost=shared_volume", "power=midpoint"], "numerics.power"),
+            (["ghost=shared_volume", "coupling=last"], "numerics.coupling"),
+        ] {
+            let message = slab(&keys).unwrap_err().to_string();
+            assert!(message.contains(place), "{message}");
+        }
+    }
+
+    #[test]
+    fn what_is_left_open_follows_from_the_rest() {
+        let plain = slab(&[]).unwrap();
+        assert_eq!((plain.numerics.power, plain.numerics.ghost), (Power::Auto, Ghost::Absorbs));
+        assert!(plain.midpoint_power() && plain.max_substeps() == 64);
+        assert!(!slab(&["ghost=shared_volume"]).unwrap().midpoint_power());
+        assert!(!slab(&["power=end"]).unwrap().midpoint_power());
+        assert!(slab(&["power=midpoint"]).unwrap().midpoint_power());
+        assert_eq!(plain.interface_pressure(), InterfacePressure::Resolved);
+        assert_eq!(slab(&["ghost=shared_volume"]).unwrap().interface_pressure(), InterfacePressure::H);
+        assert_eq!(slab(&["interface=single"]).unwrap().interface_pressure(), InterfacePressure::Single);
+        assert_eq!(slab(&["coupling=last"]).unwrap().max_substeps(), 1);
+    }
+}

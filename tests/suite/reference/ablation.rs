@@ -1,0 +1,112 @@
+//! The other forms of the coupling: local gradients, elasticity before the solve, shared volume.
+
+use super::coupled_solve::{H, Inputs, P, Q, Solution};
+use super::element;
+use super::grid::{add, shift};
+use super::interface::elements_of;
+use super::mpm_grid_update::{add_forces, walls};
+use super::p2g::Nodes;
+use super::{GAS, GHOST, Pair, Particle, Problem, SOLID, WALL};
+use glam::DMat3;
+
+/// Acceleration of a node by the gradient of its own cell; None at walls, which keep the forces of the solve.
+pub(crate) fn local_gradient(inputs: &Inputs, pressure: &[Vec<f64>; 3], c: [i32; 3], floor: f64) -> Option<[f64; 3]> {
+    let (problem, cells) = (inputs.problem, &inputs.interface.cells);
+    let grid = &problem.grid;
+    let kind = |at: [i32; 3]| if grid.stored(at) { cells[grid.slot(at)] } else { WALL };
+    if grid.offsets(-1, 1).into_iter().any(|o| matches!(kind(add(c, o)), WALL | GHOST)) {
+        return None;
+    }
+    let solid = elements_of(problem, c).filter(|(cell, _)| cells[grid.slot(*cell)] == SOLID);
+    let share: f64 = solid.map(|(_, offset)| element::node_weight(grid, Pair::B2b1, offset)).sum();
+    let own = kind(c);
+    let mut push = [0.0; 3];
+    for axis in 0..grid.dimension {
+        for (side, sign) in [(0, -1.0), (1, 1.0)] {
+            let across = kind(shift(c, axis, 2 * side - 1));
+            let field = match (own, across) {
+                (GAS, SOLID) | (SOLID, GAS) => H,
+                (SOLID, _) => Q,
+                _ => P,
+            };
+            let corners: Vec<_> = grid.offsets(0, 1).into_iter().filter(|k| k[axis] == side).collect();
+            let mean =
+                corners.iter().map(|k| pressure[field][grid.slot(add(c, *k))]).sum::<f64>() / corners.len() as f64;
+            push[axis] += sign * mean;
+        }
+    }
+    let mass = inputs.nodes.mass[grid.slot(c)].max(floor);
+    Some(push.map(|difference| -difference * grid.area() * share / mass))
+}
+
+/// Replaces the pressure kick of all nodes that have a local gradient.
+pub(crate) fn by_gradients(inputs: &Inputs, solution: &mut Solution, floor: f64) {
+    let grid = &inputs.problem.grid;
+    for c in grid.all().into_iter().filter(|c| inputs.nodes.mass[grid.slot(*c)] > 0.0) {
+        let slot = grid.slot(c);
+        let touches = elements_of(inputs.problem, c).any(|(cell, _)| inputs.interface.cells[grid.slot(cell)] == SOLID);
+        if !touches {
+            continue;
+        }
+        if let Some(push) = local_gradient(inputs, &solution.pressure, c, floor) {
+            solution.solid_velocity[slot] = [0, 1, 2].map(|d| inputs.nodes.velocity[slot][d] + inputs.dt * push[d]);
+        }
+    }
+}
+
+/// Velocity of the particles, and what the elastic force does to nodes of these masses per time.
+pub(crate) struct Predicted {
+    before: Vec<[f64; 3]>,
+    elastic: Vec<[f64; 3]>,
+}
+
+/// Elasticity before the solve: the whole step of it, or a prediction that [`spread`] takes back.
+pub(crate) fn elastic_first(
+    problem: &Problem,
+    cells: &[u32],
+    nodes: &mut Nodes,
+    floored: &[f64],
+    dt: f64,
+) -> Option<Predicted> {
+    if problem.numerics.coupling_last {
+        add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, dt);
+        walls(problem, cells, &mut nodes.velocity);
+    }
+    if !problem.numerics.shared_volume {
+        return None;
+    }
+    let before = nodes.velocity.clone();
+    add_forces(&mut nodes.velocity, floored, &nodes.force, dt);
+    let mut elastic = vec![[0.0; 3]; floored.len()];
+    add_forces(&mut elastic, floored, &nodes.force, 1.0);
+    Some(Predicted { before, elastic })
+}
+
+impl Predicted {
+    /// Node velocities before the step, and the acceleration that is not elastic.
+    pub(crate) fn spread(&self, solved: &[[f64; 3]], dt: f64) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+        let slots = 0..solved.len();
+        let push = slots.map(|i| [0, 1, 2].map(|d| (solved[i][d] - self.before[i][d]) / dt - self.elastic[i][d]));
+        (self.before.clone(), push.collect())
+    }
+}
+
+/// Shared volume: the ghost pressure goes to that of the law's volumetric part, within the time a wave takes for ten cells.
+pub(crate) fn relax(problem: &Problem, particle: &mut Particle, dt: f64) {
+    let material = &problem.materials[particle.material];
+    let volume = particle.deformation.determinant();
+    let swollen = problem.ambient.1 - material.lambda * volume.ln() / volume;
+    let speed = material.wave_speed(particle.mass / particle.volume0);
+    let share = -(-dt * speed / (10.0 * problem.grid.spacing)).exp_m1();
+    particle.ghost_pressure += share * (swollen - particle.ghost_pressure);
+}
+
+/// Kirchhoff stress of a particle: with a shared volume without its volumetric part.
+pub(crate) fn stress(problem: &Problem, particle: &Particle) -> DMat3 {
+    let material = &problem.materials[particle.material];
+    let whole = material.stress(particle.deformation);
+    if !problem.numerics.shared_volume {
+        return whole;
+    }
+    whole - DMat3::IDENTITY * (material.lambda * particle.deformation.determinant().ln())
+}
