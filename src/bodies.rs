@@ -140,6 +140,7 @@ mod tests {
             velocity: [1.0, 0.0, 0.0],
             vorticity: [0.0, 0.0, 4.0],
             mass: 2.0,
+            kinetic_energy: 0.0,
             volume0: 1.0,
             ghost_pressure: 0.0,
             plastic_strain: 0.0,

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::snapshot::{Snapshot, kind};
 
-/// What must stay constant in a closed domain without gravity: everything inside plus what has crossed the boundary.
+/// What must stay constant in a closed domain without gravity and driven parts: everything inside plus what has crossed the boundary.
 /// Summed on the CPU in double precision, so that the sum itself loses nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
@@ -21,18 +21,19 @@ pub struct Budget {
     pub gas_mass_with_crossed: f64,
     /// Solids \[kg\].
     pub solid_mass: f64,
-    /// Energy of gas and solids, and what has crossed the boundary \[J\].
+    /// Energy of gas and solids, the heat of plastic flow, and what has crossed the boundary, without what walls and films have given
+    /// to bodies \[J\].
     pub energy: f64,
-    /// Momentum of gas and solids, and what has crossed the boundary \[kg m s^-1\].
+    /// Momentum of gas and solids, and what has crossed the boundary, without what walls and films have given \[kg m s^-1\].
     pub momentum: [f64; 3],
 }
 
 impl Budget {
-    /// Reads the state. `elastic` is the elastic energy of the solids, 0 at the start \[J\].
+    /// Reads the state. `stored` is the elastic energy of the solids and the heat of plastic flow, 0 at the start \[J\].
     ///
     /// # Errors
     /// Driver errors.
-    pub fn read(simulation: &Simulation, scene: &Scene, elastic: f64) -> Result<Self> {
+    pub fn read(simulation: &Simulation, scene: &Scene, stored: f64) -> Result<Self> {
         let (gpu, state) = (simulation.gpu(), &simulation.state);
         let volume = scene.domain.cell_volume();
         let flow = readback::read(gpu, &state.gas.conserved)?;
@@ -40,7 +41,7 @@ impl Budget {
         let cells = readback::read(gpu, &state.interface.cells)?;
         let owed = readback::read(gpu, &state.gas.owed_flow)?;
         let owed_energy = readback::read(gpu, &state.gas.owed_energy)?;
-        let mut budget = Self { energy: elastic, ..Self::default() };
+        let mut budget = Self { energy: stored, ..Self::default() };
         for (slot, &word) in cells.iter().enumerate() {
             let inside = matches!((word & u32::from(kind::MASK)) as u8, kind::GAS | kind::SOLID);
             let mass = volume * f64::from(flow[slot][0]);
@@ -52,6 +53,11 @@ impl Budget {
             }
         }
         budget.add_solids(&simulation.snapshot()?, scene);
+        let [x, y, z, work] = simulation.given();
+        budget.energy -= work;
+        for (sum, given) in budget.momentum.iter_mut().zip([x, y, z]) {
+            *sum -= given;
+        }
         Ok(budget)
     }
 
@@ -59,11 +65,11 @@ impl Budget {
         let materials = scene.material_parameters();
         for particle in &snapshot.particles {
             let mass = f64::from(particle.mass);
-            let square: f64 = particle.velocity.iter().map(|&v| f64::from(v) * f64::from(v)).sum();
             let ghost = f64::from(particle.ghost_pressure);
             let modulus = materials.get(particle.material as usize).map_or(f64::INFINITY, |m| m.ghost_modulus.into());
             self.solid_mass += mass;
-            self.energy += 0.5 * mass * square + f64::from(particle.volume0) * 0.5 * ghost * ghost / modulus;
+            self.energy +=
+                f64::from(particle.kinetic_energy) + f64::from(particle.volume0) * 0.5 * ghost * ghost / modulus;
             for (sum, v) in self.momentum.iter_mut().zip(particle.velocity) {
                 *sum += mass * f64::from(v);
             }
@@ -143,10 +149,10 @@ impl Summary {
         }
     }
 
-    /// Elastic energy after the last step, without that of the ghost pressure \[J\].
+    /// Elastic energy after the last step, without that of the ghost pressure, and the heat of plastic flow \[J\].
     #[must_use]
-    pub fn elastic_energy(&self) -> f64 {
-        self.last.as_ref().map_or(0.0, |last| last.elastic_energy.into())
+    pub fn stored_energy(&self) -> f64 {
+        self.last.as_ref().map_or(0.0, |last| f64::from(last.elastic_energy) + f64::from(last.plastic_heat))
     }
 }
 
@@ -217,7 +223,7 @@ pub fn run(gpu: &Gpu, scene: &Scene) -> Result<Vec<Check>> {
     let start = Budget::read(&simulation, scene, 0.0)?;
     let mut summary = Summary::default();
     summary.add(&simulation.advance_to(scene.time.until)?);
-    let end = Budget::read(&simulation, scene, summary.elastic_energy())?;
+    let end = Budget::read(&simulation, scene, summary.stored_energy())?;
     let snapshot = simulation.snapshot()?;
     Ok(evaluate(scene, &Ending { start: &start, end: &end, summary: &summary, snapshot: &snapshot }))
 }

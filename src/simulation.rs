@@ -331,6 +331,12 @@ impl Simulation {
         std::array::from_fn(|axis| at[axis] as i32 - padding[axis] as i32)
     }
 
+    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies since the start.
+    #[must_use]
+    pub fn given(&self) -> [f64; 4] {
+        self.given
+    }
+
     /// Simulated time \[s\].
     #[must_use]
     pub fn time(&self) -> f64 {

@@ -57,6 +57,8 @@ pub struct ParticleSample {
     pub vorticity: [f32; 3],
     /// Mass \[kg\].
     pub mass: f32,
+    /// Kinetic energy, that of the affine motion around it included \[J\].
+    pub kinetic_energy: f32,
     /// Volume at rest \[m^3\].
     pub volume0: f32,
     /// Ghost pressure of the solid \[Pa\].
@@ -115,6 +117,7 @@ fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
     let velocity = readback::read(gpu, &particles.velocity)?;
     let affine = readback::read(gpu, &particles.affine)?;
     let deformation = readback::read(gpu, &particles.deformation)?;
+    let axes = state.grid.dimension as usize;
     let xyz = |v: [f32; 4]| [v[0], v[1], v[2]];
     let sample = |p: usize| ParticleSample {
         position: xyz(position[p]),
@@ -124,6 +127,11 @@ fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
             [b[2] - c[1], c[0] - a[2], a[1] - b[0]]
         },
         mass: position[p][3],
+        kinetic_energy: {
+            let square = |v: [f32; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+            let turning: f32 = (0..axes).map(|column| square(affine[3 * p + column])).sum();
+            0.5 * position[p][3] * (square(velocity[p]) + 0.25 * state.grid.spacing * state.grid.spacing * turning)
+        },
         volume0: velocity[p][3],
         ghost_pressure: affine[3 * p][3],
         plastic_strain: affine[3 * p + 1][3],

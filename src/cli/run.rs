@@ -206,7 +206,7 @@ impl<'a> Run<'a> {
     }
 
     fn end_budget(&self) -> Result<Budget> {
-        Budget::read(&self.simulation, &self.scene, self.summary.elastic_energy())
+        Budget::read(&self.simulation, &self.scene, self.summary.stored_energy())
     }
 
     fn write_report(&self, outcome: &str, written: Written, expect: &[Check]) -> Result<Report<&Scene>> {

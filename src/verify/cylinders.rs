@@ -87,7 +87,7 @@ fn report_lift(session: &mut Session<'_>, journey: &Journey, [x, y]: [f64; 2], h
     let (_, body) = &journey.path(0)[PATH.len()];
     session.check(run, "velocity along x at 0.3", body.velocity[0]).reference(2.2672, CUT_CELLS);
     session.check(run, "velocity along y at 0.3", body.velocity[1]).reference(0.5937, CUT_CELLS);
-    books::report_on_floor(session, journey);
+    books::report(session, journey, None);
     let row = session.check(run, "PCG iterations per step, mean, goal", run.solver.mean_iterations);
     row.source("default rules").pass(Limit::AtMost(12.0));
 }

@@ -221,7 +221,7 @@ impl<'a> Session<'a> {
             stops.push(simulation.snapshot()?);
         }
         let run = Run::new(scene, simulation.snapshot()?, records, label);
-        let end = Budget::read(&simulation, &run.scene, run.summary.elastic_energy())?;
+        let end = Budget::read(&simulation, &run.scene, run.summary.stored_energy())?;
         Ok(Journey { run: self.finish(run), books: [start, end], stops })
     }
 

@@ -23,7 +23,7 @@ pub(super) const CASES: &[Case] = &[
         id: "compression_corner",
         title: "Supersonic compression corner",
         group: GROUP,
-        quick: true,
+        quick: false,
         source: "Oblique shock relations, NACA report 1135 (1953).",
         run: compression,
     },

@@ -17,6 +17,7 @@ fn snapshot(dimension: u32) -> Snapshot {
         position: [number(index), 0.5, 0.25],
         velocity: [1.0, number(index), 3.0],
         vorticity: [0.0; 3],
+        kinetic_energy: 0.0,
         mass: 2.0,
         volume0: 0.5,
         ghost_pressure: -4.0,

@@ -42,7 +42,7 @@ pub(crate) fn local_gradient(inputs: &Inputs, pressure: &[Vec<f64>; 3], c: [i32;
 /// Replaces the pressure kick of all nodes that have a local gradient.
 pub(crate) fn by_gradients(inputs: &Inputs, solution: &mut Solution, floor: f64) {
     let grid = &inputs.problem.grid;
-    for c in grid.all().into_iter().filter(|c| inputs.nodes.mass[grid.slot(*c)] > 0.0) {
+    for c in grid.all() {
         let slot = grid.slot(c);
         let touches = elements_of(inputs.problem, c).any(|(cell, _)| inputs.interface.cells[grid.slot(cell)] == SOLID);
         if !touches {

@@ -1,6 +1,6 @@
 //! Node velocities of the solid: elastic forces, walls, film, gravity.
 
-use super::grid::shift;
+use super::grid::{add, shift};
 use super::p2g::Nodes;
 use super::{Problem, Side, WALL};
 
@@ -8,6 +8,24 @@ use super::{Problem, Side, WALL};
 pub(crate) fn add_forces(velocity: &mut [[f64; 3]], mass: &[f64], force: &[[f64; 3]], dt: f64) {
     for ((v, m), f) in velocity.iter_mut().zip(mass).zip(force).filter(|((_, m), _)| **m > 0.0) {
         *v = [0, 1, 2].map(|d| v[d] + dt * f[d] / m);
+    }
+}
+
+/// What nodes lighter than the floor of the solve leave of a kick goes to the nodes around them, by mass.
+pub(crate) fn share_left(problem: &Problem, mass: &[f64], floor: f64, kick: &[[f64; 3]], velocity: &mut [[f64; 3]]) {
+    let grid = &problem.grid;
+    let mut gain = vec![[0.0; 3]; mass.len()];
+    for c in grid.all().into_iter().filter(|c| mass[grid.slot(*c)] < floor && kick[grid.slot(*c)] != [0.0; 3]) {
+        let slot = grid.slot(c);
+        let near = grid.offsets(-1, 1).into_iter().map(|o| add(c, o)).filter(|at| grid.stored(*at));
+        let near: Vec<usize> = near.map(|at| grid.slot(at)).filter(|at| mass[*at] > 0.0).collect();
+        let total: f64 = near.iter().map(|at| mass[*at]).sum();
+        for at in near {
+            gain[at] = [0, 1, 2].map(|d| gain[at][d] + kick[slot][d] * (floor - mass[slot]) / total);
+        }
+    }
+    for (v, gain) in velocity.iter_mut().zip(gain) {
+        *v = [0, 1, 2].map(|d| v[d] + gain[d]);
     }
 }
 

@@ -55,6 +55,8 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let predicted = ablation::elastic_first(problem, &faces.cells, &mut nodes, &floored, dt);
     mpm_grid_update::add_gravity(problem, &mut nodes, dt);
     mpm_grid_update::add_forces(&mut nodes.velocity, &floored, &film, dt);
+    let kick: Vec<_> = film.iter().zip(&nodes.mass).map(|(f, m)| f.map(|f| dt * f / m.max(floor))).collect();
+    mpm_grid_update::share_left(problem, &nodes.mass, floor, &kick, &mut nodes.velocity);
 
     let (interface, inner) = (&faces, &intermediate);
     let inputs = Inputs { problem, interface, bins: &bins, intermediate: inner, nodes: &nodes, dt };
@@ -62,10 +64,12 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     if problem.numerics.gradients {
         ablation::by_gradients(&inputs, &mut solution, floor);
     }
+    let kick = differences(&solution.solid_velocity, &nodes.velocity);
     state.gas = fluid_update::fluid_update(problem, &faces, (&star, &intermediate), &solution, &nodes.velocity, dt);
     state.open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
     let touched = fluid_update::energy_floor(problem, &faces.cells, &star, &mut state.gas, &mut state.ledger);
 
+    mpm_grid_update::share_left(problem, &nodes.mass, floor, &kick, &mut solution.solid_velocity);
     let change = g2p::ghost_change(problem, &faces, &bins, &solution.pressure[2]);
     let push = match predicted {
         None => {
@@ -81,15 +85,13 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let substeps = elastic_substeps(problem, &faces.cells, (&change, push.as_deref()), &mut nodes, state, dt);
     gas_advection::fill_ghosts(problem, &faces.cells, &mut state.gas);
     state.time += dt;
-    let report = Report {
-        dt,
-        iterations: solution.iterations,
-        converged: solution.converged,
-        limited,
-        floored: touched,
-        substeps,
-    };
+    let (iterations, converged) = (solution.iterations, solution.converged);
+    let report = Report { dt, iterations, converged, limited, floored: touched, substeps };
     (report, Trace { solution, nodes, shared: faces.shared })
+}
+
+fn differences(after: &[[f64; 3]], before: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    after.iter().zip(before).map(|(a, b)| [0, 1, 2].map(|d| a[d] - b[d])).collect()
 }
 
 /// Moves the particles; `push`: acceleration that is spread over the sub-steps. Returns their number.
