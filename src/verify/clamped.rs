@@ -86,14 +86,12 @@ fn hanging(session: &mut Session<'_>) -> Result<()> {
         let path = journey.displacement(0, |at| f64::from(at[0]) > tip);
         let [least, most] =
             path[1..].iter().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], p| [a.min(p[1]), b.max(p[1])]);
-        let fine = cells >= 260;
         let row = session.check(run, "largest displacement of the tip, over the static one", most / fallen);
-        row.reference(2.0, EXACT).within(0.02).known(Limit::Between(2.0, if fine { 2.06 } else { 2.16 }), CLAMP);
+        row.reference(2.0, EXACT).within(0.02).known(Limit::Between(2.0, 2.08), CLAMP);
         let row = session.check(run, "least one after a period", least / fallen);
         row.reference(0.0, EXACT).pass(Limit::Between(-0.02, 0.1));
         let found = turns(&run.records).get(1).copied().unwrap_or(f64::NAN);
-        let row = session.check(run, "period", found).reference(period, EXACT).within(0.02);
-        row.known(Limit::Between(period, 1.05 * period), CLAMP);
+        session.check(run, "period", found).reference(period, EXACT).within(0.02);
         let exact = (0..=56).map(|k| f64::from(k) * 0.0025).map(|time| [time, fallen * swing(time / period)]).collect();
         let plot = Plot::new("Bar under sudden gravity: tip", "time", "displacement");
         session.plot(plot.with(EXACT, Style::Reference, exact).with(run.label.clone(), Style::Marks, path));
@@ -107,9 +105,11 @@ fn swing(time: f64) -> f64 {
     if phase < 0.25 { 16.0 * phase * phase } else { 2.0 - 16.0 * (phase - 0.5).powi(2) }
 }
 
-/// Why held bodies are soft.
-const CLAMP: &str =
-    "a clamp holds whole nodes and its particles bear no stress: a bar is one to two cells longer than it is";
+/// Why the bar is too long.
+const CLAMP: &str = "a clamp ends on a node, up to half a cell inside its face, and rubber softens: 1 % of the modulus at the strain of 2 %";
+/// Why the centre is late.
+const PHASE: &str =
+    "after four periods that are 0.1 % (coarse: 0.4 %) too long: the clamp ends up to half a cell inside its face";
 
 fn vibrating(session: &mut Session<'_>) -> Result<()> {
     let (held, period, speed) = (5.0, 10.0, 0.063_661_977);
@@ -124,7 +124,7 @@ fn vibrating(session: &mut Session<'_>) -> Result<()> {
         let velocity = |record: &StepRecord| f64::from(record.solid.momentum[0]) / 25.0;
         let off = free.iter().map(|record| (velocity(record) / speed - angle(record.time).cos()).abs());
         let row = session.check(&run, "velocity of the centre, largest error over its peak", off.fold(0.0, f64::max));
-        row.reference(0.0, EXACT).pass(Limit::AtMost(0.025)).known(Limit::AtMost(0.2), CLAMP);
+        row.reference(0.0, EXACT).pass(Limit::AtMost(0.025)).known(Limit::AtMost(0.11), PHASE);
         let energy = [free.first(), free.last()].map(|record| record.map_or(f64::NAN, mechanical));
         session.check(&run, "energy when the end is held", energy[0]).reference(0.0625, EXACT);
         let row = session.check(&run, "energy after four periods, over that", energy[1] / energy[0]);
