@@ -155,7 +155,7 @@ fn vibration(points: &[[f64; 2]], guess: f64) -> [f64; 3] {
 fn cantilever(session: &mut Session<'_>) -> Result<()> {
     // q L^4 / (8 E' I) + q L^2 / (2 k G A), and the first root of the frequency equation
     let (bent, frequency) = (0.100_059, BEAM);
-    for cells in [80, 160] {
+    for cells in [40, 80] {
         let times = moments(82.0, 82);
         let journey = session.follow("validation/cantilever.toml", Setting::standard(cells), &[], times)?;
         let run = &journey.run;
