@@ -1,8 +1,7 @@
-//! Elastic bodies that are held at one end, against mechanics: bars, a beam, a panel that a shock strikes.
+//! Elastic bodies that are held at one end, against mechanics: bars and a beam.
 
 use super::Case;
 use super::plot::{Plot, Style};
-use super::profile::{PRESSURE, Profile};
 use super::row::Limit;
 use super::session::{Journey, Session, Setting, Suite};
 use super::solids::{GROUP, mechanical};
@@ -34,14 +33,6 @@ pub(super) const CASES: &[Case] = &[
         quick: false,
         source: "Beam of S. P. Timoshenko (Philosophical Magazine 41 (1921) 744) in plane strain, shear coefficient 5/6.",
         run: cantilever,
-    },
-    Case {
-        id: "shocked_panel",
-        title: "Shock on a clamped panel",
-        group: super::drifting::GROUP,
-        quick: false,
-        source: "J. Giordano, G. Jourdan, Y. Burtschell, M. Medale, D. E. Zeitoun, L. Houas, Shock Waves 14 (2005) 103; test \"shocked panel\" of the code M2C.",
-        run: panel,
     },
 ];
 
@@ -163,10 +154,12 @@ fn cantilever(session: &mut Session<'_>) -> Result<()> {
         let path: Vec<[f64; 2]> =
             journey.displacement(1, |at| f64::from(at[0]) > tip).iter().map(|p| [p[0], -p[1]]).collect();
         let [mean, rest, found] = vibration(&path, frequency);
+        // the gates are for eight cells through the depth
+        let gate = if cells >= 80 { 0.03 } else { 0.1 };
         let row = session.check(run, "static deflection: mean of the vibration", mean);
-        row.reference(bent, "Timoshenko's beam").within(0.03);
+        row.reference(bent, "Timoshenko's beam").within(gate);
         let row = session.check(run, "angular frequency", found);
-        row.reference(frequency, "Timoshenko's beam").within(0.03);
+        row.reference(frequency, "Timoshenko's beam").within(gate);
         session
             .check(run, "rms of what is not that vibration, over the deflection", rest / mean)
             .source("higher modes");
@@ -179,44 +172,3 @@ fn cantilever(session: &mut Session<'_>) -> Result<()> {
 
 /// Angular frequency of the first mode of the cantilever \[rad s^-1\].
 const BEAM: f64 = 0.156_515;
-
-/// Displacement of the tip in a fine run of another code \[s, m\].
-const TIP: [[f64; 2]; 8] = [
-    [0.4e-3, 1.21e-3],
-    [0.8e-3, 3.92e-3],
-    [1.2e-3, 5.71e-3],
-    [1.6e-3, 4.92e-3],
-    [2.0e-3, 0.9e-3],
-    [2.4e-3, -3.07e-3],
-    [2.7e-3, -4.03e-3],
-    [3.0e-3, -2.64e-3],
-];
-
-fn panel(session: &mut Session<'_>) -> Result<()> {
-    let journey = session.follow("validation/shocked_panel.toml", Setting::standard(600), &[], moments(3e-3, 120))?;
-    let run = &journey.run;
-    let path = journey.displacement(0, |at| at[1] > 0.0495);
-    let peak = path.iter().take(80).copied().fold([0.0, 0.0], |best, p| if p[1] > best[1] { p } else { best });
-    let row = session.check(run, "largest displacement of the tip", peak[1]).reference(5.84e-3, "M2C, fine grid");
-    row.pass(Limit::Between(5.2e-3, 6.7e-3));
-    let row = session.check(run, "when", peak[0]).reference(1.291e-3, "M2C, fine grid");
-    row.pass(Limit::Between(1.15e-3, 1.45e-3));
-    let back = path.windows(2).find(|p| p[0][0] > peak[0] && p[0][1] > 0.0 && p[1][1] <= 0.0);
-    let back = back.map_or(f64::NAN, |p| p[0][0] + (p[1][0] - p[0][0]) * p[0][1] / (p[0][1] - p[1][1]));
-    let row = session.check(run, "back at its place", back).reference(2.09e-3, "M2C, fine grid");
-    row.pass(Limit::Between(1.95e-3, 2.35e-3));
-    // the gauge in the roof, 10 mm ahead of the panel
-    let [x, y] = [-0.01, 0.0647].map(|place| place + 0.0);
-    let mut sum = [0.0, 0.0];
-    for stop in journey.stops.iter().filter(|stop| (0.25e-3..0.6e-3).contains(&stop.time)) {
-        let mut then = run.clone();
-        then.snapshot = stop.clone();
-        let here = Profile::along(&then, 0, y).mean(PRESSURE, [x - 1e-3, x + 1e-3]);
-        sum = [sum[0] + here, sum[1] + 1.0];
-    }
-    let row = session.check(run, "pressure ahead of it, mean from 0.25 to 0.6 ms", sum[0] / sum[1]);
-    row.source("Giordano et al. 2005").pass(Limit::Between(180e3, 200e3));
-    let plot = Plot::new("Shock on a panel: tip", "time", "displacement");
-    session.plot(plot.with("M2C", Style::Reference, TIP.to_vec()).with(run.label.clone(), Style::Marks, path));
-    Ok(())
-}

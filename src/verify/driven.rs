@@ -32,7 +32,7 @@ pub(super) const CASES: &[Case] = &[
     Case {
         id: "flying_wedge",
         title: "Wedge that flies at Mach 2",
-        group: "Coupling in 2D and 3D",
+        group: super::drifting::GROUP,
         quick: false,
         source: "Ames Research Staff, NACA report 1135, 1953; test \"M2wedge\" of the material point code Uintah (MPMICE).",
         run: wedge,
