@@ -141,7 +141,19 @@ fn put_at(p: u32, place: vec3f) {
     position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
 }
 
-// Moves a driven particle: it keeps its shape.
+// Whether the law of a particle counts: a part that is held bears the stress of the rest at its edge.
+fn strains(p: u32) -> bool { return !is_driven(p) || support_of(p).clamped == 1u; }
+
+// Deformation gradient before plastic flow. What is driven turns with its motion, and strains where the nodes around it do not follow.
+fn trial_deformation(p: u32, gradient: mat3x3f, time: f32) -> mat3x3f {
+    let f = deformation_of(p);
+    if !is_driven(p) { return f + time * gradient * f; }
+    let s = support_of(p);
+    let trial = f + time * (gradient - turning(s.spin)) * f;
+    return mat3x3f(turned(s, trial[0], time), turned(s, trial[1], time), turned(s, trial[2], time));
+}
+
+// Moves a driven particle.
 fn carry(p: u32, time: f32) {
     let x = position[p].xyz;
     let s = support_of(p);
@@ -165,31 +177,46 @@ fn relaxation(p: u32, q: f32, f: mat3x3f, material: MaterialParams, time: f32) -
     return (1.0 - exp(-time * speed / (RELAXED_CELLS * params.spacing))) * (swollen - q);
 }
 
-// Moves a particle with velocity v; `trial` is its deformation gradient before plastic flow, `stored` where it is in memory already.
+// Stress of a particle from `f`, its deformation gradient before plastic flow and then after it; `stored` where it is in memory already.
 // Returns false after a fault.
-fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
-    let x = position[p].xyz;
+fn strain(p: u32, f: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+    let trial = *f;
     let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
-    let f = returned.deformation;
-    let volume = determinant(f);
+    *f = returned.deformation;
+    let volume = determinant(*f);
     if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {
         atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
         return false;
     }
-    affine[3u * p].w += ghost_change(x) / f32(control.substeps);
-    if SHARED_VOLUME { affine[3u * p].w += relaxation(p, affine[3u * p].w, f, material, time); }
-    put_at(p, x + time * v);
-    let tau = kirchhoff_stress(material.kind, f, elastic_part(material, SHARED_VOLUME)) * velocity[p].w;
+    let tau = kirchhoff_stress(material.kind, *f, elastic_part(material, SHARED_VOLUME)) * velocity[p].w;
     var heat = stress[2u * p].w;
     if returned.plastic_strain > 0.0 {
         affine[3u * p + 1u].w += returned.plastic_strain;
-        let lost = elastic_energy(material.kind, trial, material) - elastic_energy(material.kind, f, material);
+        let lost = elastic_energy(material.kind, trial, material) - elastic_energy(material.kind, *f, material);
         heat += velocity[p].w * lost;
     }
-    if !stored || returned.plastic_strain > 0.0 { store_deformation(p, f); }
+    if !stored || returned.plastic_strain > 0.0 { store_deformation(p, *f); }
     stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, heat);
     stress[2u * p + 1u] = vec4f(tau[0].y, tau[1].z, tau[0].z, 0.0);
+    return true;
+}
+
+// Strains and moves a particle with velocity v; `trial` and `stored` as above. Returns false after a fault.
+fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
+    var f = trial;
+    if strains(p) && !strain(p, &f, v, stored) { return false; }
+    if is_driven(p) {
+        carry(p, time);
+        return true;
+    }
+    let x = position[p].xyz;
+    affine[3u * p].w += ghost_change(x) / f32(control.substeps);
+    if SHARED_VOLUME {
+        let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+        affine[3u * p].w += relaxation(p, affine[3u * p].w, f, material, time);
+    }
+    put_at(p, x + time * v);
     return true;
 }
 
@@ -207,7 +234,7 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     let p = thread_index(group, groups, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     let time = control.dt / f32(control.substeps);
-    if is_driven(p) {
+    if !strains(p) {
         carry(p, time);
         return;
     }
@@ -216,8 +243,8 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     let at = place_at(x, vec3f(cell) + 0.5);
     read_rows(slot_of(cell));
     let motion = motion_at(at);
-    let f = deformation_of(p);
-    if advance(p, motion.velocity, f + time * motion.gradient * f, false, time) { store_motion(p, motion, at); }
+    let moved = advance(p, motion.velocity, trial_deformation(p, motion.gradient, time), false, time);
+    if moved && !is_driven(p) { store_motion(p, motion, at); }
 }
 
 // Velocity, affine velocity and trial deformation of the particles of a cell.
@@ -234,12 +261,11 @@ fn g2p_cells(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) group
     read_rows(slot);
     for (var i = first; i < end; i++) {
         let p = order[i];
-        if is_driven(p) { continue; }
+        if !strains(p) { continue; }
         let at = place_at(position[p].xyz, middle);
         let motion = motion_at(at);
-        store_motion(p, motion, at);
-        let f = deformation_of(p);
-        store_deformation(p, f + time * motion.gradient * f);
+        if !is_driven(p) { store_motion(p, motion, at); }
+        store_deformation(p, trial_deformation(p, motion.gradient, time));
     }
 }
 
@@ -250,5 +276,5 @@ fn g2p_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let p = thread_index(group, groups, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     let time = control.dt / f32(control.substeps);
-    if is_driven(p) { carry(p, time); } else { _ = advance(p, velocity[p].xyz, deformation_of(p), true, time); }
+    _ = advance(p, velocity[p].xyz, deformation_of(p), true, time);
 }

@@ -18,11 +18,6 @@
 @group(0) @binding(8) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(9) var<storage, read_write> node: array<vec4f>;
 
-// Columns of the matrix that turns: spin x.
-fn turning(spin: vec3f) -> mat3x3f {
-    return mat3x3f(0.0, spin.z, -spin.y, -spin.z, 0.0, spin.x, spin.y, -spin.x, 0.0);
-}
-
 @compute @workgroup_size(WORKGROUP)
 fn supports_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                       @builtin(local_invocation_index) lane: u32) {

@@ -13,12 +13,20 @@ fn rigid_velocity(s: Support, x: vec3f, part: f32) -> vec3f {
     return s.velocity + cross(s.spin, x - s.pivot - part * s.advance);
 }
 
-// Where a point goes between two shares of the step. [Rodrigues 1840]
-fn rigid_place(s: Support, x: vec3f, from_part: f32, to_part: f32, time: f32) -> vec3f {
-    let arm = x - s.pivot - from_part * s.advance;
+// Columns of the matrix that turns: spin x.
+fn turning(spin: vec3f) -> mat3x3f {
+    return mat3x3f(0.0, spin.z, -spin.y, -spin.z, 0.0, spin.x, spin.y, -spin.x, 0.0);
+}
+
+// A vector that turns with `s` for a while. [Rodrigues 1840]
+fn turned(s: Support, arm: vec3f, time: f32) -> vec3f {
     let rate = length(s.spin);
     let about = s.spin / max(rate, 1e-30);
     let angle = rate * time;
-    let turned = arm * cos(angle) + cross(about, arm) * sin(angle) + about * dot(about, arm) * (1.0 - cos(angle));
-    return s.pivot + to_part * s.advance + turned;
+    return arm * cos(angle) + cross(about, arm) * sin(angle) + about * dot(about, arm) * (1.0 - cos(angle));
+}
+
+// Where a point goes between two shares of the step.
+fn rigid_place(s: Support, x: vec3f, from_part: f32, to_part: f32, time: f32) -> vec3f {
+    return s.pivot + to_part * s.advance + turned(s, x - s.pivot - from_part * s.advance, time);
 }

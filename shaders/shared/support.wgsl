@@ -8,4 +8,5 @@ struct Support {
     pivot: vec3f,       // [m] the point it turns about, at the start of the step
     entries: u32,       // entries of its motion over time
     advance: vec3f,     // [m] how far that point moves in this step
+    clamped: u32,       // 1 where only a part of the body is driven
 }

@@ -22,8 +22,8 @@ pub struct Support {
     pub entries: u32,
     /// How far that point moves in this step \[m\].
     pub advance: [f32; 3],
-    /// Fills the last 16 bytes.
-    pub unused: u32,
+    /// 1 where only a part of the body is driven: that part strains next to the rest.
+    pub clamped: u32,
 }
 
 /// One entry of a motion over time. Mirror of `MotionAt` in `shaders/supports.wgsl`.
@@ -74,6 +74,7 @@ impl Supports {
                 friction: (body.friction.coefficient() as f32).min(STICK),
                 first,
                 entries: supports.motions.len() as u32 - first,
+                clamped: u32::from(body.clamped.is_some()),
                 pivot: body.motion.as_ref().map_or([0.0; 3], |motion| single(motion.about)),
                 ..Support::default()
             });

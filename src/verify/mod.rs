@@ -20,9 +20,11 @@ mod blast_2d;
 mod blasts;
 mod books;
 mod buoyancy;
+mod clamped;
 mod cylinders;
 mod document;
 mod drifting;
+mod driven;
 mod explosions;
 mod forward_step;
 mod fragments;
@@ -79,9 +81,17 @@ pub struct Case {
 pub fn cases() -> impl Iterator<Item = &'static Case> {
     let lines = [tubes::CASES, blasts::CASES, waves::CASES];
     let spaces = [blast_2d::CASES, explosions::CASES, forward_step::CASES, steady::CASES, jet::CASES];
-    let coupled = [plates::CASES, pistons::CASES, drifting::CASES, shells::CASES, cylinders::CASES, fragments::CASES];
+    let coupled = [
+        plates::CASES,
+        pistons::CASES,
+        drifting::CASES,
+        driven::CASES,
+        shells::CASES,
+        cylinders::CASES,
+        fragments::CASES,
+    ];
     let gas = lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES]);
-    gas.chain(coupled).chain([solids::CASES, ablations::CASES]).flatten()
+    gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten()
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.

@@ -9,7 +9,8 @@ use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::expect::Budget;
 
-const GROUP: &str = "Solids";
+/// Heading of these cases.
+pub(super) const GROUP: &str = "Solids";
 
 /// The cases of this module.
 pub(super) const CASES: &[Case] = &[
@@ -83,7 +84,7 @@ impl Run {
 }
 
 /// Kinetic and elastic energy of the solids \[J\].
-fn mechanical(record: &StepRecord) -> f64 {
+pub(super) fn mechanical(record: &StepRecord) -> f64 {
     f64::from(record.solid.energy) + f64::from(record.elastic_energy)
 }
 

@@ -79,6 +79,13 @@ scenes! {
     colliding_discs: "validation/colliding_discs.toml", "time.until=0.5";
     spinning_disc: "validation/spinning_disc.toml", "time.until=0.02";
     static_load: "validation/static_load.toml";
+    driven_piston: "validation/driven_piston.toml", "domain.cells=[200]";
+    compressed_chamber: "validation/compressed_chamber.toml", "domain.cells=[64]", "time.until=2.0", "expect.bodies=[]";
+    flying_wedge: "validation/flying_wedge.toml", "domain.cells=[72, 14]", "time.until=0.5";
+    hanging_bar: "validation/hanging_bar.toml", "time.until=0.05";
+    vibrating_bar: "validation/vibrating_bar.toml", "time.until=10.0";
+    cantilever: "validation/cantilever.toml", "domain.cells=[40, 12]", "time.until=2.0";
+    shocked_panel: "validation/shocked_panel.toml", "domain.cells=[300, 68]", "time.until=1e-6";
     blasted_ellipse: "paper/blasted_ellipse.toml", "domain.cells=[32, 32]";
     supernova_2d: "paper/supernova_2d.toml", "domain.cells=[40, 16]";
     piston: "coupled/piston.toml";
