@@ -176,8 +176,8 @@ fn discs(session: &mut Session<'_>) -> Result<()> {
 
 fn disc(session: &mut Session<'_>) -> Result<()> {
     let quick = session.suite == Suite::Quick;
-    let until = [format!("time.until={}", if quick { 0.314_159_265 } else { 6.283_185_3 })];
-    let run_until = if quick { 0.314_159_265 } else { 6.283_185_3 };
+    let run_until = if quick { 0.1 * std::f64::consts::PI } else { std::f64::consts::TAU };
+    let until = [format!("time.until={run_until}")];
     let journey = session.follow("validation/spinning_disc.toml", Setting::standard(0), &until, [run_until])?;
     let path = journey.path(0);
     let [start, end] = [0, 1].map(|k| path[k].1.angular_momentum[2]);
