@@ -34,7 +34,7 @@ const SHELLS: [Shell; 5] = [
 ];
 
 /// Why the hot shell loses energy.
-const TRANSFERS: &str = "transfers between particles and grid and elastic sub-steps damp the torn ring";
+const TRANSFERS: &str = "transfers between particles and grid and elastic sub-steps are suspected; the loss was not split up";
 /// Why the hot shell leaves the middle.
 const TORN: &str = "the ring tears; rounding decides which fragment goes first";
 
