@@ -34,9 +34,10 @@ const SHELLS: [Shell; 5] = [
 ];
 
 /// Why the hot shell loses energy.
-const TRANSFERS: &str = "transfers between particles and grid and elastic sub-steps are suspected; the loss was not split up";
+const TRANSFERS: &str =
+    "transfers between particles and grid and elastic sub-steps are suspected; the loss was not split up";
 /// Why the hot shell leaves the middle.
-const TORN: &str = "the ring tears; rounding decides which fragment goes first";
+const TORN: &str = "the ring tears; that rounding decides which fragment goes first is a guess";
 
 const PATH: &str = "validation/exploding_shell.toml";
 /// Stops of a run.
