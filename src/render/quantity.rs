@@ -26,21 +26,9 @@ pub(super) fn constants() -> String {
     CODES.iter().enumerate().map(|(code, (name, _))| format!("const {name}: u32 = {code}u;\n")).collect()
 }
 
-/// Keyword of a field, as in scene files.
-pub(super) fn name(field: Field) -> &'static str {
-    match field {
-        Field::Density => "density",
-        Field::Pressure => "pressure",
-        Field::Velocity => "velocity",
-        Field::Temperature => "temperature",
-        Field::Schlieren => "schlieren",
-        Field::Mach => "mach",
-        Field::Vorticity => "vorticity",
-    }
-}
-
-/// Caption of the colour bar, with the unit.
-pub(super) fn caption(field: Field) -> &'static str {
+/// Caption of a field's colour bar, with the unit.
+#[must_use]
+pub fn caption(field: Field) -> &'static str {
     match field {
         Field::Density => "density [kg/m\u{b3}]",
         Field::Pressure => "pressure [Pa]",
@@ -80,29 +68,17 @@ pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamm
     [seen[0] - 0.5 * missing, seen[1] + 0.5 * missing]
 }
 
-/// Moves a range shown before towards the new one: wider at once, narrower by a fifth of the way, so that colours do not
-/// flicker from frame to frame.
-pub(super) fn follow(before: Option<[f64; 2]>, now: [f64; 2]) -> [f64; 2] {
-    const SHRINK: f64 = 0.2;
-    let Some([low, high]) = before else { return now };
-    [
-        if now[0] < low { now[0] } else { low + SHRINK * (now[0] - low) },
-        if now[1] > high { now[1] } else { high + SHRINK * (now[1] - high) },
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn ranges_are_never_empty_and_follow_slowly() {
+    fn ranges_are_never_empty() {
         let air = GasState { density: 1.0, velocity: [0.0; 3], pressure: 1.0 };
         let range = shown_range(Field::Density, [1.0, 1.0], &air, 1.4, 0.1);
         assert!((range[1] - range[0] - 2e-3).abs() < 1e-12);
         assert_eq!(shown_range(Field::Velocity, [0.5, 3.0], &air, 1.4, 0.1), [0.0, 3.0]);
         let nothing = shown_range(Field::Pressure, [f64::INFINITY, f64::NEG_INFINITY], &air, 1.4, 0.1);
         assert!(nothing[0] < nothing[1]);
-        assert_eq!(follow(Some([0.0, 10.0]), [-1.0, 5.0]), [-1.0, 9.0]);
     }
 }

@@ -3,7 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4};
 
-use crate::scene::{Camera, Scene};
+use super::camera::Eye;
+use crate::scene::Scene;
 use crate::state::Grid;
 
 /// Diameter of a drawn particle over the edge of its volume: neighbours overlap, so that a body has no holes.
@@ -75,21 +76,8 @@ pub struct View {
 }
 
 impl View {
-    /// The view of a scene in a picture of `size` pixels; range and field are set per picture.
-    pub(crate) fn of_scene(scene: &Scene, grid: &Grid, size: [u32; 2], particles: u32) -> Self {
-        let middle = middle_of(grid);
-        let extent = Vec3::from(grid.extent());
-        let eye = if grid.dimension == 3 {
-            Eye::pinhole(&scene.render.camera.unwrap_or_else(|| fitting_camera(grid, size)))
-        } else {
-            Eye {
-                position: middle - extent.max_element() * Vec3::NEG_Z,
-                forward: Vec3::NEG_Z,
-                up: Vec3::Y,
-                parallel: true,
-                half_height: 0.5 * extent.y,
-            }
-        };
+    /// The view of a scene through an eye in a picture of `size` pixels; range and field are set per picture.
+    pub(super) fn new(scene: &Scene, grid: &Grid, eye: &Eye, size: [u32; 2], particles: u32) -> Self {
         let right = eye.forward.cross(eye.up);
         let light = (0.75 * eye.up - 0.55 * right - 0.65 * eye.forward).normalize();
         Self {
@@ -159,64 +147,5 @@ impl View {
         let to_seen = if depth_to < nearest { cut(to, from) } else { to };
         let ((a, depth_a), (b, depth_b)) = (self.project(from_seen), self.project(to_seen));
         [Vec4::new(a.x, a.y, b.x, b.y), Vec4::new(depth_a, depth_b, 0.0, 0.0)]
-    }
-}
-
-/// Position and orientation of the eye.
-struct Eye {
-    position: Vec3,
-    forward: Vec3,
-    up: Vec3,
-    parallel: bool,
-    half_height: f32,
-}
-
-impl Eye {
-    fn pinhole(camera: &Camera) -> Self {
-        let vector = |v: [f64; 3]| Vec3::from_array(v.map(|coordinate| coordinate as f32));
-        let position = vector(camera.eye);
-        let forward = (vector(camera.target) - position).normalize_or(Vec3::Y);
-        // A camera that looks along its own `up` still needs some picture: any direction across will do.
-        let right = forward.cross(vector(camera.up)).normalize_or(forward.any_orthonormal_vector());
-        let half_height = (0.5 * camera.fov_degrees as f32).to_radians().tan();
-        Self { position, forward, up: right.cross(forward), parallel: false, half_height }
-    }
-}
-
-fn middle_of(grid: &Grid) -> Vec3 {
-    Vec3::from(grid.origin) + 0.5 * Vec3::from(grid.extent())
-}
-
-/// A view from the side and above that shows the whole domain, below the title.
-fn fitting_camera(grid: &Grid, size: [u32; 2]) -> Camera {
-    const FIELD_OF_VIEW: f32 = 32.0;
-    /// Share of the picture that the domain may take.
-    const FILLED: f32 = 0.86;
-    let half_height = (0.5 * FIELD_OF_VIEW).to_radians().tan();
-    let half_size = half_height * FILLED * Vec2::new((size[0] as f32 / size[1] as f32).min(1.2), 1.0);
-    let forward = -Vec3::new(0.55, -0.90, 0.42).normalize();
-    let right = forward.cross(Vec3::Z).normalize();
-    let up = right.cross(forward);
-    let extent = Vec3::from(grid.extent());
-    let mut target = middle_of(grid);
-    let mut distance = 2.0 * extent.length() / half_height;
-    // Perspective makes the fit depend on the distance; a few rounds settle it.
-    for _ in 0..8 {
-        let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-        for corner in 0..8 {
-            let part = Vec3::new((corner & 1) as f32, ((corner >> 1) & 1) as f32, (corner >> 2) as f32);
-            let relative = Vec3::from(grid.origin) + part * extent - (target - distance * forward);
-            let place = Vec2::new(relative.dot(right), relative.dot(up)) / relative.dot(forward);
-            (low, high) = (low.min(place), high.max(place));
-        }
-        let middle = 0.5 * (low + high) * distance;
-        target += middle.x * right + middle.y * up;
-        distance *= (0.5 * (high - low) / half_size).max_element();
-    }
-    Camera {
-        eye: (target - distance * forward).to_array().map(f64::from),
-        target: target.to_array().map(f64::from),
-        up: [0.0, 0.0, 1.0],
-        fov_degrees: FIELD_OF_VIEW.into(),
     }
 }

@@ -18,6 +18,7 @@ mod fill;
 mod integrator;
 mod load;
 mod polyhedron;
+mod render;
 mod settings;
 mod shape;
 mod source;
@@ -48,10 +49,8 @@ pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};
 pub use polyhedron::Part;
-pub use settings::{
-    Camera, Colormap, Expect, ExpectedBody, Field, Film, Numerics, Obstacles, Output, Pair, RenderMode, RenderSettings,
-    Time, Transfer,
-};
+pub use render::{Camera, Colormap, Field, RenderMode, RenderSettings};
+pub use settings::{Expect, ExpectedBody, Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
 pub use shape::Shape;
 pub use vortex::Vortex;
 pub use wave::Wave;

@@ -6,7 +6,7 @@ use std::path::Path;
 use brisance::export::{self, Exporter, Moment};
 use brisance::gpu::{Buffer, Folder, Gpu, GpuOptions, Shader, readback};
 use brisance::render::{ParticleBuffers, Picture, Renderer, SceneBuffers, View};
-use brisance::scene::Scene;
+use brisance::scene::{Camera, Field, Scene};
 use brisance::state::Grid;
 
 /// Buffers that play a simulation's state.
@@ -258,6 +258,46 @@ fn smallest_frames_do_not_overflow() {
 fn given_range_is_kept() {
     let pictures = render(2, 16, [64, 64], "render.range = [0.5, 7.5]");
     assert_eq!(pictures[0].range, [0.5, 7.5]);
+}
+
+#[test]
+fn a_look_may_change_from_picture_to_picture() {
+    let gpu = gpu();
+    let scene = scene(3, 16, [96, 64], "");
+    let state = State::new(&gpu, &scene);
+    let mut renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
+    let first = renderer.render(0.0125).unwrap();
+    let mut look = scene.render.clone();
+    look.size = [48, 80];
+    look.particles = false;
+    let eye = [0.5, -2.0, 0.6];
+    look.camera = Some(Camera { eye, target: [0.5; 3], up: [0.0, 0.0, 1.0], fov_degrees: 35.0 });
+    let other = renderer.draw(&look, Field::Pressure, 0.0125).unwrap();
+    assert_eq!((other.frame.width, other.frame.height, other.name.as_str()), (48, 80, "pressure"));
+    assert_eq!(other.range, renderer.automatic_range(&look, Field::Pressure).unwrap());
+    assert_ne!(renderer.draw(&look, Field::Velocity, 0.0125).unwrap().frame, other.frame);
+    let again = renderer.draw(&scene.render, Field::Density, 0.0125).unwrap();
+    assert_eq!(again, first[0], "what was drawn in between leaves no trace");
+    let ray = renderer.ray(&look, [24.0, 40.0]);
+    assert_eq!(ray.origin, eye.map(|x: f64| f64::from(x as f32)));
+    assert!(ray.direction[1] > 0.99, "{ray:?}");
+    assert_eq!(renderer.camera(&look), look.camera.unwrap());
+}
+
+#[test]
+fn a_pixel_of_the_plane_is_the_point_it_shows() {
+    let gpu = gpu();
+    let scene = scene(2, 48, [320, 200], "");
+    let state = State::new(&gpu, &scene);
+    let renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
+    let mut look = scene.render.clone();
+    look.size = [640, 400];
+    let along = |x: f64| renderer.ray(&look, [x, 200.0]).origin[0];
+    // the picture of the unit square is as high as the frame but for the margins
+    let pixels = (1.0 / (along(301.0) - along(300.0))).round();
+    assert!((300.0..400.0).contains(&pixels), "{pixels} pixels per unit length");
+    assert!((along(300.0) - along(200.0) - 100.0 / pixels).abs() < 1e-3);
+    assert!(renderer.ray(&look, [320.0, 100.0]).origin[1] > renderer.ray(&look, [320.0, 300.0]).origin[1]);
 }
 
 #[test]
