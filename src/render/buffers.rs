@@ -30,6 +30,8 @@ pub struct ParticleBuffers<'a> {
     pub affine: &'a wgpu::Buffer,
     /// Deformation gradient, three vec4 per particle; the first w holds the body, the second the active flag.
     pub deformation: &'a wgpu::Buffer,
+    /// Kirchhoff stress times volume at rest, two vec4 per particle: xx, yy, zz; then xy, yz, zx.
+    pub stress: &'a wgpu::Buffer,
 }
 
 impl<'a> SceneBuffers<'a> {
@@ -48,6 +50,7 @@ impl<'a> SceneBuffers<'a> {
                 velocity: particles.velocity.raw(),
                 affine: particles.affine.raw(),
                 deformation: particles.deformation.raw(),
+                stress: particles.stress.raw(),
             }),
         }
     }
@@ -71,6 +74,7 @@ pub(super) struct ParticleSources {
     pub(super) velocity: wgpu::Buffer,
     pub(super) affine: wgpu::Buffer,
     pub(super) deformation: wgpu::Buffer,
+    pub(super) stress: wgpu::Buffer,
 }
 
 impl From<&SceneBuffers<'_>> for Sources {
@@ -81,6 +85,7 @@ impl From<&SceneBuffers<'_>> for Sources {
             velocity: own.velocity.clone(),
             affine: own.affine.clone(),
             deformation: own.deformation.clone(),
+            stress: own.stress.clone(),
         });
         Self {
             grid: buffers.grid,

@@ -33,8 +33,11 @@ impl Eye {
         let forward = (vector(camera.target) - position).normalize_or(Vec3::Y);
         // A camera that looks along its own `up` still needs some picture: any direction across will do.
         let right = forward.cross(vector(camera.up)).normalize_or(forward.any_orthonormal_vector());
-        let half_height = (0.5 * camera.fov_degrees as f32).to_radians().tan();
-        Self { position, forward, up: right.cross(forward), parallel: false, half_height }
+        let half_height = match camera.height {
+            Some(height) => 0.5 * height as f32,
+            None => (0.5 * camera.fov_degrees as f32).to_radians().tan(),
+        };
+        Self { position, forward, up: right.cross(forward), parallel: camera.height.is_some(), half_height }
     }
 
     /// Straight onto a plane domain, all of it in the picture.
@@ -97,6 +100,7 @@ pub(super) fn fitting_camera(grid: &Grid, size: [u32; 2]) -> Camera {
         target: target.to_array().map(f64::from),
         up: [0.0, 0.0, 1.0],
         fov_degrees: FIELD_OF_VIEW.into(),
+        height: None,
     }
 }
 
@@ -106,7 +110,8 @@ mod tests {
 
     #[test]
     fn rays_pass_through_the_pixels_where_points_appear() {
-        let camera = Camera { eye: [2.0, -3.0, 1.5], target: [0.5, 0.5, 0.5], up: [0.0, 0.0, 1.0], fov_degrees: 30.0 };
+        let mut camera =
+            Camera { eye: [2.0, -3.0, 1.5], target: [0.5; 3], up: [0.0, 0.0, 1.0], fov_degrees: 30.0, height: None };
         let (eye, size) = (Eye::of_camera(&camera), Vec2::new(640.0, 360.0));
         let middle = eye.ray(size, 0.5 * size);
         let towards = glam::DVec3::from(camera.target) - glam::DVec3::from(camera.eye);
@@ -115,6 +120,13 @@ mod tests {
         let top = eye.ray(size, Vec2::new(320.0, 0.0));
         let angle = glam::DVec3::from(top.direction).angle_between(middle.direction.into()).to_degrees();
         assert!((angle - 15.0).abs() < 1e-4 && top.direction[2] > middle.direction[2], "{angle} {top:?}");
+        // parallel rays: one direction, and the edge is half the height away
+        camera.height = Some(2.0);
+        let eye = Eye::of_camera(&camera);
+        let (middle, top) = (eye.ray(size, 0.5 * size), eye.ray(size, Vec2::new(320.0, 0.0)));
+        assert_eq!(middle.direction, top.direction);
+        let apart = glam::DVec3::from(middle.origin).distance(top.origin.into());
+        assert!((apart - 1.0).abs() < 1e-6, "{apart}");
     }
 
     #[test]

@@ -8,30 +8,47 @@ use crate::Result;
 use crate::gpu::{Bound, Constants, Gpu, Kernel};
 use crate::snapshot::kind;
 
-/// Samples of a pixel along each axis where particles are drawn.
-pub(super) const SAMPLES: u32 = 2;
-
 /// Cubes along each edge of a brick, the unit of empty space that the ray march leaps over.
 pub(super) const BRICK: u32 = 4;
-
-/// Contrasts below this are transparent: a little over one step of 8 bits.
-const FAINTEST: f32 = 0.01;
 
 /// Marks cells without gas in the field.
 const NO_VALUE: f32 = -3.0e38;
 
+/// Cells of the light grid along each axis.
+pub(super) const LIGHT_CELLS: u32 = 96;
+
+/// Texels of the shadow map along each axis, a multiple of four times [`LIGHT_CELLS`].
+pub(super) const SHADOW_TEXELS: u32 = 768;
+
+/// Cells along each axis of the grid of the light of hot gas.
+pub(super) const GLOW_CELLS: u32 = 12;
+
+/// Rows of samples above and below a band that smoothing may look at.
+pub(super) const SAMPLE_MARGIN: u32 = 48;
+
+/// Tone map of [`crate::scene::ToneMap::Aces`].
+pub(super) const TONE_ACES: u32 = 1;
+
+/// Line-of-sight pictures: of [`crate::scene::RenderMode::LineOfSight`] and [`crate::scene::RenderMode::Shadowgraph`].
+pub(super) const OPTICS: [u32; 2] = [1, 2];
+
+/// Light behind everything in 3D, top and bottom of the picture.
+const BACKGROUND: [[f32; 3]; 2] = [[0.0045, 0.0060, 0.0100], [0.0200, 0.0240, 0.0330]];
+
 /// WGSL constants that the drawing shaders share with the host.
 pub fn constants() -> String {
     let mut text = quantity::constants();
+    let vector = |[red, green, blue]: [f32; 3]| format!("vec3f({red:?}, {green:?}, {blue:?})");
+    let [top, bottom] = BACKGROUND.map(vector);
     let _ = writeln!(text, "const KIND_GAS: u32 = {}u;\nconst KIND_WALL: u32 = {}u;", kind::GAS, kind::WALL);
-    let _ = writeln!(text, "const SAMPLES: u32 = {SAMPLES}u;\nconst NO_VALUE: f32 = {NO_VALUE:e};");
-    let _ = writeln!(text, "const COLOR_COUNT: u32 = {TABLE_LENGTH}u;");
-    let _ = writeln!(text, "const BRICK: u32 = {BRICK}u;\nconst FAINTEST: f32 = {FAINTEST};");
+    let _ = writeln!(text, "const NO_VALUE: f32 = {NO_VALUE:e};\nconst SAMPLE_MARGIN: u32 = {SAMPLE_MARGIN}u;");
+    let _ = writeln!(text, "const COLOR_COUNT: u32 = {TABLE_LENGTH}u;\nconst BRICK: u32 = {BRICK}u;");
+    let _ = writeln!(text, "const LIGHT_CELLS: u32 = {LIGHT_CELLS}u;\nconst SHADOW_TEXELS: u32 = {SHADOW_TEXELS}u;");
+    let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;");
+    let _ = writeln!(text, "const TONE_ACES: u32 = {TONE_ACES}u;\nconst OPTICS_SHADOWGRAPH: u32 = {}u;", OPTICS[1]);
+    let _ = writeln!(text, "const BACKGROUND_TOP: vec3f = {top};\nconst BACKGROUND_BOTTOM: vec3f = {bottom};");
     let count = BODY_COLORS.len();
-    let colors = BODY_COLORS.map(|color| {
-        let [red, green, blue] = color.map(|channel| linear_from_srgb(f32::from(channel) / 255.0));
-        format!("vec3f({red:?}, {green:?}, {blue:?})")
-    });
+    let colors = BODY_COLORS.map(|color| vector(color.map(|channel| linear_from_srgb(f32::from(channel) / 255.0))));
     let _ = writeln!(text, "const BODY_COLOR_COUNT: u32 = {count}u;");
     let _ = writeln!(text, "const BODY_COLORS = array<vec3f, {count}>({});", colors.join(", "));
     text

@@ -1,9 +1,10 @@
-//! Pictures of the state: line plots in 1D, colour maps in 2D, ray marches in 3D, bodies as lit spheres.
+//! Pictures of the state: line plots in 1D, colour maps in 2D, ray marches in 3D, bodies as lit surfaces.
 //!
-//! Compute kernels write the pixels of the plot; the host frames them with title, time and colour bar. The renderer reads
+//! Compute kernels write the pixels of the plot; the host frames them with title, time and colour bars. The renderer reads
 //! the simulation's buffers and never writes them. A picture follows from state, look, field and time alone: the window and
 //! the files show the same bytes.
 
+mod arrows;
 mod buffers;
 mod camera;
 mod canvas;
@@ -11,33 +12,33 @@ mod colormap;
 mod frame;
 mod gas;
 mod kernels;
+mod light;
 mod lines;
 mod overlay;
+mod particles;
+mod plane;
 mod plot;
 mod quantity;
 mod screen;
 mod ticks;
+mod transfer;
 mod view;
-
-use glam::Vec3;
 
 pub use buffers::{ParticleBuffers, SceneBuffers};
 pub use camera::Ray;
 pub use frame::{Frame, Picture};
 pub use kernels::constants as shader_constants;
-pub use quantity::caption;
+pub use quantity::{caption, particle_caption};
 pub(crate) use ticks::ticks;
 pub use view::View;
 
 use crate::Result;
 use crate::gpu::Gpu;
-use crate::scene::{Camera, Field, RenderMode, RenderSettings, Scene};
+use crate::scene::{Camera, Contours, Field, ParticleColor, RenderMode, RenderSettings, Scene};
 use buffers::Sources;
 use camera::Eye;
-use canvas::Canvas;
-use gas::Gas;
 use overlay::Layout;
-use screen::Screen;
+use plane::{Drawing, Labels};
 
 /// Colours of the bodies, sRGB, by index: light enough to stand out from the colour maps.
 const BODY_COLORS: [[u8; 3]; 8] = [
@@ -59,16 +60,8 @@ const DOMAIN_OPTICAL_DEPTH: f32 = 14.0;
 
 /// Title and time on a picture.
 struct Stamp<'a> {
-    title: &'a str,
-    time: f64,
-}
-
-/// What the words and numbers around a picture say.
-struct Labels<'a> {
-    field: Field,
-    range: [f64; 2],
-    table: &'a [Vec3],
-    time: f64,
+    title: Option<&'a str>,
+    time: Option<f64>,
 }
 
 /// Draws the pictures that a scene asks for, and any other look at it.
@@ -77,8 +70,8 @@ pub struct Renderer {
     gpu: Gpu,
     scene: Scene,
     sources: Sources,
-    gas: Option<Gas>,
-    screen: Option<Screen>,
+    /// In two and three dimensions.
+    drawing: Option<Drawing>,
 }
 
 impl Renderer {
@@ -88,8 +81,8 @@ impl Renderer {
     /// Those of the shaders and of the device's memory.
     pub fn new(gpu: &Gpu, scene: &Scene, buffers: &SceneBuffers) -> Result<Self> {
         let sources = Sources::from(buffers);
-        let gas = if sources.grid.dimension > 1 { Some(Gas::new(gpu, &sources)?) } else { None };
-        Ok(Self { gpu: gpu.clone(), scene: scene.clone(), sources, gas, screen: None })
+        let drawing = if sources.grid.dimension > 1 { Some(Drawing::new(gpu, scene, &sources)?) } else { None };
+        Ok(Self { gpu: gpu.clone(), scene: scene.clone(), sources, drawing })
     }
 
     /// The pictures of the state as it is now: one per field of the scene's output, or one line plot in 1D.
@@ -99,8 +92,8 @@ impl Renderer {
     /// As [`Renderer::draw`].
     pub fn render(&mut self, time: f64) -> Result<Vec<Picture>> {
         let mut look = self.scene.render.clone();
-        let fields =
-            if self.sources.grid.dimension == 1 { vec![Field::Density] } else { self.scene.output.fields.clone() };
+        let one = self.sources.grid.dimension == 1;
+        let fields = if one { vec![Field::Density] } else { self.scene.output.fields.clone() };
         let mut pictures = Vec::with_capacity(fields.len());
         for field in fields {
             pictures.push(self.draw(&look, field, time)?);
@@ -116,26 +109,29 @@ impl Renderer {
     /// [`crate::Error::DoesNotFit`] if the picture is too large for the device, and whatever the device reports.
     pub fn draw(&mut self, look: &RenderSettings, field: Field, time: f64) -> Result<Picture> {
         let layout = self.layout(look);
-        let Some(gas) = &self.gas else { return self.draw_lines(look, time) };
-        let shown = self.shown_field(look, field);
         let mut view = self.view(look, &layout);
+        let Some(drawing) = &self.drawing else { return self.draw_lines(look, time) };
+        let shown = self.shown_field(look, field);
         view.field = quantity::code(shown);
         view.contrast = self.contrast(shown);
-        let seen = gas.evaluate(&self.gpu, &view)?;
+        let [seen, of_particles] = drawing.evaluate(&self.gpu, &view)?;
         let range = look.range.unwrap_or_else(|| self.range_to_show(shown, seen));
-        (view.low, view.high) = (range[0] as f32, range[1] as f32);
-        (view.neutral, view.opacity) = self.transparency(shown, range);
+        let particle_range = self.particle_range(look, of_particles);
+        self.set_range(&mut view, look, shown, range);
+        [view.particle_low, view.particle_high] = particle_range.map(|value| value as f32);
 
-        let table = colormap::table(look.colormap, shown, self.sources.grid.dimension);
-        if self.screen.as_ref().is_none_or(|screen| screen.size != view.size) {
-            // The old one first: two at once may not fit.
-            self.screen = None;
-            self.screen = Some(Screen::new(&self.gpu, &self.sources, gas, view.size)?);
-        }
-        let screen = self.screen.as_ref().expect("made above");
-        let pixels = screen.draw(&self.gpu, gas, &view, &table)?;
-        let labels = Labels { field: shown, range, table: &table, time };
-        let frame = self.compose(look, &layout, &pixels, &labels);
+        let colors = colormap::table(look.colormap, shown, self.sources.grid.dimension);
+        let particle_colors = colormap::table(look.particle_colormap, Field::Velocity, 3);
+        let tables = self.tables(look, shown, range, &colors, &particle_colors);
+        let drawing = self.drawing.as_mut().expect("checked above");
+        let (pixels, arrows) = drawing.draw(&self.gpu, &self.sources, &mut view, &tables, look.overlays.edges)?;
+        let stamp = self.stamp(look, time);
+        let contrast = view.contrast;
+        let bars = [(caption(shown), &colors[..], range, contrast)];
+        let own = (particle_caption(look.particle_color), &particle_colors[..], particle_range, 1.0);
+        let labels =
+            Labels { stamp, bars: [bars[0], own], arrows: (view.arrows, arrows), scale: self.scale(look, &layout) };
+        let frame = plane::compose(look.size, &layout, &pixels, &labels, self.sources.grid.dimension < 3);
         Ok(Picture { name: field.keyword().to_owned(), range, frame })
     }
 
@@ -161,15 +157,18 @@ impl Renderer {
     /// What the device reports.
     pub fn automatic_range(&self, look: &RenderSettings, field: Field) -> Result<[f64; 2]> {
         let shown = self.shown_field(look, field);
-        let Some(gas) = &self.gas else { return Ok(self.read_line(look, 0.0)?.range(0)) };
+        let Some(drawing) = &self.drawing else { return Ok(self.read_line(look, 0.0)?.range(0)) };
         let view = View { field: quantity::code(shown), ..self.view(look, &self.layout(look)) };
-        Ok(self.range_to_show(shown, gas.evaluate(&self.gpu, &view)?))
+        Ok(self.range_to_show(shown, drawing.evaluate(&self.gpu, &view)?[0]))
     }
 
     fn layout(&self, look: &RenderSettings) -> Layout {
         let extent = self.sources.grid.extent();
-        let [width, height] = look.size;
-        Layout::new(width, height, (self.sources.grid.dimension < 3).then(|| extent[0] / extent[1]))
+        let overlays = look.overlays;
+        let colored = look.particle_color != ParticleColor::Body && look.particles && self.sources.particles.is_some();
+        let bars = [overlays.color_bar && self.optics(look) == 0, overlays.color_bar && colored];
+        let aspect = (self.sources.grid.dimension < 3).then(|| extent[0] / extent[1]);
+        Layout::new(look.size, aspect, bars, overlays.title || overlays.time)
     }
 
     fn eye(&self, look: &RenderSettings) -> Eye {
@@ -177,16 +176,50 @@ impl Renderer {
         if grid.dimension == 3 { Eye::of_camera(&self.camera(look)) } else { Eye::onto_plane(grid) }
     }
 
+    /// Everything about a picture but what depends on the field.
     fn view(&self, look: &RenderSettings, layout: &Layout) -> View {
         let size = [layout.plot.width as u32, layout.plot.height as u32];
-        let particles = self.sources.particles.as_ref().filter(|_| look.particles).map_or(0, |own| own.count);
-        View::new(&self.scene, &self.sources.grid, &self.eye(look), size, particles)
+        let grid = &self.sources.grid;
+        let mut view = View::new(&self.scene, grid, &self.eye(look), look, size);
+        view.particles = self.sources.particles.as_ref().filter(|_| look.particles).map_or(0, |own| own.count);
+        view.particle_color = quantity::particle_code(look.particle_color);
+        view.smooth_skin = u32::from(look.surface == crate::scene::Surface::Smooth && grid.dimension == 3);
+        view.tone =
+            if grid.dimension == 3 && look.tone == crate::scene::ToneMap::Aces { kernels::TONE_ACES } else { 0 };
+        view.exposure = if grid.dimension == 3 { view.exposure } else { 1.0 };
+        view.optics = self.optics(look);
+        view.fineness = self.drawing.as_ref().map_or(0, |drawing| drawing.distance.fineness);
+        if look.arrows > 0 && grid.dimension == 2 {
+            let down = (look.arrows as f32 * size[1] as f32 / size[0] as f32).round().clamp(1.0, 1000.0);
+            view.arrows = [look.arrows, down as u32];
+        }
+        if let Some(emission) = look.emission.filter(|_| grid.dimension == 3 && look.volume) {
+            let ambient = &self.scene.gas.ambient;
+            let [cold, hot] = transfer::RAMP_KELVIN;
+            let kelvin = emission.ambient_kelvin * ambient.density / ambient.pressure;
+            view.heat_scale = (kelvin / (hot - cold)) as f32;
+            view.heat_offset = (cold / (hot - cold)) as f32;
+            view.heat_opacity = emission.optical_depth as f32 / longest(grid.extent());
+        }
+        view
+    }
+
+    fn optics(&self, look: &RenderSettings) -> u32 {
+        match look.mode {
+            RenderMode::LineOfSight if self.sources.grid.dimension == 3 => kernels::OPTICS[0],
+            RenderMode::Shadowgraph if self.sources.grid.dimension == 3 => kernels::OPTICS[1],
+            _ => 0,
+        }
     }
 
     /// In 3D the mode says how density is shown; everything else is shown as asked.
     fn shown_field(&self, look: &RenderSettings, asked: Field) -> Field {
         let gradient = self.sources.grid.dimension == 3 && look.mode == RenderMode::Schlieren;
-        if gradient && asked == Field::Density { Field::Schlieren } else { asked }
+        match asked {
+            _ if self.optics(look) > 0 => Field::Density,
+            Field::Density if gradient => Field::Schlieren,
+            other => other,
+        }
     }
 
     /// Power that turns a fraction of the range into a place in the colour table.
@@ -199,50 +232,87 @@ impl Renderer {
         quantity::shown_range(field, seen, &gas.ambient, gas.gamma, self.sources.grid.spacing.into())
     }
 
-    /// Transparent fraction of the range, and extinction of the most opaque value \[m^-1\].
-    fn transparency(&self, field: Field, range: [f64; 2]) -> (f32, f32) {
-        let (ambient, grid) = (&self.scene.gas.ambient, &self.sources.grid);
+    fn particle_range(&self, look: &RenderSettings, seen: [f64; 2]) -> [f64; 2] {
+        let gas = &self.scene.gas;
+        let automatic = || quantity::shown_particle_range(look.particle_color, seen, &gas.ambient, gas.gamma);
+        look.particle_range.unwrap_or_else(automatic)
+    }
+
+    /// What of a view depends on field and range.
+    fn set_range(&self, view: &mut View, look: &RenderSettings, field: Field, range: [f64; 2]) {
+        (view.low, view.high) = (range[0] as f32, range[1] as f32);
+        if view.optics > 0 {
+            view.low = self.scene.gas.ambient.density as f32;
+        }
+        let grid = &self.sources.grid;
+        let depth = match field {
+            Field::Schlieren | Field::Vorticity => SHOCK_OPTICAL_DEPTH / (3.0 * grid.spacing),
+            _ => DOMAIN_OPTICAL_DEPTH / longest(grid.extent()),
+        };
+        view.opacity = look.optical_depth.map_or(depth, |given| given as f32 / longest(grid.extent()));
+        let values: Vec<f64> = match &look.contours {
+            Contours::Count(count) => (1..=*count).map(|k| f64::from(k) / f64::from(count + 1)).collect(),
+            Contours::Values(values) => {
+                let fraction = |value: &f64| ((value - range[0]) / (range[1] - range[0])).powf(view.contrast.into());
+                values.iter().map(fraction).collect()
+            }
+        };
+        let places = view.contours.as_flattened_mut();
+        view.contour_count = values.len().min(places.len()) as u32;
+        for (place, value) in places.iter_mut().zip(values) {
+            *place = value as f32;
+        }
+    }
+
+    /// Colours and opacities for a range.
+    fn tables(
+        &self,
+        look: &RenderSettings,
+        field: Field,
+        range: [f64; 2],
+        colors: &[glam::Vec3],
+        particles: &[glam::Vec3],
+    ) -> transfer::Tables {
+        let ambient = &self.scene.gas.ambient;
         let neutral = match field {
             Field::Density => ambient.density,
             Field::Pressure => ambient.pressure,
             Field::Temperature => ambient.pressure / ambient.density,
             Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => range[0],
         };
-        let fraction = ((neutral - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) as f32;
-        let opacity = match field {
-            Field::Schlieren | Field::Vorticity => SHOCK_OPTICAL_DEPTH / (3.0 * grid.spacing),
-            _ => DOMAIN_OPTICAL_DEPTH / Vec3::from(grid.extent()).max_element(),
+        let neutral = ((neutral - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) as f32;
+        let opacity = |fraction: f32| match &look.opacity[..] {
+            [] => transfer::contrast(neutral, fraction),
+            points => transfer::curve(points, fraction),
         };
-        (fraction, opacity)
+        let strength = look.emission.map_or(0.0, |emission| emission.strength);
+        transfer::Tables::new(colors, opacity, strength, particles)
     }
 
-    /// Puts the plot's pixels on a frame and writes around them.
-    fn compose(&self, look: &RenderSettings, layout: &Layout, pixels: &[u32], labels: &Labels) -> Frame {
-        let [width, height] = look.size;
-        let mut frame = Frame::filled(width, height, overlay::BACKGROUND);
-        let plot = layout.plot;
-        for (row, line) in pixels.chunks_exact(plot.width as usize).enumerate() {
-            let first = 4 * ((plot.y as usize + row) * width as usize + plot.x as usize);
-            frame.rgba[first..first + 4 * line.len()].copy_from_slice(bytemuck::cast_slice(line));
-        }
-        let mut canvas = Canvas::new(&mut frame);
-        if self.sources.grid.dimension < 3 {
-            canvas.outline(plot, overlay::FAINT);
-        }
-        let contrast = self.contrast(labels.field);
-        overlay::color_bar(&mut canvas, layout.bar, labels.table, labels.range, contrast, caption(labels.field));
-        overlay::header(&mut canvas, &self.scene.title, labels.time);
-        frame
+    /// Pixels per metre, where the whole picture has one scale and its bar is wanted.
+    fn scale(&self, look: &RenderSettings, layout: &Layout) -> Option<f64> {
+        let eye = self.eye(look);
+        (look.overlays.scale_bar && eye.parallel)
+            .then(|| f64::from(layout.plot.height) / (2.0 * f64::from(eye.half_height)))
+    }
+
+    fn stamp(&self, look: &RenderSettings, time: f64) -> Stamp<'_> {
+        let overlays = look.overlays;
+        Stamp { title: overlays.title.then_some(&self.scene.title), time: overlays.time.then_some(time) }
     }
 
     /// The line plot of a one-dimensional state.
     fn draw_lines(&self, look: &RenderSettings, time: f64) -> Result<Picture> {
         let line = self.read_line(look, time)?;
-        let frame = plot::draw(&line, look.size, &Stamp { title: &self.scene.title, time });
+        let frame = plot::draw(&line, look.size, &self.stamp(look, time));
         Ok(Picture { name: "lines".to_owned(), range: line.range(0), frame })
     }
 
     fn read_line(&self, look: &RenderSettings, time: f64) -> Result<plot::Line> {
         lines::read(&self.gpu, &self.sources, &self.scene, look.size[0], time)
     }
+}
+
+fn longest(extent: [f32; 3]) -> f32 {
+    glam::Vec3::from(extent).max_element()
 }

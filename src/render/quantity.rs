@@ -1,6 +1,6 @@
 //! The fields as pictures know them: names, units, and the smallest range worth showing.
 
-use crate::scene::{Field, GasState};
+use crate::scene::{Field, GasState, ParticleColor};
 
 /// All fields with the constants that shaders switch on.
 const CODES: [(&str, Field); 7] = [
@@ -13,6 +13,15 @@ const CODES: [(&str, Field); 7] = [
     ("FIELD_VORTICITY", Field::Vorticity),
 ];
 
+/// What the colours of particles mean, with the constants that shaders switch on.
+const PARTICLE_CODES: [(&str, ParticleColor); 5] = [
+    ("PARTICLE_BODY", ParticleColor::Body),
+    ("PARTICLE_SPEED", ParticleColor::Speed),
+    ("PARTICLE_DEVIATORIC_STRESS", ParticleColor::DeviatoricStress),
+    ("PARTICLE_PLASTIC_STRAIN", ParticleColor::PlasticStrain),
+    ("PARTICLE_TEMPERATURE", ParticleColor::Temperature),
+];
+
 /// Changes below this fraction of the ambient state are rounding, and drawn as uniform.
 const SMALLEST_CONTRAST: f64 = 2e-3;
 
@@ -21,9 +30,41 @@ pub(super) fn code(field: Field) -> u32 {
     CODES.iter().position(|(_, known)| *known == field).unwrap_or_default() as u32
 }
 
-/// The constants that give each field its number in WGSL.
+/// Number of a quantity of the particles in the shaders.
+pub(super) fn particle_code(color: ParticleColor) -> u32 {
+    PARTICLE_CODES.iter().position(|(_, known)| *known == color).unwrap_or_default() as u32
+}
+
+/// The constants that give each field and each quantity of the particles its number in WGSL.
 pub(super) fn constants() -> String {
-    CODES.iter().enumerate().map(|(code, (name, _))| format!("const {name}: u32 = {code}u;\n")).collect()
+    let fields = CODES.iter().map(|(name, _)| *name).enumerate();
+    let particles = PARTICLE_CODES.iter().map(|(name, _)| *name).enumerate();
+    fields.chain(particles).map(|(code, name)| format!("const {name}: u32 = {code}u;\n")).collect()
+}
+
+/// Caption of the particles' colour bar, with the unit; nothing where colours are names of bodies.
+#[must_use]
+pub fn particle_caption(color: ParticleColor) -> &'static str {
+    match color {
+        ParticleColor::Body => "",
+        ParticleColor::Speed => "speed of solids [m/s]",
+        ParticleColor::DeviatoricStress => "deviatoric stress [Pa]",
+        ParticleColor::PlasticStrain => "plastic strain",
+        ParticleColor::Temperature => "p/rho around [m\u{b2}/s\u{b2}]",
+    }
+}
+
+/// The range to show for values of the particles: all quantities but the temperature start at zero.
+pub(super) fn shown_particle_range(color: ParticleColor, seen: [f64; 2], ambient: &GasState, gamma: f64) -> [f64; 2] {
+    let smallest = match color {
+        ParticleColor::Speed => SMALLEST_CONTRAST * ambient.sound_speed(gamma),
+        ParticleColor::DeviatoricStress => SMALLEST_CONTRAST * ambient.pressure,
+        ParticleColor::Body | ParticleColor::PlasticStrain => SMALLEST_CONTRAST,
+        ParticleColor::Temperature => {
+            return shown_range(Field::Temperature, seen, ambient, gamma, 1.0);
+        }
+    };
+    [0.0, if seen[0] > seen[1] { smallest } else { seen[1].max(smallest) }]
 }
 
 /// Caption of a field's colour bar, with the unit.

@@ -1,117 +1,242 @@
-//! The kernels that write pixels, and everything that has the size of the picture.
+//! The kernels that write pixels, and everything that has the size of the picture. Large pictures are drawn in bands.
 
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 
-use super::buffers::{ParticleSources, Sources};
-use super::colormap::{TABLE_LENGTH, linear_from_srgb};
-use super::gas::Gas;
-use super::kernels::{SAMPLES, bind};
+use super::buffers::Sources;
+use super::gas::{Gas, RANGE_GROUPS};
+use super::kernels::{SAMPLE_MARGIN, bind};
+use super::light::{Distance, Light};
+use super::particles::Particles;
 use super::view::View;
 use crate::Result;
 use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
 
+/// Rays of a band at most: more need more memory and gain nothing.
+const BAND_RAYS: u32 = 1 << 21;
+
+/// Root mean squares of a line-of-sight picture that reach half way to black or white.
+const OPTICS_CONTRAST: f64 = 1.5;
+
+/// What all pictures of a scene share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shared<'a> {
+    pub(super) gpu: &'a Gpu,
+    pub(super) sources: &'a Sources,
+    pub(super) gas: &'a Gas,
+    pub(super) particles: Option<&'a Particles>,
+    pub(super) light: &'a Light,
+    pub(super) distance: &'a Distance,
+}
+
 /// Everything bound for one size of picture.
 #[derive(Debug)]
 pub(super) struct Screen {
-    pub(super) size: [u32; 2],
-    colors: Buffer<Vec4>,
+    /// Rays across, samples and rays per pixel: what this is bound for.
+    key: [u32; 4],
+    band_rows: u32,
     edges: Buffer<[Vec4; 2]>,
     surface: Buffer<[u32; 4]>,
+    solid: Buffer<[u32; 4]>,
     pixels: Buffer<u32>,
-    points: Option<Points>,
+    skin: Option<Skin>,
+    trace_solids: Option<Bound>,
+    optics: Option<Optics>,
     draw: Bound,
+    finish: Bound,
 }
 
 /// The kernels that draw particles, in order.
 #[derive(Debug)]
-struct Points {
+struct Skin {
     count: u64,
+    samples: u64,
     clear_samples: Bound,
     splat_depth: Bound,
     splat_nearest: Bound,
-    shade_surface: Bound,
+    smooth_depth: [Bound; 2],
+    shade_skin: Bound,
+}
+
+/// The kernels of line-of-sight pictures.
+#[derive(Debug)]
+struct Optics {
+    ranges: Buffer<[f32; 2]>,
+    integrate_lines: Bound,
+    measure_lines: Bound,
+    draw_lines: Bound,
+}
+
+fn key_of(view: &View) -> [u32; 4] {
+    [view.size[0], view.size[1], view.samples, view.supersampling]
 }
 
 impl Screen {
-    pub(super) fn new(gpu: &Gpu, sources: &Sources, gas: &Gas, size: [u32; 2]) -> Result<Self> {
-        let pixel_count = size[0] as usize * size[1] as usize;
-        let colors: Buffer<Vec4> = Buffer::new(gpu, "colour table", TABLE_LENGTH)?;
-        let edges: Buffer<[Vec4; 2]> = Buffer::new(gpu, "edges", 12)?;
-        let surface: Buffer<[u32; 4]> = Buffer::new(gpu, "surface", pixel_count)?;
-        let pixels: Buffer<u32> = Buffer::new(gpu, "pixels", pixel_count)?;
-        let points = sources
-            .particles
-            .as_ref()
-            .map(|particles| Points::new(gpu, particles, gas, &surface, pixel_count))
-            .transpose()?;
-        let shared = [
-            ("view", gas.view.raw()),
-            ("cells", &sources.cells),
-            ("colors", colors.raw()),
-            ("surface", surface.raw()),
-            ("pixels", pixels.raw()),
-        ];
-        let draw = if sources.grid.dimension == 3 {
-            let own = [("corners", gas.corners.raw()), ("bricks", gas.bricks.raw()), ("edges", edges.raw())];
-            bind(gpu, "volume.wgsl", "draw_volume", &[&shared[..], &own].concat())?
+    pub(super) fn new(shared: &Shared, view: &View) -> Result<Self> {
+        let Shared { gpu, sources, gas, light, distance, .. } = *shared;
+        let [width, height] = view.size;
+        let n = view.supersampling;
+        let band_rows = (BAND_RAYS / width / n * n).clamp(n, height);
+        let rays = width as usize * band_rows as usize;
+        let edges: Buffer<[Vec4; 2]> = Buffer::uniform(gpu, "edges", 12)?;
+        let surface: Buffer<[u32; 4]> = Buffer::new(gpu, "surface", rays)?;
+        let solid: Buffer<[u32; 4]> = Buffer::new(gpu, "solids", rays)?;
+        let gathered: Buffer<[f32; 4]> = Buffer::new(gpu, "light", rays)?;
+        let pixels: Buffer<u32> = Buffer::new(gpu, "pixels", rays / (n * n) as usize)?;
+        let of_view = ("view", gas.view.raw());
+        let drawn = [of_view, ("surface", surface.raw()), ("light", gathered.raw())];
+        let volume = sources.grid.dimension == 3;
+        let tables = ("colors", gas.colors.raw());
+        let draw = if volume {
+            let field =
+                [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("bricks", gas.bricks.raw()), tables];
+            let own = [("edges", edges.raw()), ("solid", solid.raw()), ("light_grid", light.grid.raw())];
+            bind(gpu, "volume.wgsl", "draw_volume", &[&drawn[..], &field, &own].concat())?
         } else {
-            bind(gpu, "slice.wgsl", "draw_slice", &[&shared[..], &[("field", gas.field.raw())]].concat())?
+            let own =
+                [("cells", &sources.cells), ("field", gas.field.raw()), ("distance", distance.nodes.raw()), tables];
+            bind(gpu, "slice.wgsl", "draw_slice", &[&drawn[..], &own].concat())?
         };
-        Ok(Self { size, colors, edges, surface, pixels, points, draw })
+        let trace = || {
+            let shade = light.of_surfaces();
+            let own = [of_view, ("distance", distance.nodes.raw()), ("solid", solid.raw())];
+            bind(gpu, "solids.wgsl", "trace_solids", &[&shade[..], &own].concat())
+        };
+        let optics = || Optics::new(shared, width as usize * height as usize, &surface, &solid, &gathered);
+        Ok(Self {
+            key: key_of(view),
+            band_rows,
+            skin: shared.particles.map(|own| Skin::new(shared, own, view, band_rows, &surface)).transpose()?,
+            trace_solids: volume.then(trace).transpose()?,
+            optics: (view.optics > 0).then(optics).transpose()?,
+            draw,
+            finish: bind(gpu, "finish.wgsl", "finish", &[of_view, drawn[2], ("pixels", pixels.raw())])?,
+            edges,
+            surface,
+            solid,
+            pixels,
+        })
     }
 
-    /// Draws the field evaluated last; one packed pixel per pixel of the view, rows from the top.
-    pub(super) fn draw(&self, gpu: &Gpu, gas: &Gas, view: &View, table: &[Vec3]) -> Result<Vec<u32>> {
-        let linear: Vec<Vec4> =
-            table.iter().map(|color| Vec3::from(color.to_array().map(linear_from_srgb)).extend(1.0)).collect();
-        gas.view.write(gpu, 0, &[*view]);
-        self.colors.write(gpu, 0, &linear);
-        self.edges.write(gpu, 0, &view.edges());
-        let mut pass = Pass::new(gpu, "picture");
-        gas.record_packing(&mut pass);
-        let pixels = self.pixels.len() as u64;
-        match self.points.as_ref().filter(|_| view.particles > 0) {
-            Some(points) => {
-                pass.dispatch(&points.clear_samples, &Extent::Threads(pixels * u64::from(SAMPLES * SAMPLES)));
-                pass.dispatch(&points.splat_depth, &Extent::Threads(points.count));
-                pass.dispatch(&points.splat_nearest, &Extent::Threads(points.count));
-                pass.dispatch(&points.shade_surface, &Extent::Threads(pixels));
-            }
+    /// Whether this screen can draw a view.
+    pub(super) fn fits(&self, view: &View) -> bool {
+        self.key == key_of(view) && (view.optics == 0 || self.optics.is_some())
+    }
+
+    /// Draws what was prepared; one packed pixel per pixel of the picture, rows from the top.
+    pub(super) fn draw(&self, shared: &Shared, view: &mut View, edges: bool) -> Result<Vec<u32>> {
+        let Shared { gpu, gas, .. } = *shared;
+        self.edges.write(gpu, 0, &if edges { view.edges() } else { [View::NO_EDGE; 12] });
+        if let Some(optics) = self.optics.as_ref().filter(|_| view.optics > 0) {
+            view.gain = optics.measure(shared, view)?;
+        }
+        let n = view.supersampling;
+        let mut pixels = Vec::with_capacity((view.size[0] / n * (view.size[1] / n)) as usize);
+        for first_row in (0..view.size[1]).step_by(self.band_rows as usize) {
+            view.first_row = first_row;
+            view.rows = self.band_rows.min(view.size[1] - first_row);
+            gas.view.write(gpu, 0, &[*view]);
+            let mut pass = Pass::new(gpu, "picture");
+            self.record_band(&mut pass, view);
+            pass.submit()?;
+            let count = view.size[0] / n * (view.rows / n);
+            pixels.extend(readback::read_range(gpu, &self.pixels, 0, count as usize)?);
+        }
+        Ok(pixels)
+    }
+
+    fn record_band(&self, pass: &mut Pass, view: &View) {
+        let rays = Extent::Threads(u64::from(view.size[0]) * u64::from(view.rows));
+        match self.skin.as_ref().filter(|_| view.particles > 0) {
+            Some(skin) => skin.record(pass, view, &rays),
             None => pass.clear(&self.surface),
         }
-        pass.dispatch(&self.draw, &Extent::Threads(pixels));
-        pass.submit()?;
-        readback::read(gpu, &self.pixels)
+        match self.trace_solids.as_ref().filter(|_| view.fineness > 0 || view.ground != [0.0; 4]) {
+            Some(trace_solids) => pass.dispatch(trace_solids, &rays),
+            None => pass.clear(&self.solid),
+        }
+        let optics = self.optics.as_ref().filter(|_| view.optics > 0);
+        pass.dispatch(optics.map_or(&self.draw, |optics| &optics.draw_lines), &rays);
+        pass.dispatch(&self.finish, &rays);
     }
 }
 
-impl Points {
-    fn new(
-        gpu: &Gpu,
-        particles: &ParticleSources,
-        gas: &Gas,
-        surface: &Buffer<[u32; 4]>,
-        pixels: usize,
-    ) -> Result<Self> {
-        let samples = pixels * (SAMPLES * SAMPLES) as usize;
-        let depth_bits = Buffer::<u32>::new(gpu, "sample depths", samples)?;
-        let nearest = Buffer::<u32>::new(gpu, "sample particles", samples)?;
-        let place = [
-            ("view", gas.view.raw()),
-            ("position", &particles.position),
-            ("velocity", &particles.velocity),
-            ("deformation", &particles.deformation),
-            ("depth_bits", depth_bits.raw()),
-        ];
-        let nearest = ("nearest", nearest.raw());
-        let own = [nearest, ("affine", &particles.affine), ("surface", surface.raw())];
-        let shader = "points.wgsl";
+impl Skin {
+    fn new(shared: &Shared, own: &Particles, view: &View, rows: u32, surface: &Buffer<[u32; 4]>) -> Result<Self> {
+        let Shared { gpu, gas, light, .. } = *shared;
+        let samples = (view.size[0] * view.samples) as usize * (rows * view.samples + 2 * SAMPLE_MARGIN) as usize;
+        let depth: Buffer<u32> = Buffer::new(gpu, "sample depths", samples)?;
+        let smooth: Buffer<u32> = Buffer::new(gpu, "smooth depths", samples)?;
+        let nearest: Buffer<u32> = Buffer::new(gpu, "sample particles", samples)?;
+        let of_view = ("view", gas.view.raw());
+        let of_nearest = ("nearest", nearest.raw());
+        let balls = [("position", &own.position), ("paint", own.paint.raw())];
+        let splat = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
+            bind(gpu, "points.wgsl", entry, &[&[of_view, ("depth_bits", depth.raw())], own].concat())
+        };
+        let smoothed = |from: &Buffer<u32>, to: &Buffer<u32>| {
+            let own = [of_view, of_nearest, balls[1], ("depth_in", from.raw()), ("depth_out", to.raw())];
+            bind(gpu, "skin.wgsl", "smooth_depth", &own)
+        };
+        let shade = light.of_surfaces();
+        let result = [of_view, of_nearest, ("depth_in", depth.raw()), ("surface", surface.raw())];
         Ok(Self {
-            count: particles.count.into(),
-            clear_samples: bind(gpu, shader, "clear_samples", &[place[0], place[4], nearest])?,
-            splat_depth: bind(gpu, shader, "splat_depth", &place)?,
-            splat_nearest: bind(gpu, shader, "splat_nearest", &[&place[..], &[nearest]].concat())?,
-            shade_surface: bind(gpu, shader, "shade_surface", &[&place[..], &own].concat())?,
+            count: own.count,
+            samples: samples as u64,
+            clear_samples: splat("clear_samples", &[of_nearest])?,
+            splat_depth: splat("splat_depth", &balls)?,
+            splat_nearest: splat("splat_nearest", &[&balls[..], &[of_nearest]].concat())?,
+            smooth_depth: [smoothed(&depth, &smooth)?, smoothed(&smooth, &depth)?],
+            shade_skin: bind(gpu, "skin.wgsl", "shade_skin", &[&balls[..], &shade, &result].concat())?,
         })
+    }
+
+    fn record(&self, pass: &mut Pass, view: &View, rays: &Extent) {
+        pass.dispatch(&self.clear_samples, &Extent::Threads(self.samples));
+        pass.dispatch(&self.splat_depth, &Extent::Threads(self.count));
+        pass.dispatch(&self.splat_nearest, &Extent::Threads(self.count));
+        if view.smooth_skin == 1 {
+            for smooth_depth in [&self.smooth_depth, &self.smooth_depth].into_iter().flatten() {
+                pass.dispatch(smooth_depth, &Extent::Threads(self.samples));
+            }
+        }
+        pass.dispatch(&self.shade_skin, rays);
+    }
+}
+
+impl Optics {
+    fn new(
+        shared: &Shared,
+        rays: usize,
+        surface: &Buffer<[u32; 4]>,
+        solid: &Buffer<[u32; 4]>,
+        light: &Buffer<[f32; 4]>,
+    ) -> Result<Self> {
+        let Shared { gpu, gas, .. } = *shared;
+        let columns: Buffer<f32> = Buffer::new(gpu, "columns", rays)?;
+        let ranges: Buffer<[f32; 2]> = Buffer::new(gpu, "column ranges", RANGE_GROUPS as usize)?;
+        let both = [("view", gas.view.raw()), ("columns", columns.raw())];
+        let bind =
+            |entry: &str, own: &[(&str, &wgpu::Buffer)]| bind(gpu, "optics.wgsl", entry, &[&both[..], own].concat());
+        let drawn = [("surface", surface.raw()), ("solid", solid.raw()), ("light", light.raw())];
+        Ok(Self {
+            integrate_lines: bind("integrate_lines", &[("field", gas.field.raw())])?,
+            measure_lines: bind("measure_lines", &[("ranges", ranges.raw())])?,
+            draw_lines: bind("draw_lines", &drawn)?,
+            ranges,
+        })
+    }
+
+    /// Integrates along all lines of sight and finds the contrast of the picture.
+    fn measure(&self, shared: &Shared, view: &View) -> Result<f32> {
+        shared.gas.view.write(shared.gpu, 0, &[*view]);
+        let mut pass = Pass::new(shared.gpu, "lines of sight");
+        pass.dispatch(&self.integrate_lines, &Extent::Threads(u64::from(view.size[0]) * u64::from(view.size[1])));
+        pass.dispatch(&self.measure_lines, &Extent::Groups([RANGE_GROUPS, 1, 1]));
+        pass.submit()?;
+        let sums = readback::read(shared.gpu, &self.ranges)?;
+        let [squares, count] = sums.iter().fold([0.0; 2], |sum, own| [0, 1].map(|k| sum[k] + f64::from(own[k])));
+        // Differences below rounding are no picture.
+        let smallest = 1e-5 * f64::from(view.low.abs().max(f32::MIN_POSITIVE)) * f64::from(view.spacing);
+        Ok((OPTICS_CONTRAST * (squares / f64::max(count, 1.0)).sqrt()).max(smallest) as f32)
     }
 }

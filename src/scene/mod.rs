@@ -10,6 +10,7 @@ mod boundary;
 mod check;
 mod check_body;
 mod check_boundary;
+mod check_render;
 mod check_shape;
 mod coupling;
 mod cut;
@@ -49,7 +50,10 @@ pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};
 pub use polyhedron::Part;
-pub use render::{Camera, Colormap, Field, RenderMode, RenderSettings};
+pub use render::{
+    Camera, Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice,
+    Surface, ToneMap,
+};
 pub use settings::{Expect, ExpectedBody, Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
 pub use shape::Shape;
 pub use vortex::Vortex;
