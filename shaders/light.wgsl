@@ -1,6 +1,6 @@
 // Shadows: which solids the light meets first, and how much of it passes the gas.
 // clear_shadow: writes shadow_bits: nothing in the way.
-// splat_shadow: reads position, paint; lowers shadow_bits to the nearest sphere.
+// splat_shadow: reads balls; lowers shadow_bits to the nearest sphere.
 // trace_shadow: reads distance; lowers shadow_bits to the nearest obstacle.
 // cast_light: reads corners, glow, colors, shadow_bits; writes light_grid, column by column away from the light.
 
@@ -9,14 +9,13 @@
 #include "shared/gas_look.wgsl"
 #include "shared/distance.wgsl"
 
-@group(0) @binding(1) var<storage, read> position: array<vec4f>;
-@group(0) @binding(2) var<storage, read> paint: array<vec4f>;
-@group(0) @binding(3) var<storage, read_write> shadow_bits: array<atomic<u32>>;
-@group(0) @binding(4) var<storage, read> distance: array<f32>;
-@group(0) @binding(5) var<storage, read> corners: array<vec2u>;
-@group(0) @binding(6) var<storage, read> glow: array<vec2u>;
-@group(0) @binding(7) var<storage, read> colors: array<vec4f>;
-@group(0) @binding(8) var<storage, read_write> light_grid: array<u32>;
+@group(0) @binding(1) var<storage, read> balls: array<vec4f>;
+@group(0) @binding(2) var<storage, read_write> shadow_bits: array<atomic<u32>>;
+@group(0) @binding(3) var<storage, read> distance: array<f32>;
+@group(0) @binding(4) var<storage, read> corners: array<vec2u>;
+@group(0) @binding(5) var<storage, read> glow: array<vec2u>;
+@group(0) @binding(6) var<storage, read> colors: array<vec4f>;
+@group(0) @binding(7) var<storage, read_write> light_grid: array<u32>;
 
 // No solid in the way [m].
 const FAR: f32 = 1e30;
@@ -43,11 +42,11 @@ fn clear_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
 fn splat_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, groups, local);
-    if (p >= view.particles || paint[p].w == 0.0) {
+    if (p >= view.particles || balls[2u * p].w == 0.0) {
         return;
     }
-    let radius = paint[p].w;
-    let q = position[p].xyz - view.light_origin;
+    let radius = balls[2u * p].w;
+    let q = balls[2u * p].xyz - view.light_origin;
     let centre = vec3f(dot(q, view.light_right), dot(q, view.light_up), -dot(q, view.light));
     let texel = texel_size();
     // A sphere smaller than a texel still covers the nearest one.

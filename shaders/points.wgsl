@@ -1,9 +1,9 @@
 // Particles as balls: the nearest one in each sample of the band. A ray's place has view.samples x view.samples samples.
 // measure: reads position, velocity, affine, deformation, stress, heat; writes quantity, what the colours mean.
 // find_particle_range: reads quantity; writes the least and largest value that each workgroup saw.
-// mix_paint: reads quantity, velocity, affine, deformation, colors; writes paint: colour and radius, 0 for what is not drawn.
-// clear_samples: writes depth_bits, nearest: nothing seen.
-// splat_depth: reads position, paint; lowers depth_bits to the nearest ball.
+// mix_paint: reads quantity, position, velocity, affine, deformation, colors; writes balls: place and radius, 0 for what is not
+// drawn; then colour.
+// splat_depth: reads balls; raises depth_bits to the nearest ball.
 // splat_nearest: reads the same and depth_bits; writes nearest, the lowest particle index at that depth.
 
 #include "shared/thread.wgsl"
@@ -20,7 +20,7 @@
 @group(0) @binding(7) var<storage, read> colors: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> quantity: array<f32>;
 @group(0) @binding(9) var<storage, read_write> ranges: array<vec2f>;
-@group(0) @binding(10) var<storage, read_write> paint: array<vec4f>;
+@group(0) @binding(10) var<storage, read_write> balls: array<vec4f>;
 @group(0) @binding(11) var<storage, read_write> depth_bits: array<atomic<u32>>;
 @group(0) @binding(12) var<storage, read_write> nearest: array<atomic<u32>>;
 
@@ -108,51 +108,63 @@ fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) g
         return;
     }
     var color = vec3f(0.0);
-    if (view.particle_color == PARTICLE_BODY) {
+    if (view.particle_color == PARTICLE_BODY || view.particle_color == PARTICLE_MATERIAL) {
         let body = bitcast<u32>(deformation[3u * p].w);
+        let material = bitcast<u32>(affine[3u * p + 2u].w);
+        let name = select(material, body, view.particle_color == PARTICLE_BODY);
         let plastic_strain = affine[3u * p + 1u].w;
-        color = BODY_COLORS[body % BODY_COLOR_COUNT] / (1.0 + max(plastic_strain, 0.0) / view.dark_strain);
+        color = BODY_COLORS[name % BODY_COLOR_COUNT] / (1.0 + max(plastic_strain, 0.0) / view.dark_strain);
     } else {
         let fraction = clamp((quantity[p] - view.particle_low) / (view.particle_high - view.particle_low), 0.0, 1.0);
         color = colors[2u * COLOR_COUNT + u32(fraction * f32(COLOR_COUNT - 1u) + 0.5)].rgb;
     }
     let radius = view.particle_scale * pow(velocity[p].w, 1.0 / f32(view.dimension));
-    paint[p] = vec4f(color, select(radius, 0.0, deformation[3u * p + 1u].w == 0.0));
+    balls[2u * p] = vec4f(position[p].xyz, select(radius, 0.0, deformation[3u * p + 1u].w == 0.0));
+    balls[2u * p + 1u] = vec4f(color, 1.0);
 }
 
 struct Footprint {
     centre: vec3f,
     radius: f32,
+    // The middle in samples of the band, the radius in samples, and the distance from where rays start [m].
+    middle: vec2f,
+    samples: f32,
+    distance: f32,
     // Samples from low to below high, empty if the particle is not seen.
     low: vec2i,
     high: vec2i,
 }
 
 fn footprint(p: u32) -> Footprint {
-    var mark = Footprint(position[p].xyz, paint[p].w, vec2i(0), vec2i(0));
+    let ball = balls[2u * p];
+    var mark = Footprint(ball.xyz, ball.w, vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0));
     let place = project(mark.centre);
     if (mark.radius == 0.0 || (place.z <= mark.radius && view.parallel == 0u)) {
         return mark;
     }
-    let distance = select(place.z - mark.radius, 1.0, view.parallel == 1u);
-    let reach = min(1.2 * mark.radius / (distance * view.half_height) * 0.5 * f32(view.size.y) + 1.0, MAX_REACH);
+    let per_metre = 0.5 * f32(view.size.y) * f32(view.samples) / view.half_height;
+    mark.middle = place.xy * f32(view.samples) - vec2f(0.0, f32(sample_top()));
+    mark.samples = mark.radius * per_metre / select(place.z, 1.0, view.parallel == 1u);
+    mark.distance = select(length(mark.centre - view.eye), place.z, view.parallel == 1u);
+    // Perspective stretches balls towards the corners of the picture.
+    let near = select(place.z - mark.radius, 1.0, view.parallel == 1u);
+    let stretched = min(1.2 * mark.radius * per_metre / near + 1.0, MAX_REACH);
+    let reach = select(mark.samples, stretched, mark.samples > 12.0);
     let limit = vec2f(sample_grid());
-    let first = vec2f(0.0, f32(sample_top()));
-    let scale = f32(view.samples);
-    mark.low = vec2i(clamp((place.xy - reach) * scale - first, vec2f(0.0), limit));
-    mark.high = vec2i(clamp((place.xy + reach) * scale + 1.0 - first, vec2f(0.0), limit));
+    mark.low = vec2i(clamp(mark.middle - reach, vec2f(0.0), limit));
+    mark.high = vec2i(clamp(mark.middle + reach + 1.0, vec2f(0.0), limit));
     return mark;
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn clear_samples(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
-    let samples = sample_grid();
-    if (i < samples.x * samples.y) {
-        atomicStore(&depth_bits[i], NOTHING);
-        atomicStore(&nearest[i], NOTHING);
+// Depth of a ball in a sample, negative if it is missed [m]. The outline of a small one is round, and its depth that of a ball
+// seen along its own line of sight.
+fn depth_in(mark: Footprint, place: vec2u) -> f32 {
+    if (mark.samples > 12.0) {
+        return hit_sphere(sample_ray(place), mark.centre, mark.radius);
     }
+    let offset = vec2f(place) + 0.5 - mark.middle;
+    let inside = 1.0 - dot(offset, offset) / (mark.samples * mark.samples);
+    return select(-1.0, mark.distance - mark.radius * sqrt(max(inside, 0.0)), inside >= 0.0);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -166,10 +178,10 @@ fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups)
     for (var y = mark.low.y; y < mark.high.y; y++) {
         for (var x = mark.low.x; x < mark.high.x; x++) {
             let place = vec2u(vec2i(x, y));
-            let depth = hit_sphere(sample_ray(place), mark.centre, mark.radius);
+            let depth = depth_in(mark, place);
             if (depth > 0.0) {
                 // Positive floats order like their bits.
-                atomicMin(&depth_bits[place.x + sample_grid().x * place.y], bitcast<u32>(depth));
+                atomicMax(&depth_bits[place.x + sample_grid().x * place.y], FARTHEST - bitcast<u32>(depth));
             }
         }
     }
@@ -186,10 +198,10 @@ fn splat_nearest(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroup
     for (var y = mark.low.y; y < mark.high.y; y++) {
         for (var x = mark.low.x; x < mark.high.x; x++) {
             let place = vec2u(vec2i(x, y));
-            let depth = hit_sphere(sample_ray(place), mark.centre, mark.radius);
+            let depth = depth_in(mark, place);
             let i = place.x + sample_grid().x * place.y;
-            if (depth > 0.0 && bitcast<u32>(depth) <= atomicLoad(&depth_bits[i]) + DEPTH_SLACK) {
-                atomicMin(&nearest[i], p);
+            if (depth > 0.0 && FARTHEST - bitcast<u32>(depth) + DEPTH_SLACK >= atomicLoad(&depth_bits[i])) {
+                atomicMax(&nearest[i], FARTHEST - p);
             }
         }
     }

@@ -54,7 +54,8 @@ fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         if (hit >= 0.0) {
             let point = ray.start + hit * ray.direction;
             let normal = wall_normal(ray, hit, span);
-            found = Surface(hit, 1.0, lit_surface(WALL_COLOR, point, normal, -ray.direction, 0.5 * view.spacing));
+            let arriving = arriving_at(point, 0.5 * view.spacing);
+            found = Surface(hit, 1.0, lit_surface(WALL_COLOR, point, normal, -ray.direction, arriving));
         }
     }
     let descent = dot(view.ground.xyz, ray.direction);
@@ -62,7 +63,8 @@ fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         let s = (view.ground.w - dot(view.ground.xyz, ray.start)) / descent;
         if (s > 0.0 && (found.coverage == 0.0 || s < found.depth)) {
             let point = ray.start + s * ray.direction;
-            let color = lit_surface(GROUND_COLOR, point, view.ground.xyz, -ray.direction, 0.2 * view.spacing);
+            let arriving = arriving_at(point, 0.2 * view.spacing);
+            let color = lit_surface(GROUND_COLOR, point, view.ground.xyz, -ray.direction, arriving);
             found = Surface(s, floor_coverage(point), color);
         }
     }

@@ -31,6 +31,9 @@ struct Edge {
 const EDGE_COLOR: vec3f = vec3f(0.36, 0.42, 0.52);
 const LINE_COLOR: vec3f = vec3f(0.02, 0.02, 0.025);
 
+// Whether there are slices.
+override SLICES: bool = true;
+
 // Rays end when this little light passes.
 const DARK: f32 = 0.004;
 
@@ -62,18 +65,20 @@ fn edge_coverage(pixel: vec2f, front: f32, middle: f32) -> vec2f {
     return coverage;
 }
 
-// Steps to the end of a transparent brick, 0 in others. Steps are whole, so that leaping changes no sample.
-fn steps_to_leap(ray: Ray, place: vec3f) -> f32 {
+// The brick that a ray is in: where it leaves it, and whether there is anything to see.
+struct Brick {
+    end: f32,
+    visible: bool,
+}
+
+fn brick_at(ray: Ray, place: vec3f, s: f32) -> Brick {
     let from_cube = place + 0.5;
     let brick = vec3u(clamp(from_cube, vec3f(0.0), vec3f(view.cells) + 0.999)) / BRICK;
     let grid = (view.cells + BRICK) / BRICK;
-    if (bricks[brick.x + grid.x * (brick.y + grid.y * brick.z)] == 1u) {
-        return 0.0;
-    }
     let ahead = vec3f(BRICK * (brick + vec3u(ray.direction > vec3f(0.0))));
     let speed = select(ray.direction, vec3f(1e-9), abs(ray.direction) < vec3f(1e-9)) / view.spacing;
     let exits = (ahead - from_cube) / speed;
-    return max(ceil(min(exits.x, min(exits.y, exits.z)) / view.step), 1.0);
+    return Brick(s + min(exits.x, min(exits.y, exits.z)), bricks[brick.x + grid.x * (brick.y + grid.y * brick.z)] == 1u);
 }
 
 // Light of the gas in one step; `lit` is the light from outside that arrives there.
@@ -99,13 +104,21 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Ga
     let light_start = in_light(ray.start) + 0.8 * (jitter - 0.5);
     let light_step = in_light(ray.start + ray.direction) - in_light(ray.start);
     var s = from_distance + jitter * view.step;
+    var brick = Brick(-1.0, false);
     while (s < to_distance && gathered.passing > DARK) {
         let place = in_cells(ray.start + s * ray.direction);
-        let leap = steps_to_leap(ray, place);
-        if (leap == 0.0) {
-            gathered = gas_light(gathered, place, light_at(light_start + s * light_step).y);
+        if (s >= brick.end) {
+            brick = brick_at(ray, place, s);
         }
-        s += max(leap, 1.0) * view.step;
+        var steps = 1.0;
+        if (brick.visible) {
+            let lit = select(1.0, light_inside(light_start + s * light_step).y, view.shadows == 1u);
+            gathered = gas_light(gathered, place, lit);
+        } else {
+            // Steps are whole, so that leaping changes no sample.
+            steps = max(ceil((brick.end - s) / view.step), 1.0);
+        }
+        s += steps * view.step;
     }
     return gathered;
 }
@@ -113,7 +126,7 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Ga
 // Distance to the first slice behind `after`, and its index; index 4 if there is none.
 fn next_slice(ray: Ray, after: f32, span: vec2f) -> vec2f {
     var found = vec2f(1e30, 4.0);
-    for (var k = 0u; k < view.slice_count; k++) {
+    for (var k = 0u; SLICES && k < view.slice_count; k++) {
         let plane = view.slices[k];
         let s = (plane.w - dot(plane.xyz, ray.start)) / dot(plane.xyz, ray.direction);
         if (s > after && s >= span.x && s <= span.y && s < found.x) {
@@ -181,7 +194,7 @@ fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups)
         if (body_ahead && body_depth <= plane.x) {
             gathered = over(gathered, body.color, body.coverage);
             body_ahead = false;
-        } else {
+        } else if (SLICES) {
             gathered = over(gathered, slice_color(pixel, ray, plane.x, view.slices[u32(plane.y)]), 1.0);
             s = plane.x + 1e-5 * view.spacing;
         }

@@ -1,5 +1,8 @@
 // The gas as the ray march and the light see it: reads corners, glow and colors.
 
+// Whether hot gas shines.
+override EMISSION: bool = true;
+
 // The packed values of the cube of eight cell centres around a place, and the place inside of it.
 struct Cube {
     index: u32,
@@ -46,7 +49,7 @@ fn optics_at(place: vec3f) -> Optics {
     let cube = cube_at(place);
     let look = table_color(interpolated(corners[cube.index], cube.inside));
     var gas = Optics(look.rgb, view.opacity * look.a, vec3f(0.0), 0.0);
-    if (view.heat_opacity > 0.0) {
+    if (EMISSION) {
         let hot = ramp_color(interpolated(glow[cube.index], cube.inside));
         gas.glow = hot.rgb;
         gas.shining = view.heat_opacity * hot.a;

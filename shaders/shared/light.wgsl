@@ -41,9 +41,12 @@ fn light_past_solids(point: vec3f, bias: f32) -> f32 {
     return passing;
 }
 
+// Whether hot gas shines.
+override EMISSION: bool = true;
+
 // Light of hot gas that a surface sends on.
 fn light_of_gas(point: vec3f, normal: vec3f) -> vec3f {
-    if (view.heat_opacity == 0.0) {
+    if (!EMISSION) {
         return vec3f(0.0);
     }
     let cells = f32(GLOW_CELLS);
@@ -67,13 +70,14 @@ fn light_of_gas(point: vec3f, normal: vec3f) -> vec3f {
     return fading * color * max(dot(arriving, normal), 0.0) / 3.1416;
 }
 
-// A lit surface [Lambert]: the light, the sky, a little sheen.
-fn lit_surface(base: vec3f, point: vec3f, normal: vec3f, towards_eye: vec3f, bias: f32) -> vec3f {
+// Share of the light that arrives at a point of a surface, past solids and through the gas.
+fn arriving_at(point: vec3f, bias: f32) -> f32 {
+    return light_through_gas(point + bias * view.light) * light_past_solids(point, bias);
+}
+
+// A lit surface [Lambert]: the light, of which a share arrives, the sky, hot gas, a little sheen.
+fn lit_surface(base: vec3f, point: vec3f, normal: vec3f, towards_eye: vec3f, arriving: f32) -> vec3f {
     let lambert = max(dot(normal, view.light), 0.0);
-    var arriving = light_through_gas(point + bias * view.light);
-    if (lambert > 0.0) {
-        arriving *= light_past_solids(point, bias);
-    }
     let sky = 0.35 + 0.65 * (0.5 + 0.5 * dot(normal, view.up));
     let sheen = pow(max(dot(normal, normalize(view.light + towards_eye)), 0.0), 30.0);
     let rim = pow(1.0 - max(dot(normal, towards_eye), 0.0), 3.0);

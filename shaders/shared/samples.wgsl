@@ -1,6 +1,9 @@
 // The samples of a band: view.samples per ray and axis, with a margin above and below for what looks at its neighbours.
 
-const NOTHING: u32 = 0xffffffffu;
+// Depths and particles are stored as their difference from this, so that cleared memory means nothing seen and the nearest is
+// the largest.
+const FARTHEST: u32 = 0xffffffffu;
+const NOTHING: u32 = 0u;
 
 // Row of the whole picture's samples that is the first of the band's.
 fn sample_top() -> i32 {

@@ -56,5 +56,17 @@ pub fn constants() -> String {
 
 /// Compiles one entry point with the constants of the drawing shaders and binds it.
 pub(super) fn bind(gpu: &Gpu, shader: &str, entry: &str, buffers: &[(&str, &wgpu::Buffer)]) -> Result<Bound> {
-    Kernel::new(gpu, shader, entry, &Constants { source: &constants(), ..Constants::default() })?.bind(gpu, buffers)
+    bind_with(gpu, shader, entry, &[], buffers)
+}
+
+/// The same with switches: a kernel without the parts that a picture does not need is much faster where threads run in step.
+pub(super) fn bind_with(
+    gpu: &Gpu,
+    shader: &str,
+    entry: &str,
+    switches: &[(&str, bool)],
+    buffers: &[(&str, &wgpu::Buffer)],
+) -> Result<Bound> {
+    let overrides: Vec<(&str, f64)> = switches.iter().map(|&(name, on)| (name, f64::from(u8::from(on)))).collect();
+    Kernel::new(gpu, shader, entry, &Constants { source: &constants(), overrides: &overrides })?.bind(gpu, buffers)
 }

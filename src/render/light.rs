@@ -45,7 +45,7 @@ impl Light {
         let glow_grid: Buffer<[f32; 4]> = Buffer::new(gpu, "glow grid", 2 * coarse)?;
         let glowing = [shared[0], ("sources", sources.raw()), ("glow_grid", glow_grid.raw())];
         let splat = |own: &Particles| {
-            let bound = bind("splat_shadow", &[("position", &own.position), ("paint", own.paint.raw())])?;
+            let bound = bind("splat_shadow", &[("balls", own.balls.raw())])?;
             Ok::<_, crate::Error>((own.count, bound))
         };
         let trace = || bind("trace_shadow", &[("distance", distance.nodes.raw())]);

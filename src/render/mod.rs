@@ -34,7 +34,7 @@ pub use view::View;
 
 use crate::Result;
 use crate::gpu::Gpu;
-use crate::scene::{Camera, Contours, Field, ParticleColor, RenderMode, RenderSettings, Scene};
+use crate::scene::{Camera, Contours, Field, RenderMode, RenderSettings, Scene};
 use buffers::Sources;
 use camera::Eye;
 use overlay::Layout;
@@ -165,7 +165,7 @@ impl Renderer {
     fn layout(&self, look: &RenderSettings) -> Layout {
         let extent = self.sources.grid.extent();
         let overlays = look.overlays;
-        let colored = look.particle_color != ParticleColor::Body && look.particles && self.sources.particles.is_some();
+        let colored = look.particle_color.is_value() && look.particles && self.sources.particles.is_some();
         let bars = [overlays.color_bar && self.optics(look) == 0, overlays.color_bar && colored];
         let aspect = (self.sources.grid.dimension < 3).then(|| extent[0] / extent[1]);
         Layout::new(look.size, aspect, bars, overlays.title || overlays.time)

@@ -10,9 +10,8 @@ use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
 #[derive(Debug)]
 pub(super) struct Particles {
     pub(super) count: u64,
-    pub(super) position: wgpu::Buffer,
-    /// Colour and radius; radius 0 for what is not drawn.
-    pub(super) paint: Buffer<[f32; 4]>,
+    /// Place and radius of each, radius 0 for what is not drawn; then its colour.
+    pub(super) balls: Buffer<[[f32; 4]; 2]>,
     ranges: Buffer<[f32; 2]>,
     measure: Bound,
     find_range: Bound,
@@ -27,20 +26,19 @@ impl Particles {
     fn of(gpu: &Gpu, own: &ParticleSources, gas: &Gas) -> Result<Self> {
         let count = own.count as usize;
         let quantity: Buffer<f32> = Buffer::new(gpu, "particle quantity", count)?;
-        let paint: Buffer<[f32; 4]> = Buffer::new(gpu, "particle paint", count)?;
+        let balls: Buffer<[[f32; 4]; 2]> = Buffer::new(gpu, "balls", count)?;
         let ranges: Buffer<[f32; 2]> = Buffer::new(gpu, "particle ranges", RANGE_GROUPS as usize)?;
         let shared = [("view", gas.view.raw()), ("quantity", quantity.raw())];
         let state = [("velocity", &own.velocity), ("affine", &own.affine), ("deformation", &own.deformation)];
         let around = [("position", &own.position), ("stress", &own.stress), ("heat", gas.heat.raw())];
-        let mixed = [("colors", gas.colors.raw()), ("paint", paint.raw())];
+        let mixed = [around[0], ("colors", gas.colors.raw()), ("balls", balls.raw())];
         let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "points.wgsl", entry, buffers);
         Ok(Self {
             measure: bind("measure", &[&shared[..], &state, &around].concat())?,
             find_range: bind("find_particle_range", &[&shared[..], &[("ranges", ranges.raw())]].concat())?,
             mix_paint: bind("mix_paint", &[&shared[..], &state, &mixed].concat())?,
             count: own.count.into(),
-            position: own.position.clone(),
-            paint,
+            balls,
             ranges,
         })
     }

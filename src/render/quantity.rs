@@ -14,8 +14,9 @@ const CODES: [(&str, Field); 7] = [
 ];
 
 /// What the colours of particles mean, with the constants that shaders switch on.
-const PARTICLE_CODES: [(&str, ParticleColor); 5] = [
+const PARTICLE_CODES: [(&str, ParticleColor); 6] = [
     ("PARTICLE_BODY", ParticleColor::Body),
+    ("PARTICLE_MATERIAL", ParticleColor::Material),
     ("PARTICLE_SPEED", ParticleColor::Speed),
     ("PARTICLE_DEVIATORIC_STRESS", ParticleColor::DeviatoricStress),
     ("PARTICLE_PLASTIC_STRAIN", ParticleColor::PlasticStrain),
@@ -42,11 +43,11 @@ pub(super) fn constants() -> String {
     fields.chain(particles).map(|(code, name)| format!("const {name}: u32 = {code}u;\n")).collect()
 }
 
-/// Caption of the particles' colour bar, with the unit; nothing where colours are names of bodies.
+/// Caption of the particles' colour bar, with the unit; nothing where colours stand for names.
 #[must_use]
 pub fn particle_caption(color: ParticleColor) -> &'static str {
     match color {
-        ParticleColor::Body => "",
+        ParticleColor::Body | ParticleColor::Material => "",
         ParticleColor::Speed => "speed of solids [m/s]",
         ParticleColor::DeviatoricStress => "deviatoric stress [Pa]",
         ParticleColor::PlasticStrain => "plastic strain",
@@ -59,7 +60,7 @@ pub(super) fn shown_particle_range(color: ParticleColor, seen: [f64; 2], ambient
     let smallest = match color {
         ParticleColor::Speed => SMALLEST_CONTRAST * ambient.sound_speed(gamma),
         ParticleColor::DeviatoricStress => SMALLEST_CONTRAST * ambient.pressure,
-        ParticleColor::Body | ParticleColor::PlasticStrain => SMALLEST_CONTRAST,
+        ParticleColor::Body | ParticleColor::Material | ParticleColor::PlasticStrain => SMALLEST_CONTRAST,
         ParticleColor::Temperature => {
             return shown_range(Field::Temperature, seen, ambient, gamma, 1.0);
         }

@@ -4,7 +4,7 @@ use glam::Vec4;
 
 use super::buffers::Sources;
 use super::gas::{Gas, RANGE_GROUPS};
-use super::kernels::{SAMPLE_MARGIN, bind};
+use super::kernels::{SAMPLE_MARGIN, bind, bind_with};
 use super::light::{Distance, Light};
 use super::particles::Particles;
 use super::view::View;
@@ -31,8 +31,8 @@ pub(super) struct Shared<'a> {
 /// Everything bound for one size of picture.
 #[derive(Debug)]
 pub(super) struct Screen {
-    /// Rays across, samples and rays per pixel: what this is bound for.
-    key: [u32; 4],
+    /// What this is made for.
+    key: Key,
     band_rows: u32,
     edges: Buffer<[Vec4; 2]>,
     surface: Buffer<[u32; 4]>,
@@ -50,10 +50,16 @@ pub(super) struct Screen {
 struct Skin {
     count: u64,
     samples: u64,
-    clear_samples: Bound,
+    depth: Buffer<u32>,
+    nearest: Buffer<u32>,
+    /// Number and list of the rays that meet particles.
+    covered: Buffer<u32>,
+    /// Workgroups for them.
+    groups: Buffer<u32>,
     splat_depth: Bound,
     splat_nearest: Bound,
     smooth_depth: [Bound; 2],
+    list_skin: Bound,
     shade_skin: Bound,
 }
 
@@ -66,13 +72,36 @@ struct Optics {
     draw_lines: Bound,
 }
 
-fn key_of(view: &View) -> [u32; 4] {
-    [view.size[0], view.size[1], view.samples, view.supersampling]
+/// What a screen depends on: rays across, samples and rays per pixel, and the switches of its kernels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Key {
+    rays: [u32; 2],
+    samples: [u32; 2],
+    emission: bool,
+    slices: bool,
+    smooth: bool,
+}
+
+impl Key {
+    fn of(view: &View) -> Self {
+        Self {
+            rays: view.size,
+            samples: [view.samples, view.supersampling],
+            emission: view.heat_opacity > 0.0,
+            slices: view.slice_count > 0,
+            smooth: view.smooth_skin == 1,
+        }
+    }
+
+    fn switches(&self) -> [(&'static str, bool); 3] {
+        [("EMISSION", self.emission), ("SLICES", self.slices), ("SMOOTH", self.smooth)]
+    }
 }
 
 impl Screen {
     pub(super) fn new(shared: &Shared, view: &View) -> Result<Self> {
         let Shared { gpu, sources, gas, light, distance, .. } = *shared;
+        let key = Key::of(view);
         let [width, height] = view.size;
         let n = view.supersampling;
         let band_rows = (BAND_RAYS / width / n * n).clamp(n, height);
@@ -90,7 +119,7 @@ impl Screen {
             let field =
                 [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("bricks", gas.bricks.raw()), tables];
             let own = [("edges", edges.raw()), ("solid", solid.raw()), ("light_grid", light.grid.raw())];
-            bind(gpu, "volume.wgsl", "draw_volume", &[&drawn[..], &field, &own].concat())?
+            bind_with(gpu, "volume.wgsl", "draw_volume", &key.switches(), &[&drawn[..], &field, &own].concat())?
         } else {
             let own =
                 [("cells", &sources.cells), ("field", gas.field.raw()), ("distance", distance.nodes.raw()), tables];
@@ -99,11 +128,11 @@ impl Screen {
         let trace = || {
             let shade = light.of_surfaces();
             let own = [of_view, ("distance", distance.nodes.raw()), ("solid", solid.raw())];
-            bind(gpu, "solids.wgsl", "trace_solids", &[&shade[..], &own].concat())
+            bind_with(gpu, "solids.wgsl", "trace_solids", &key.switches(), &[&shade[..], &own].concat())
         };
         let optics = || Optics::new(shared, width as usize * height as usize, &surface, &solid, &gathered);
         Ok(Self {
-            key: key_of(view),
+            key,
             band_rows,
             skin: shared.particles.map(|own| Skin::new(shared, own, view, band_rows, &surface)).transpose()?,
             trace_solids: volume.then(trace).transpose()?,
@@ -119,7 +148,7 @@ impl Screen {
 
     /// Whether this screen can draw a view.
     pub(super) fn fits(&self, view: &View) -> bool {
-        self.key == key_of(view) && (view.optics == 0 || self.optics.is_some())
+        self.key == Key::of(view) && (view.optics == 0 || self.optics.is_some())
     }
 
     /// Draws what was prepared; one packed pixel per pixel of the picture, rows from the top.
@@ -136,7 +165,7 @@ impl Screen {
             view.rows = self.band_rows.min(view.size[1] - first_row);
             gas.view.write(gpu, 0, &[*view]);
             let mut pass = Pass::new(gpu, "picture");
-            self.record_band(&mut pass, view);
+            self.record_band(gpu, &mut pass, view);
             pass.submit()?;
             let count = view.size[0] / n * (view.rows / n);
             pixels.extend(readback::read_range(gpu, &self.pixels, 0, count as usize)?);
@@ -144,11 +173,11 @@ impl Screen {
         Ok(pixels)
     }
 
-    fn record_band(&self, pass: &mut Pass, view: &View) {
+    fn record_band(&self, gpu: &Gpu, pass: &mut Pass, view: &View) {
         let rays = Extent::Threads(u64::from(view.size[0]) * u64::from(view.rows));
-        match self.skin.as_ref().filter(|_| view.particles > 0) {
-            Some(skin) => skin.record(pass, view, &rays),
-            None => pass.clear(&self.surface),
+        pass.clear(&self.surface);
+        if let Some(skin) = self.skin.as_ref().filter(|_| view.particles > 0) {
+            skin.record(gpu, pass, view, &rays);
         }
         match self.trace_solids.as_ref().filter(|_| view.fineness > 0 || view.ground != [0.0; 4]) {
             Some(trace_solids) => pass.dispatch(trace_solids, &rays),
@@ -169,29 +198,46 @@ impl Skin {
         let nearest: Buffer<u32> = Buffer::new(gpu, "sample particles", samples)?;
         let of_view = ("view", gas.view.raw());
         let of_nearest = ("nearest", nearest.raw());
-        let balls = [("position", &own.position), ("paint", own.paint.raw())];
+        let balls = ("balls", own.balls.raw());
+        let rays = view.size[0] as usize * rows as usize;
+        let covered: Buffer<u32> = Buffer::new(gpu, "covered rays", 1 + rays)?;
+        let groups: Buffer<u32> = Buffer::indirect(gpu, "skin groups", 3)?;
+        let of_covered = ("covered", covered.raw());
         let splat = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
-            bind(gpu, "points.wgsl", entry, &[&[of_view, ("depth_bits", depth.raw())], own].concat())
+            bind(gpu, "points.wgsl", entry, &[&[of_view, balls, ("depth_bits", depth.raw())], own].concat())
         };
         let smoothed = |from: &Buffer<u32>, to: &Buffer<u32>| {
-            let own = [of_view, of_nearest, balls[1], ("depth_in", from.raw()), ("depth_out", to.raw())];
+            let own = [of_view, of_nearest, balls, ("depth_in", from.raw()), ("depth_out", to.raw())];
             bind(gpu, "skin.wgsl", "smooth_depth", &own)
         };
         let shade = light.of_surfaces();
-        let result = [of_view, of_nearest, ("depth_in", depth.raw()), ("surface", surface.raw())];
+        let result = [of_view, of_nearest, balls, of_covered, ("depth_in", depth.raw()), ("surface", surface.raw())];
+        let switches = Key::of(view).switches();
         Ok(Self {
             count: own.count,
             samples: samples as u64,
-            clear_samples: splat("clear_samples", &[of_nearest])?,
-            splat_depth: splat("splat_depth", &balls)?,
-            splat_nearest: splat("splat_nearest", &[&balls[..], &[of_nearest]].concat())?,
+            splat_depth: splat("splat_depth", &[])?,
+            splat_nearest: splat("splat_nearest", &[of_nearest])?,
             smooth_depth: [smoothed(&depth, &smooth)?, smoothed(&smooth, &depth)?],
-            shade_skin: bind(gpu, "skin.wgsl", "shade_skin", &[&balls[..], &shade, &result].concat())?,
+            list_skin: bind(
+                gpu,
+                "skin.wgsl",
+                "list_skin",
+                &[of_view, of_nearest, of_covered, ("skin_groups", groups.raw())],
+            )?,
+            shade_skin: bind_with(gpu, "skin.wgsl", "shade_skin", &switches, &[&shade[..], &result].concat())?,
+            depth,
+            nearest,
+            covered,
+            groups,
         })
     }
 
-    fn record(&self, pass: &mut Pass, view: &View, rays: &Extent) {
-        pass.dispatch(&self.clear_samples, &Extent::Threads(self.samples));
+    fn record(&self, gpu: &Gpu, pass: &mut Pass, view: &View, rays: &Extent) {
+        self.covered.write(gpu, 0, &[0]);
+        self.groups.write(gpu, 0, &[0, 1, 1]);
+        pass.clear(&self.depth);
+        pass.clear(&self.nearest);
         pass.dispatch(&self.splat_depth, &Extent::Threads(self.count));
         pass.dispatch(&self.splat_nearest, &Extent::Threads(self.count));
         if view.smooth_skin == 1 {
@@ -199,7 +245,8 @@ impl Skin {
                 pass.dispatch(smooth_depth, &Extent::Threads(self.samples));
             }
         }
-        pass.dispatch(&self.shade_skin, rays);
+        pass.dispatch(&self.list_skin, rays);
+        pass.dispatch(&self.shade_skin, &Extent::Indirect(&self.groups, 0));
     }
 }
 

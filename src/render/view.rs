@@ -159,7 +159,7 @@ impl View {
             contrast: 1.0,
             step: MARCH_STEP * grid.spacing,
             volume: look.volume.into(),
-            ground: if look.ground && grid.dimension == 3 { floor(grid, eye.up) } else { [0.0; 4] },
+            ground: if look.ground && grid.dimension == 3 { floor(grid, single(scene.gravity)) } else { [0.0; 4] },
             particle_scale: 0.5 * particle_overlap(grid.dimension),
             dark_strain: DARK_STRAIN,
             particle_low: 0.0,
@@ -235,16 +235,62 @@ impl View {
     pub(super) const NO_EDGE: [Vec4; 2] = [Vec4::splat(-1e6), Vec4::ONE];
 }
 
-/// The plane of the domain's floor, as normal and offset: the side that is lowest in the picture.
-fn floor(grid: &Grid, up: Vec3) -> [f32; 4] {
-    let axis = (0..3).max_by(|&a, &b| up[a].abs().total_cmp(&up[b].abs())).unwrap_or(2);
-    let upwards = up[axis] >= 0.0;
+/// The plane of the domain's floor, as normal and offset: the side that gravity points to, low z without gravity.
+fn floor(grid: &Grid, gravity: Vec3) -> [f32; 4] {
+    let axis = (0..3).rev().max_by(|&a, &b| gravity[a].abs().total_cmp(&gravity[b].abs())).unwrap_or(2);
+    let axis = if gravity == Vec3::ZERO { 2 } else { axis };
+    let high = gravity[axis] > 0.0;
     let mut normal = Vec3::ZERO;
-    normal[axis] = if upwards { 1.0 } else { -1.0 };
-    let side = grid.origin[axis] + if upwards { 0.0 } else { grid.extent()[axis] };
+    normal[axis] = if high { -1.0 } else { 1.0 };
+    let side = grid.origin[axis] + if high { grid.extent()[axis] } else { 0.0 };
     normal.extend(normal[axis] * side).into()
 }
 
 fn single(vector: [f64; 3]) -> Vec3 {
     Vec3::from_array(vector.map(|coordinate| coordinate as f32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CUBE: Grid = Grid { dimension: 3, cells: [4; 3], origin: [0.0, 1.0, 2.0], spacing: 0.5 };
+
+    #[test]
+    fn the_floor_is_where_things_fall() {
+        assert_eq!(floor(&CUBE, Vec3::ZERO), [0.0, 0.0, 1.0, 2.0]);
+        assert_eq!(floor(&CUBE, Vec3::new(0.0, -9.8, 0.1)), [0.0, 1.0, 0.0, 1.0]);
+        assert_eq!(floor(&CUBE, Vec3::X), [-1.0, 0.0, 0.0, -2.0]);
+    }
+
+    /// Points appear where the rays through their pixels pass, for both kinds of camera.
+    #[test]
+    fn projection_is_the_inverse_of_rays() {
+        let camera = |height| crate::scene::Camera {
+            eye: [3.0, -4.0, 3.5],
+            target: [1.0, 2.0, 3.0],
+            up: [0.0, 0.0, 1.0],
+            fov_degrees: 40.0,
+            height,
+        };
+        for height in [None, Some(3.0)] {
+            let eye = Eye::of_camera(&camera(height));
+            let view = View {
+                eye: eye.position.into(),
+                parallel: eye.parallel.into(),
+                right: eye.forward.cross(eye.up).into(),
+                up: eye.up.into(),
+                forward: eye.forward.into(),
+                half_height: eye.half_height,
+                size: [640, 480],
+                ..View::zeroed()
+            };
+            let point = Vec3::new(1.3, 1.2, 3.9);
+            let (pixel, depth) = view.project(point);
+            let ray = eye.ray(Vec2::new(640.0, 480.0), pixel);
+            let [origin, direction] = [ray.origin, ray.direction].map(single);
+            let passed = origin + direction * (depth / direction.dot(eye.forward));
+            assert!(passed.distance(point) < 1e-4, "{height:?}: {passed} instead of {point}");
+        }
+    }
 }

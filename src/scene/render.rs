@@ -97,7 +97,7 @@ pub struct RenderSettings {
     pub particle_range: Option<[f64; 2]>,
     /// Colour map of the particles.
     pub particle_colormap: Colormap,
-    /// A floor under a 3D domain, which catches shadows.
+    /// A floor on the side of a 3D domain that gravity points to, low z without gravity; it catches shadows.
     pub ground: bool,
     /// Planes through a 3D domain that show the field, at most 4.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -272,6 +272,8 @@ pub enum ParticleColor {
     /// One colour per body, darker where it has flowed.
     #[default]
     Body,
+    /// One colour per material, darker where it has flowed.
+    Material,
     /// Speed `[m s^-1]`.
     Speed,
     /// Norm of the deviatoric stress `[Pa]`.
@@ -284,13 +286,20 @@ pub enum ParticleColor {
 
 impl ParticleColor {
     /// All of them, in the order of menus.
-    pub const ALL: [ParticleColor; 5] = [
+    pub const ALL: [ParticleColor; 6] = [
         ParticleColor::Body,
+        ParticleColor::Material,
         ParticleColor::Speed,
         ParticleColor::DeviatoricStress,
         ParticleColor::PlasticStrain,
         ParticleColor::Temperature,
     ];
+
+    /// Whether colours are values on a colour bar.
+    #[must_use]
+    pub fn is_value(self) -> bool {
+        !matches!(self, ParticleColor::Body | ParticleColor::Material)
+    }
 }
 
 /// A plane through a 3D domain.

@@ -15,7 +15,7 @@ const BLOCK: &str = "\n[[obstacles]]\nname = \"ball\"\nshape.sphere = { center =
 
 /// Name, dimension, field and look of each stored picture.
 const PICTURES: [(&str, u32, Field, &str); 8] = [
-    ("plane", 2, Field::Density, "render = { contours = 4, arrows = 8, particle_color = \"plastic_strain\" }"),
+    ("plane", 2, Field::Density, "render.contours = 4\nrender.arrows = 8\nrender.particle_color = \"plastic_strain\""),
     ("plane_schlieren", 2, Field::Schlieren, "render.overlays = { title = false, color_bar = false }"),
     ("volume", 3, Field::Density, ""),
     ("volume_density", 3, Field::Density, "render.mode = \"density\"\nrender.colormap = \"magma\""),
@@ -23,7 +23,7 @@ const PICTURES: [(&str, u32, Field, &str); 8] = [
         "explosion",
         3,
         Field::Density,
-        "render.emission = { ambient_kelvin = 1200.0 }\nrender.tone = \"aces\"\nrender.ground = true\nrender.supersampling = 2\n\
+        "render.emission = { ambient_kelvin = 750.0 }\nrender.tone = \"aces\"\nrender.ground = true\nrender.supersampling = 2\n\
          render.surface = \"smooth\"\nrender.opacity = [[0, 0], [1, 0.2]]",
     ),
     (
