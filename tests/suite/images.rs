@@ -165,3 +165,20 @@ fn large_pictures_are_drawn_in_bands_without_seams() {
         assert!(mean < 12.0, "row {y}: mean difference {mean} of 765");
     }
 }
+
+#[test]
+#[ignore = "measures: cargo test --release -- --ignored --nocapture time_of_a_large_picture"]
+fn time_of_a_large_picture() {
+    let gpu = gpu();
+    let scene = scene(3, 128, [1920, 1080], "");
+    let state = State::new(&gpu, &scene);
+    let mut buffers = state.buffers();
+    let particles = buffers.particles.as_mut().unwrap();
+    particles.count = particles.count.min(200_000);
+    let mut renderer = Renderer::new(&gpu, &scene, &buffers).unwrap();
+    for _ in 0..4 {
+        let start = std::time::Instant::now();
+        renderer.draw(&scene.render, Field::Density, 0.0).unwrap();
+        println!("{:.2} s per picture on {}", start.elapsed().as_secs_f64(), gpu.info.name);
+    }
+}
