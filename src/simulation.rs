@@ -6,10 +6,11 @@ use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, ElasticOrder, FluidUpdate, G2p, GasAdvection, InterfaceStage,
-    IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, ElasticOrder, ElasticSolve, FluidUpdate, G2p, GasAdvection, InterfaceStage,
+    IntermediatePressure, MAX_ELASTIC_ITERATIONS, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep,
+    Totals, Transfer,
 };
-use crate::state::constants::{self, NO_FAULT, STAGES};
+use crate::state::constants::{self, MAX_ROUNDS, NO_FAULT, STAGES};
 use crate::state::{Control, HISTORY, State};
 
 /// A running simulation: buffers, stages, clock.
@@ -27,6 +28,7 @@ pub struct Simulation {
     gas_advection: GasAdvection,
     intermediate_pressure: IntermediatePressure,
     elastic_order: Option<ElasticOrder>,
+    elastic_solve: Option<ElasticSolve>,
     coupled_solve: CoupledSolve,
     fluid_update: FluidUpdate,
     mpm_grid_update: Option<MpmGridUpdate>,
@@ -40,13 +42,21 @@ pub struct Simulation {
     solves: u32,
     time: f64,
     step: u64,
-    /// Iterations and sub-steps that are recorded per step; a step that needs more goes on in the next recording.
-    recorded: (u32, u32),
+    recorded: Recorded,
 }
 
-/// Iterations recorded in the first steps, before the solver's habit is known.
-const FIRST_ITERATIONS: u32 = 12;
-/// Steps recorded into one submission at most.
+/// What is recorded per step (rounds: of the implicit elastic step); a step that needs more goes on in the next recording.
+#[derive(Clone, Copy, Debug)]
+struct Recorded {
+    iterations: u32,
+    substeps: u32,
+    rounds: u32,
+    round_iterations: u32,
+}
+
+/// What is recorded in the first steps, before the solver's habit is known.
+const FIRST: Recorded = Recorded { iterations: 12, substeps: 1, rounds: 3, round_iterations: 12 };
+/// Steps per submission at most.
 const BATCH: u32 = 16;
 
 impl Simulation {
@@ -75,6 +85,7 @@ impl Simulation {
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
             elastic_order: ElasticOrder::new(parts, scene)?,
+            elastic_solve: ElasticSolve::new(parts, scene, transfer)?,
             coupled_solve,
             fluid_update: FluidUpdate::new(parts)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
@@ -86,7 +97,7 @@ impl Simulation {
             solves: scene.solves(),
             time: 0.0,
             step: 0,
-            recorded: (FIRST_ITERATIONS, 1),
+            recorded: FIRST,
             gpu: gpu.clone(),
             state,
         };
@@ -135,9 +146,7 @@ impl Simulation {
         if let Some(elastic_order) = &self.elastic_order {
             elastic_order.record_after(pass, state);
         }
-        for substep in 0..self.recorded.1 {
-            self.record_substep(pass, substep);
-        }
+        self.record_elastic(pass); // (6) elasticity, walls; (7) grid to particles
         self.time_step.record_finish(pass);
         if let Some(odd_even) = &self.odd_even {
             odd_even.record(pass, state);
@@ -162,7 +171,7 @@ impl Simulation {
             elastic_order.record_before(pass, state, phase);
         }
         self.coupled_solve.record_setup(pass, state, phase);
-        self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
+        self.coupled_solve.record_iterations(pass, self.recorded.iterations); // (5) eq. 37
         self.time_step.record_solved(pass);
         self.coupled_solve.record_solution(pass, state);
         self.fluid_update.record(pass, state, &self.carrier); // eqs. 14 and 3, local gradients
@@ -172,6 +181,22 @@ impl Simulation {
     fn record_held(&self, pass: &mut Pass, phase: &str) {
         if let Some(supports) = &self.supports {
             supports.record_nodes(pass, &self.state, phase);
+        }
+    }
+
+    /// Elasticity: one implicit step, or explicit sub-steps.
+    fn record_elastic(&self, pass: &mut Pass) {
+        if let (Some(elastic_solve), Some(g2p)) = (&self.elastic_solve, &self.g2p) {
+            for _ in 0..self.recorded.rounds {
+                elastic_solve.record_round(pass, &self.state, self.recorded.round_iterations);
+            }
+            self.time_step.record_substep(pass);
+            elastic_solve.record_finish(pass, &self.state);
+            g2p.record(pass, &self.state);
+            return;
+        }
+        for substep in 0..self.recorded.substeps {
+            self.record_substep(pass, substep);
         }
     }
 
@@ -194,9 +219,9 @@ impl Simulation {
             elastic_order.record_substep(pass, state);
         }
         if elastic_order.is_none_or(ElasticOrder::has_substeps) {
-            mpm_grid_update.record(pass, state); // (6) elasticity, walls
+            mpm_grid_update.record(pass, state);
         }
-        g2p.record(pass, state); // (7) grid to particles
+        g2p.record(pass, state);
     }
 
     /// Advances to a time and returns the records of all steps on the way.
@@ -265,14 +290,24 @@ impl Simulation {
         if control.fault != NO_FAULT {
             return Err(self.fault(&control));
         }
-        let most = newest.iter().map(|record| (record.iterations, record.substeps));
-        let (iterations, substeps) = most.fold((1, 1), |a, b| (a.0.max(b.0), a.1.max(b.1)));
-        let unfinished = if control.phase == 0 { (0, 0) } else { (self.recorded.0 * 2, self.recorded.1 * 2) };
-        let iterations =
-            (iterations.div_ceil(self.solves) + 2).max(unfinished.0).min(self.state.params.max_iterations + 1);
-        let substeps = substeps.max(unfinished.1).min(self.state.params.max_substeps.max(1));
-        self.recorded = (iterations, if self.state.has_solids() { substeps } else { 1 });
+        self.recorded = self.recorded_next(newest, control.phase != 0);
         Ok(control.remaining <= 0.0 && control.phase == 0)
+    }
+
+    /// What the next recording holds: what the newest steps took, and twice as much of everything if a step was left unfinished.
+    fn recorded_next(&self, newest: &[StepRecord], unfinished: bool) -> Recorded {
+        let most = |of: fn(&StepRecord) -> u32| newest.iter().map(of).fold(1, u32::max);
+        let (params, now) = (&self.state.params, self.recorded);
+        let enough = |took: u32, now: u32| if unfinished { took.max(2 * now) } else { took };
+        let substeps = enough(most(|record| record.substeps), now.substeps);
+        Recorded {
+            iterations: enough(most(|record| record.iterations).div_ceil(self.solves) + 2, now.iterations)
+                .min(params.max_iterations + 1),
+            substeps: if self.state.has_solids() { substeps.min(params.max_substeps.max(1)) } else { 1 },
+            rounds: enough(most(|record| record.rounds), now.rounds).min(MAX_ROUNDS),
+            round_iterations: enough(most(|record| record.longest_round) + 2, now.round_iterations)
+                .min(MAX_ELASTIC_ITERATIONS + 1),
+        }
     }
 
     /// Records of the steps since the last reading.

@@ -14,6 +14,7 @@ override LEDGER: bool;          // gas of covered cells is kept and given back
 override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed
 override FRICTION: bool;        // some body does not slip
 override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity
+override IMPLICIT: bool;        // one elastic step by backward Euler instead of explicit sub-steps
 override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's volumetric part, which the law then lacks
 override PERIODIC: u32;          // axes whose ends meet, as bits
 override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
@@ -36,7 +37,7 @@ struct Params {
     fixed_step: f32,            // [s] 0 = from the bounds
     elastic_cfl: f32,
     solid_threshold: f32,       // share of a cell that makes it solid
-    mass_floor: f32,            // [kg] least node mass that the pressure solve sees
+    mass_floor: f32,            // [kg] least node mass that the pressure solve sees, of the heaviest body
     tolerance: f32,             // of the solve, relative
     extra_capacity: u32,        // vertices that may carry P, h and Q apart
     max_iterations: u32,

@@ -279,6 +279,7 @@ impl Check<'_> {
         if self.scene.solves() == 2 {
             self.ars222();
         }
+        self.fraction("numerics.elastic_tolerance", numerics.elastic_tolerance, 0.5);
         self.count("numerics.max_substeps", numerics.max_substeps, 1, 10_000);
         self.findings.extend(super::coupling::findings(self.scene));
     }

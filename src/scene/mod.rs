@@ -43,7 +43,7 @@ pub use boundary::{
 };
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
-pub use coupling::{Coupling, Ghost, InterfacePressure, Power, SolidUpdate};
+pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Coupling, FaceVelocity, Ghost, Integrator, InterfacePressure, Power, SolidUpdate, vector};
+use super::{Coupling, Elasticity, FaceVelocity, Ghost, Integrator, InterfacePressure, Power, SolidUpdate, vector};
 
 /// How long, and how finely in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -83,6 +83,10 @@ pub struct Numerics {
     pub blending: bool,
     /// Fraction of a cell that elastic waves cross in one sub-step, above 0 and at most 1.
     pub elastic_cfl: f64,
+    /// How the elastic part of a step is taken.
+    pub elasticity: Elasticity,
+    /// Relative tolerance of the implicit elastic step, above 0 and below 1.
+    pub elastic_tolerance: f64,
     /// Elastic sub-steps per step at most; the step is shortened to fit. With `numerics.coupling = "last"` there is one.
     pub max_substeps: u32,
     /// How particles give their momentum to the grid.
@@ -110,6 +114,8 @@ impl Default for Numerics {
             limiter: true,
             blending: true,
             elastic_cfl: 0.4,
+            elasticity: Elasticity::default(),
+            elastic_tolerance: 1e-4,
             max_substeps: 64,
             transfer: Transfer::default(),
         }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, constants, control::Control,
-    extra_capacity,
+    elastic_solve, extra_capacity,
 };
 use crate::error::{Error, Result};
 use crate::numerics::{PcgControl, Scan};
@@ -77,10 +77,21 @@ impl MemoryPlan {
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);
         plan.add(
             "nodes",
-            &[("node", if scene.consistent() { slots } else { solid }, 16), ("cell_start", solid + 1, 4)],
+            &[
+                ("node", if scene.consistent() { slots } else { solid }, 16),
+                ("cell_start", solid + 1, 4),
+                ("inertia", solid, 4),
+            ],
         );
         let elastic = if particles == 0 { 0 } else { scene.elastic_vectors() as u64 * slots };
         plan.add("nodes", &[("elastic", elastic, 16)]);
+        if elastic_solve::wanted(scene, particles) {
+            let length = elastic_solve::WIDTH as u64 * slots;
+            plan.add("nodes", &["solution", "residual", "direction", "product"].map(|name| (name, length, 4)));
+            plan.add("nodes", &[("inverse_diagonal", length, 4)]);
+            plan.add("particles", &[("stress change", 2 * count, 16)]);
+            plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 20, 4)]);
+        }
         let scan = Scan::planned_bytes(slots as u32 + 1);
         plan.add("interface", &[("list scan", scan, 1)]);
         if particles > 0 {

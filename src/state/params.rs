@@ -83,7 +83,7 @@ pub struct SolidLimits {
 }
 
 /// Smallest share of a full node's mass that the solve sees: lighter nodes would rule its conditioning.
-const MASS_FLOOR: f64 = 0.01;
+pub(crate) const LIGHTEST_NODE: f64 = 0.01;
 /// Crowding, relative to bodies at rest, that the scatter form of p2g has room for.
 const CROWDING: f64 = 16.0;
 /// Steps that the history ring holds; the host reads it before it wraps.
@@ -139,7 +139,7 @@ impl Params {
             fixed_step: time.fixed_step.unwrap_or(0.0) as f32,
             elastic_cfl: numerics.elastic_cfl as f32,
             solid_threshold: numerics.solid_threshold as f32,
-            mass_floor: (MASS_FLOOR * solids.max_density * cell_volume) as f32,
+            mass_floor: (LIGHTEST_NODE * solids.max_density * cell_volume) as f32,
             tolerance: numerics.tolerance as f32,
             extra_capacity: limits.extra_capacity,
             max_iterations: numerics.max_iterations,
@@ -180,6 +180,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("BLENDING", flag(numerics.blending)),
         ("LEDGER", flag(numerics.ledger)),
         ("MIDPOINT_POWER", flag(scene.midpoint_power())),
+        ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
         ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),

@@ -100,6 +100,13 @@ fn control() {
             frontier,
             time,
             time_error,
+            rounds,
+            round_open,
+            newly_held,
+            elastic_iterations,
+            longest_round,
+            imbalance,
+            imbalance_before,
         ]
     );
 }
