@@ -1,8 +1,9 @@
 // The quantity a picture shows, from the state of the gas.
-// evaluate_field: reads conserved, energy, cells; writes field, NO_VALUE where there is no gas.
+// evaluate_field: reads conserved, energy, cells; writes field and heat (p / rho), NO_VALUE where there is no gas.
 // find_range: reads field; writes the least and largest value that each workgroup saw.
 // pack_corners: reads field; writes, per cube between eight cell centres, their fractions of the range in 8 bits each.
-// mark_bricks: reads corners; writes 1 for every brick of cubes that the ray march must enter, 0 for transparent ones.
+// pack_glow: reads heat; writes the same cubes' places in the black-body ramp.
+// mark_bricks: reads corners, glow, visible; writes 1 for every brick of cubes that the ray march must enter.
 
 #include "shared/thread.wgsl"
 #include "shared/reduce.wgsl"
@@ -15,6 +16,10 @@
 @group(0) @binding(5) var<storage, read_write> ranges: array<vec2f>;
 @group(0) @binding(6) var<storage, read_write> corners: array<vec2u>;
 @group(0) @binding(7) var<storage, read_write> bricks: array<u32>;
+@group(0) @binding(8) var<storage, read_write> heat: array<f32>;
+@group(0) @binding(9) var<storage, read_write> glow: array<vec2u>;
+// Per entry of the colour table, how many entries before it are not transparent; then the same of the black-body ramp.
+@group(0) @binding(10) var<storage, read> visible: array<u32>;
 
 fn has_gas(slot: u32) -> bool {
     return kind_of(cells[slot]) == KIND_GAS;
@@ -90,14 +95,17 @@ fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
     let cell = cell_of(i);
     let slot = slot_of(cell);
     var result = NO_VALUE;
+    var hot = NO_VALUE;
     if (has_gas(slot)) {
         let computed = value(cell, slot);
         // The comparison is false for NaN.
         if (abs(computed) < -NO_VALUE) {
             result = computed;
         }
+        hot = max(pressure(slot) / conserved[slot].x, 0.0);
     }
     field[i] = result;
+    heat[i] = hot;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -119,71 +127,124 @@ fn find_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
     }
 }
 
-fn fraction_at(cell: vec3i) -> f32 {
+// Place of a cell in the arrays without ring; cells beyond the sides are those at the sides.
+fn nearest_cell(cell: vec3i) -> u32 {
     let inside = vec3u(clamp(cell, vec3i(0), vec3i(view.cells) - 1));
-    let seen = field[inside.x + view.cells.x * (inside.y + view.cells.y * inside.z)];
-    if (seen == NO_VALUE) {
-        return -1.0;
-    }
-    return pow(clamp((seen - view.low) / (view.high - view.low), 0.0, 1.0), view.contrast);
+    return inside.x + view.cells.x * (inside.y + view.cells.y * inside.z);
 }
 
-// Cube (i, j, k) lies between the centres of cells i-1 and i, and so on: one more than cells per axis.
-@compute @workgroup_size(WORKGROUP)
-fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
-    let cubes = view.cells + 1u;
-    if (i >= cubes.x * cubes.y * cubes.z) {
-        return;
-    }
-    let cube = vec3i(vec3u(i % cubes.x, (i / cubes.x) % cubes.y, i / (cubes.x * cubes.y)));
-    var fractions = array<f32, 8>();
+// The fractions of a cube's eight corners in 8 bits each. Corners without gas are negative; they take the mean of the others,
+// so that bodies have no halo of false values.
+fn packed_corners(given: array<f32, 8>) -> vec2u {
+    var fractions = given;
     var sum = 0.0;
     var count = 0.0;
     for (var corner = 0u; corner < 8u; corner++) {
-        let offset = vec3i(vec3u(corner & 1u, (corner >> 1u) & 1u, corner >> 2u));
-        let fraction = fraction_at(cube - 1 + offset);
-        fractions[corner] = fraction;
-        if (fraction >= 0.0) {
-            sum += fraction;
+        if (fractions[corner] >= 0.0) {
+            sum += fractions[corner];
             count += 1.0;
         }
     }
-    // Corners without gas take the mean of the others, so that bodies have no halo of false values.
-    let filling = select(view.neutral, sum / max(count, 1.0), count > 0.0);
     for (var corner = 0u; corner < 8u; corner++) {
         if (fractions[corner] < 0.0) {
-            fractions[corner] = filling;
+            fractions[corner] = sum / max(count, 1.0);
         }
     }
     let near = vec4f(fractions[0], fractions[1], fractions[2], fractions[3]);
     let far = vec4f(fractions[4], fractions[5], fractions[6], fractions[7]);
-    corners[i] = vec2u(pack4x8unorm(near), pack4x8unorm(far));
+    return vec2u(pack4x8unorm(near), pack4x8unorm(far));
+}
+
+// Cube (i, j, k) lies between the centres of cells i-1 and i, and so on: one more than cells per axis.
+fn cube_of(i: u32) -> vec3i {
+    let cubes = view.cells + 1u;
+    return vec3i(vec3u(i % cubes.x, (i / cubes.x) % cubes.y, i / (cubes.x * cubes.y)));
+}
+
+fn cube_count() -> u32 {
+    let cubes = view.cells + 1u;
+    return cubes.x * cubes.y * cubes.z;
+}
+
+fn corner_cell(cube: vec3i, corner: u32) -> vec3i {
+    return cube - 1 + vec3i(vec3u(corner & 1u, (corner >> 1u) & 1u, corner >> 2u));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, groups, local);
+    if (i >= cube_count()) {
+        return;
+    }
+    let cube = cube_of(i);
+    var fractions = array<f32, 8>();
+    for (var corner = 0u; corner < 8u; corner++) {
+        let seen = field[nearest_cell(corner_cell(cube, corner))];
+        let fraction = pow(clamp((seen - view.low) / (view.high - view.low), 0.0, 1.0), view.contrast);
+        fractions[corner] = select(fraction, -1.0, seen == NO_VALUE);
+    }
+    corners[i] = packed_corners(fractions);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pack_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+             @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, groups, local);
+    if (i >= cube_count()) {
+        return;
+    }
+    let cube = cube_of(i);
+    var fractions = array<f32, 8>();
+    for (var corner = 0u; corner < 8u; corner++) {
+        let seen = heat[nearest_cell(corner_cell(cube, corner))];
+        fractions[corner] = select(clamp(seen * view.heat_scale - view.heat_offset, 0.0, 1.0), -1.0, seen == NO_VALUE);
+    }
+    glow[i] = packed_corners(fractions);
+}
+
+// Whether something between two entries of a table is not transparent; the bounds are 8-bit fractions.
+fn sees(low: f32, high: f32, table: u32) -> bool {
+    let first = u32(low * f32(COLOR_COUNT - 1u));
+    let last = min(u32(high * f32(COLOR_COUNT - 1u) + 1.0), COLOR_COUNT - 1u);
+    let start = table * (COLOR_COUNT + 1u);
+    return visible[start + last + 1u] > visible[start + first];
+}
+
+// Least and largest of eight packed fractions and what was seen before.
+fn widened(bounds: vec2f, packed: vec2u) -> vec2f {
+    let near = unpack4x8unorm(packed.x);
+    let far = unpack4x8unorm(packed.y);
+    let low = min(near, far);
+    let high = max(near, far);
+    return vec2f(min(bounds.x, min(min(low.x, low.y), min(low.z, low.w))),
+                 max(bounds.y, max(max(high.x, high.y), max(high.z, high.w))));
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
                @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, groups, local);
-    let grid = brick_grid();
+    let grid = (view.cells + BRICK) / BRICK;
     if (i >= grid.x * grid.y * grid.z) {
         return;
     }
     let cubes = view.cells + 1u;
     let first = BRICK * vec3u(i % grid.x, (i / grid.x) % grid.y, i / (grid.x * grid.y));
     let end = min(first + BRICK, cubes);
-    var seen = false;
+    var bounds = vec2f(1.0, 0.0);
+    var hot = vec2f(1.0, 0.0);
     for (var z = first.z; z < end.z; z++) {
         for (var y = first.y; y < end.y; y++) {
             for (var x = first.x; x < end.x; x++) {
-                let packed = corners[x + cubes.x * (y + cubes.y * z)];
-                let near = abs(unpack4x8unorm(packed.x) - view.neutral);
-                let far = abs(unpack4x8unorm(packed.y) - view.neutral);
-                let most = max(near, far);
-                seen = seen || max(max(most.x, most.y), max(most.z, most.w)) > FAINTEST * contrast_scale();
+                let cube = x + cubes.x * (y + cubes.y * z);
+                bounds = widened(bounds, corners[cube]);
+                if (view.heat_opacity > 0.0) {
+                    hot = widened(hot, glow[cube]);
+                }
             }
         }
     }
-    bricks[i] = u32(seen);
+    let shines = view.heat_opacity > 0.0 && sees(hot.x, hot.y, 1u);
+    bricks[i] = u32(sees(bounds.x, bounds.y, 0u) || shines);
 }

@@ -1,81 +1,170 @@
-// Particles as lit spheres. Each pixel has SAMPLES x SAMPLES samples; the nearest sphere wins each sample.
-// clear_samples: writes depth_bits, nearest: nothing seen.
-// splat_depth: reads position, velocity, deformation; lowers depth_bits to the nearest sphere.
+// Particles as balls: the nearest one in each sample of the band. A ray's place has view.samples x view.samples samples.
+// measure: reads position, velocity, affine, deformation, stress, heat; writes quantity, what the colours mean.
+// find_particle_range: reads quantity; writes the least and largest value that each workgroup saw.
+// mix_paint: reads quantity, position, velocity, affine, deformation, colors; writes balls: place and radius, 0 for what is not
+// drawn; then colour.
+// splat_depth: reads balls; raises depth_bits to the nearest ball.
 // splat_nearest: reads the same and depth_bits; writes nearest, the lowest particle index at that depth.
-// shade_surface: reads all; writes surface: depth, coverage and colour of each pixel.
 
 #include "shared/thread.wgsl"
+#include "shared/reduce.wgsl"
 #include "shared/view.wgsl"
+#include "shared/samples.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;
 @group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
 @group(0) @binding(3) var<storage, read> affine: array<vec4f>;
 @group(0) @binding(4) var<storage, read> deformation: array<vec4f>;
-@group(0) @binding(5) var<storage, read_write> depth_bits: array<atomic<u32>>;
-@group(0) @binding(6) var<storage, read_write> nearest: array<atomic<u32>>;
-@group(0) @binding(7) var<storage, read_write> surface: array<vec4u>;
-
-const NOTHING: u32 = 0xffffffffu;
+@group(0) @binding(5) var<storage, read> stress: array<vec4f>;
+@group(0) @binding(6) var<storage, read> heat: array<f32>;
+@group(0) @binding(7) var<storage, read> colors: array<vec4f>;
+@group(0) @binding(8) var<storage, read_write> quantity: array<f32>;
+@group(0) @binding(9) var<storage, read_write> ranges: array<vec2f>;
+@group(0) @binding(10) var<storage, read_write> balls: array<vec4f>;
+@group(0) @binding(11) var<storage, read_write> depth_bits: array<atomic<u32>>;
+@group(0) @binding(12) var<storage, read_write> nearest: array<atomic<u32>>;
 
 // Two kernels may round the same depth differently; this many units in the last place count as equal.
 const DEPTH_SLACK: u32 = 64u;
 
-// Pixels from the middle of a sphere that are looked at, at most: a sphere in front of the eye would fill the picture.
-const MAX_REACH: f32 = 200.0;
+// Samples from the middle of a ball that are looked at, at most: a ball in front of the eye would fill the picture.
+const MAX_REACH: f32 = 400.0;
 
-fn sample_grid() -> vec2u {
-    return view.size * SAMPLES;
+// Norm of the deviatoric part of the Cauchy stress [Pa].
+fn deviatoric_stress(p: u32) -> f32 {
+    let a = deformation[3u * p].xyz;
+    let b = deformation[3u * p + 1u].xyz;
+    let c = deformation[3u * p + 2u].xyz;
+    let volume = velocity[p].w * dot(a, cross(b, c));
+    let normal = stress[2u * p].xyz;
+    let shear = stress[2u * p + 1u].xyz;
+    let deviator = normal - (normal.x + normal.y + normal.z) / 3.0;
+    return sqrt(dot(deviator, deviator) + 2.0 * dot(shear, shear)) / max(volume, 1e-30);
 }
 
-fn sample_ray(place: vec2u) -> Ray {
-    return ray_through((vec2f(place) + 0.5) / f32(SAMPLES));
+// Mean p / rho of the gas in the cell of a particle and around, NO_VALUE where there is none.
+fn gas_around(p: u32) -> f32 {
+    let cell = vec3i(floor(in_cells(position[p].xyz)));
+    var sum = 0.0;
+    var count = 0.0;
+    for (var i = 0u; i < 27u; i++) {
+        let near = cell + vec3i(vec3u(i % 3u, (i / 3u) % 3u, i / 9u)) - 1;
+        if (all(near >= vec3i(0)) && all(near < vec3i(view.cells))) {
+            let seen = heat[u32(near.x) + view.cells.x * (u32(near.y) + view.cells.y * u32(near.z))];
+            if (seen != NO_VALUE) {
+                sum += seen;
+                count += 1.0;
+            }
+        }
+    }
+    return select(NO_VALUE, sum / max(count, 1.0), count > 0.0);
 }
 
-fn radius_of(p: u32) -> f32 {
-    return view.particle_scale * pow(velocity[p].w, 1.0 / f32(view.dimension));
+@compute @workgroup_size(WORKGROUP)
+fn measure(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+           @builtin(local_invocation_index) local: u32) {
+    let p = thread_index(workgroup, groups, local);
+    if (p >= view.particles) {
+        return;
+    }
+    var result = NO_VALUE;
+    if (deformation[3u * p + 1u].w != 0.0) {
+        switch (view.particle_color) {
+            case PARTICLE_SPEED: { result = length(velocity[p].xyz); }
+            case PARTICLE_DEVIATORIC_STRESS: { result = deviatoric_stress(p); }
+            case PARTICLE_PLASTIC_STRAIN: { result = affine[3u * p + 1u].w; }
+            case PARTICLE_TEMPERATURE: { result = gas_around(p); }
+            default: {}
+        }
+    }
+    // The comparison is false for NaN.
+    quantity[p] = select(NO_VALUE, result, abs(result) < -NO_VALUE);
 }
 
-// Distance along the ray to a sphere, negative if it is missed [m].
-fn hit_sphere(ray: Ray, centre: vec3f, radius: f32) -> f32 {
-    let relative = centre - ray.start;
-    let along = dot(relative, ray.direction);
-    let miss = relative - along * ray.direction;
-    let inside = radius * radius - dot(miss, miss);
-    return select(-1.0, along - sqrt(max(inside, 0.0)), inside >= 0.0);
+@compute @workgroup_size(WORKGROUP)
+fn find_particle_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+                       @builtin(local_invocation_index) local: u32) {
+    var low = -NO_VALUE;
+    var high = NO_VALUE;
+    for (var p = thread_index(workgroup, groups, local); p < view.particles; p += groups.x * WORKGROUP) {
+        let seen = quantity[p];
+        if (seen != NO_VALUE) {
+            low = min(low, seen);
+            high = max(high, seen);
+        }
+    }
+    low = workgroup_min(local, low);
+    high = workgroup_max(local, high);
+    if (local == 0u) {
+        ranges[workgroup.x] = vec2f(low, high);
+    }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+             @builtin(local_invocation_index) local: u32) {
+    let p = thread_index(workgroup, groups, local);
+    if (p >= view.particles) {
+        return;
+    }
+    var color = vec3f(0.0);
+    if (view.particle_color == PARTICLE_BODY || view.particle_color == PARTICLE_MATERIAL) {
+        let body = bitcast<u32>(deformation[3u * p].w);
+        let material = bitcast<u32>(affine[3u * p + 2u].w);
+        let name = select(material, body, view.particle_color == PARTICLE_BODY);
+        let plastic_strain = affine[3u * p + 1u].w;
+        color = BODY_COLORS[name % BODY_COLOR_COUNT] / (1.0 + max(plastic_strain, 0.0) / view.dark_strain);
+    } else {
+        let fraction = clamp((quantity[p] - view.particle_low) / (view.particle_high - view.particle_low), 0.0, 1.0);
+        color = colors[2u * COLOR_COUNT + u32(fraction * f32(COLOR_COUNT - 1u) + 0.5)].rgb;
+    }
+    let radius = view.particle_scale * pow(velocity[p].w, 1.0 / f32(view.dimension));
+    balls[2u * p] = vec4f(position[p].xyz, select(radius, 0.0, deformation[3u * p + 1u].w == 0.0));
+    balls[2u * p + 1u] = vec4f(color, 1.0);
 }
 
 struct Footprint {
     centre: vec3f,
     radius: f32,
+    // The middle in samples of the band, the radius in samples, and the distance from where rays start [m].
+    middle: vec2f,
+    samples: f32,
+    distance: f32,
     // Samples from low to below high, empty if the particle is not seen.
     low: vec2i,
     high: vec2i,
 }
 
 fn footprint(p: u32) -> Footprint {
-    var mark = Footprint(position[p].xyz, radius_of(p), vec2i(0), vec2i(0));
+    let ball = balls[2u * p];
+    var mark = Footprint(ball.xyz, ball.w, vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0));
     let place = project(mark.centre);
-    let active_flag = deformation[3u * p + 1u].w;
-    if (place.z <= mark.radius || active_flag == 0.0) {
+    if (mark.radius == 0.0 || (place.z <= mark.radius && view.parallel == 0u)) {
         return mark;
     }
-    let distance = select(place.z - mark.radius, 1.0, view.parallel == 1u);
-    let reach = min(1.2 * mark.radius / (distance * view.half_height) * 0.5 * f32(view.size.y) + 1.0, MAX_REACH);
+    let per_metre = 0.5 * f32(view.size.y) * f32(view.samples) / view.half_height;
+    mark.middle = place.xy * f32(view.samples) - vec2f(0.0, f32(sample_top()));
+    mark.samples = mark.radius * per_metre / select(place.z, 1.0, view.parallel == 1u);
+    mark.distance = select(length(mark.centre - view.eye), place.z, view.parallel == 1u);
+    // Perspective stretches balls towards the corners of the picture.
+    let near = select(place.z - mark.radius, 1.0, view.parallel == 1u);
+    let stretched = min(1.2 * mark.radius * per_metre / near + 1.0, MAX_REACH);
+    let reach = select(mark.samples, stretched, mark.samples > 12.0);
     let limit = vec2f(sample_grid());
-    mark.low = vec2i(clamp((place.xy - reach) * f32(SAMPLES), vec2f(0.0), limit));
-    mark.high = vec2i(clamp((place.xy + reach) * f32(SAMPLES) + 1.0, vec2f(0.0), limit));
+    mark.low = vec2i(clamp(mark.middle - reach, vec2f(0.0), limit));
+    mark.high = vec2i(clamp(mark.middle + reach + 1.0, vec2f(0.0), limit));
     return mark;
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn clear_samples(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
-    let samples = sample_grid();
-    if (i < samples.x * samples.y) {
-        atomicStore(&depth_bits[i], NOTHING);
-        atomicStore(&nearest[i], NOTHING);
+// Depth of a ball in a sample, negative if it is missed [m]. The outline of a small one is round, and its depth that of a ball
+// seen along its own line of sight.
+fn depth_in(mark: Footprint, place: vec2u) -> f32 {
+    if (mark.samples > 12.0) {
+        return hit_sphere(sample_ray(place), mark.centre, mark.radius);
     }
+    let offset = vec2f(place) + 0.5 - mark.middle;
+    let inside = 1.0 - dot(offset, offset) / (mark.samples * mark.samples);
+    return select(-1.0, mark.distance - mark.radius * sqrt(max(inside, 0.0)), inside >= 0.0);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -89,10 +178,10 @@ fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups)
     for (var y = mark.low.y; y < mark.high.y; y++) {
         for (var x = mark.low.x; x < mark.high.x; x++) {
             let place = vec2u(vec2i(x, y));
-            let depth = hit_sphere(sample_ray(place), mark.centre, mark.radius);
+            let depth = depth_in(mark, place);
             if (depth > 0.0) {
                 // Positive floats order like their bits.
-                atomicMin(&depth_bits[place.x + sample_grid().x * place.y], bitcast<u32>(depth));
+                atomicMax(&depth_bits[place.x + sample_grid().x * place.y], FARTHEST - bitcast<u32>(depth));
             }
         }
     }
@@ -109,60 +198,11 @@ fn splat_nearest(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroup
     for (var y = mark.low.y; y < mark.high.y; y++) {
         for (var x = mark.low.x; x < mark.high.x; x++) {
             let place = vec2u(vec2i(x, y));
-            let depth = hit_sphere(sample_ray(place), mark.centre, mark.radius);
+            let depth = depth_in(mark, place);
             let i = place.x + sample_grid().x * place.y;
-            if (depth > 0.0 && bitcast<u32>(depth) <= atomicLoad(&depth_bits[i]) + DEPTH_SLACK) {
-                atomicMin(&nearest[i], p);
+            if (depth > 0.0 && FARTHEST - bitcast<u32>(depth) + DEPTH_SLACK >= atomicLoad(&depth_bits[i])) {
+                atomicMax(&nearest[i], FARTHEST - p);
             }
         }
     }
-}
-
-// Light from one side, from the sky, and along the rim [Lambert].
-fn lit(base: vec3f, normal: vec3f, towards_eye: vec3f) -> vec3f {
-    let lambert = max(dot(normal, view.light), 0.0);
-    let sky = 0.5 + 0.5 * dot(normal, view.up);
-    let rim = pow(1.0 - max(dot(normal, towards_eye), 0.0), 3.0);
-    let sheen = pow(max(dot(normal, normalize(view.light + towards_eye)), 0.0), 30.0);
-    return base * (0.95 * lambert + 0.10 + 0.18 * sky) + 0.10 * rim * base + 0.06 * sheen;
-}
-
-fn particle_color(p: u32, ray: Ray, depth: f32) -> vec3f {
-    let body = bitcast<u32>(deformation[3u * p].w);
-    let plastic_strain = affine[3u * p + 1u].w;
-    let base = BODY_COLORS[body % BODY_COLOR_COUNT] / (1.0 + max(plastic_strain, 0.0) / view.dark_strain);
-    if (view.parallel == 1u) {
-        // Discs of a few pixels would turn into a pattern under a light.
-        return base;
-    }
-    let normal = (ray.start + depth * ray.direction - position[p].xyz) / radius_of(p);
-    return lit(base, normal, -ray.direction);
-}
-
-@compute @workgroup_size(WORKGROUP)
-fn shade_surface(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
-    if (i >= view.size.x * view.size.y) {
-        return;
-    }
-    let first = vec2u(i % view.size.x, i / view.size.x) * SAMPLES;
-    var color = vec3f(0.0);
-    var depth = 0.0;
-    var seen = 0.0;
-    for (var s = 0u; s < SAMPLES * SAMPLES; s++) {
-        let place = first + vec2u(s % SAMPLES, s / SAMPLES);
-        let sample = place.x + sample_grid().x * place.y;
-        let p = atomicLoad(&nearest[sample]);
-        if (p != NOTHING) {
-            let distance = bitcast<f32>(atomicLoad(&depth_bits[sample]));
-            color += particle_color(p, sample_ray(place), distance);
-            depth += distance;
-            seen += 1.0;
-        }
-    }
-    color /= max(seen, 1.0);
-    depth /= max(seen, 1.0);
-    let coverage = seen / f32(SAMPLES * SAMPLES);
-    surface[i] = vec4u(bitcast<u32>(depth), bitcast<u32>(coverage), pack2x16unorm(color.rg), pack2x16unorm(vec2f(color.b, 0.0)));
 }

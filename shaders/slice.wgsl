@@ -1,25 +1,31 @@
-// A two-dimensional field through the colour table, bodies drawn over it.
-// draw_slice: reads field, cells, colors, surface; writes pixels. Row 0 is the top of the picture, y points up.
+// A two-dimensional field through the colour table, with contour lines, obstacles and bodies over it.
+// draw_slice: reads field, cells, colors, surface, distance; writes light. Row 0 is the top of the picture, y points up.
 
 #include "shared/thread.wgsl"
 #include "shared/view.wgsl"
-#include "shared/color.wgsl"
 #include "shared/surface.wgsl"
+#include "shared/distance.wgsl"
+#include "shared/contour.wgsl"
 
 @group(0) @binding(1) var<storage, read> field: array<f32>;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> colors: array<vec4f>;
 @group(0) @binding(4) var<storage, read> surface: array<vec4u>;
-@group(0) @binding(5) var<storage, read_write> pixels: array<u32>;
+@group(0) @binding(5) var<storage, read_write> light: array<vec4f>;
+@group(0) @binding(6) var<storage, read> distance: array<f32>;
 
 // Light of cells without gas: covered by a body, and walls.
 const BODY_SHADE: vec3f = vec3f(0.045, 0.042, 0.040);
 const WALL_SHADE: vec3f = vec3f(0.075, 0.080, 0.090);
 
+const LINE_COLOR: vec3f = vec3f(0.02, 0.02, 0.025);
+
+fn fraction_of(value: f32) -> f32 {
+    return clamp((value - view.low) / (view.high - view.low), 0.0, 1.0);
+}
+
 fn color_of(value: f32) -> vec3f {
-    let place = clamp((value - view.low) / (view.high - view.low), 0.0, 1.0) * f32(COLOR_COUNT - 1u);
-    let low = min(u32(place), COLOR_COUNT - 2u);
-    return mix(colors[low].rgb, colors[low + 1u].rgb, place - f32(low));
+    return colors[u32(fraction_of(value) * f32(COLOR_COUNT - 1u) + 0.5)].rgb;
 }
 
 fn value_at(cell: vec2i) -> f32 {
@@ -45,7 +51,15 @@ fn interpolated(place: vec2f) -> f32 {
     return sum / max(weights, 1e-20);
 }
 
-fn gas_color(place: vec2f) -> vec3f {
+// Share of a place covered by contour lines; rays are `reach` cells apart.
+fn lines(place: vec2f, reach: f32) -> f32 {
+    let here = fraction_of(interpolated(place));
+    let right = fraction_of(interpolated(place + vec2f(reach, 0.0)));
+    let above = fraction_of(interpolated(place + vec2f(0.0, reach)));
+    return contour_coverage(here, length(vec2f(right - here, above - here)));
+}
+
+fn gas_color(place: vec2f, reach: f32) -> vec3f {
     let cell = vec2i(floor(place));
     let own = value_at(cell);
     if (own == NO_VALUE) {
@@ -53,23 +67,33 @@ fn gas_color(place: vec2f) -> vec3f {
         let kind = kind_of(cells[slot_of(vec3i(inside, 0))]);
         return select(BODY_SHADE, WALL_SHADE, kind == KIND_WALL);
     }
+    var color = vec3f(0.0);
     if (view.squares == 1u) {
-        return color_of(own);
+        color = color_of(own);
+    } else {
+        color = color_of(interpolated(place));
     }
-    return color_of(interpolated(place));
+    if (view.contour_count > 0u) {
+        color = mix(color, LINE_COLOR, lines(place, reach));
+    }
+    return color;
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn draw_slice(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, groups, local);
-    if (i >= view.size.x * view.size.y) {
+    if (i >= band_rays()) {
         return;
     }
-    let pixel = vec2f(vec2u(i % view.size.x, i / view.size.x)) + 0.5;
-    let point = ray_through(pixel).start;
-    let place = (point.xy - view.origin.xy) / view.spacing;
+    let pixel = vec2f(place_of(i)) + 0.5;
+    let place = in_cells(ray_through(pixel).start).xy;
+    let reach = abs(in_cells(ray_through(pixel + vec2f(1.0, 0.0)).start).x - place.x);
+    var color = gas_color(place, reach);
+    if (view.fineness > 0u) {
+        let gap = distance_at(vec3f(place, 0.0)) / view.spacing;
+        color = mix(WALL_SHADE, color, clamp(gap / reach + 0.5, 0.0, 1.0));
+    }
     let body = unpack_surface(surface[i]);
-    let color = mix(gas_color(place), body.color, body.coverage);
-    pixels[i] = packed_pixel(color, 0.5);
+    light[i] = vec4f(mix(color, body.color, body.coverage), 1.0);
 }

@@ -1,4 +1,4 @@
-// What a picture shows and from where: the grid, the camera, and the rays through pixels.
+// What a picture shows and from where: the grid, the camera, the light, and the rays through the picture.
 // Mirror of src/render/view.rs.
 
 struct View {
@@ -24,30 +24,75 @@ struct View {
     forward: vec3f,
     // Quantity shown, FIELD_*.
     field: u32,
-    // Towards the light, unit.
-    light: vec3f,
-    // Radius of a particle over the edge of its volume.
-    particle_scale: f32,
-    // Pixels of the picture.
+    // Rays across the whole picture.
     size: vec2u,
+    // The band of rows drawn now: its first, and how many.
+    first_row: u32,
+    rows: u32,
+    // Samples of a ray's place along each axis where particles are drawn.
+    samples: u32,
+    // Rays per pixel along each axis.
+    supersampling: u32,
     particles: u32,
     // 1 if cells are drawn as squares, 0 if values are interpolated.
     squares: u32,
     // Values at the two ends of the colours.
     low: f32,
     high: f32,
-    // Fraction of the range that is transparent in the ray march.
-    neutral: f32,
-    // Extinction of the most opaque value [m^-1].
-    opacity: f32,
-    // Length of a step of the ray march [m].
-    step: f32,
-    // 1 if cells of the domain may be walls.
-    obstacles: u32,
     // Power applied to fractions of the range in the ray march.
     contrast: f32,
+    // Length of a step of the ray march [m].
+    step: f32,
+    // Extinction at opacity 1 [m^-1].
+    opacity: f32,
+    // 1 if the ray march draws the gas.
+    volume: u32,
+    // Nodes of the obstacles' distance per cell and axis, 0 without obstacles.
+    fineness: u32,
+    // OPTICS_*.
+    optics: u32,
+    // The floor: the points x with dot(ground.xyz, x) = ground.w; zero for none.
+    ground: vec4f,
+    // Radius of a particle over the edge of its volume.
+    particle_scale: f32,
     // Plastic strain at which a particle has lost half of its brightness.
     dark_strain: f32,
+    // Quantity of the particles, PARTICLE_*.
+    particle_color: u32,
+    // 1 if the particles are smoothed into a surface.
+    smooth_skin: u32,
+    particle_low: f32,
+    particle_high: f32,
+    // Factor on all light.
+    exposure: f32,
+    // TONE_*.
+    tone: u32,
+    // Towards the light, unit, and its strength.
+    light: vec3f,
+    light_strength: f32,
+    // Unit vectors across the light, and the strength of the sky.
+    light_right: vec3f,
+    sky_strength: f32,
+    light_up: vec3f,
+    // 1 if there are shadows.
+    shadows: u32,
+    // The corner of the light grid that is nearest to the light, and the edge of its cells [m].
+    light_origin: vec3f,
+    light_spacing: f32,
+    // Heat, the place in the black-body ramp, is scale p / rho - offset.
+    heat_scale: f32,
+    heat_offset: f32,
+    // Extinction of the hottest gas [m^-1]; 0 for no emission.
+    heat_opacity: f32,
+    // Values at the ends of the line-of-sight pictures' grey are -gain and gain.
+    gain: f32,
+    slice_count: u32,
+    contour_count: u32,
+    arrows: vec2u,
+    // Planes: the points x with dot(xyz, x) = w.
+    slices: array<vec4f, 4>,
+    // Values of the contour lines.
+    contours: array<vec4f, 8>,
 }
 
 struct Ray {
@@ -81,21 +126,26 @@ fn cell_count() -> u32 {
     return view.cells.x * view.cells.y * view.cells.z;
 }
 
-// Bricks of BRICK^3 cubes between cell centres, per axis.
-fn brick_grid() -> vec3u {
-    return (view.cells + BRICK) / BRICK;
-}
-
-// Largest distance of a fraction of the range from the transparent one.
-fn contrast_scale() -> f32 {
-    return max(view.neutral, 1.0 - view.neutral);
+// A point in cells from the low corner of the domain.
+fn in_cells(point: vec3f) -> vec3f {
+    return (point - view.origin) / view.spacing;
 }
 
 fn kind_of(word: u32) -> u32 {
     return word & 3u;
 }
 
-// The ray through a point of the picture, in pixels from the top left corner.
+// Rays of the band drawn now.
+fn band_rays() -> u32 {
+    return view.size.x * view.rows;
+}
+
+// Column and row, in the whole picture, of a ray of the band.
+fn place_of(i: u32) -> vec2u {
+    return vec2u(i % view.size.x, view.first_row + i / view.size.x);
+}
+
+// The ray through a point of the picture, in rays from the top left corner.
 fn ray_through(pixel: vec2f) -> Ray {
     let size = vec2f(view.size);
     let offset = (pixel - 0.5 * size) / (0.5 * size.y) * view.half_height;
@@ -106,7 +156,7 @@ fn ray_through(pixel: vec2f) -> Ray {
     return Ray(view.eye, normalize(view.forward + across));
 }
 
-// Where a point appears, in pixels, and its depth along the view axis [m].
+// Where a point appears, in rays, and its depth along the view axis [m].
 fn project(point: vec3f) -> vec3f {
     let relative = point - view.eye;
     let depth = dot(relative, view.forward);
@@ -114,4 +164,15 @@ fn project(point: vec3f) -> vec3f {
     let offset = vec2f(dot(relative, view.right), -dot(relative, view.up)) / scale;
     let size = vec2f(view.size);
     return vec3f(0.5 * size + offset * 0.5 * size.y, depth);
+}
+
+// Entry and exit of the domain along a ray, in metres; empty if the exit is not behind the entry.
+fn domain_span(ray: Ray) -> vec2f {
+    let extent = vec3f(view.cells) * view.spacing;
+    let safe = select(ray.direction, vec3f(1e-9), abs(ray.direction) < vec3f(1e-9));
+    let a = (view.origin - ray.start) / safe;
+    let b = (view.origin + extent - ray.start) / safe;
+    let low = min(a, b);
+    let high = max(a, b);
+    return vec2f(max(max(low.x, max(low.y, low.z)), 0.0), min(high.x, min(high.y, high.z)));
 }

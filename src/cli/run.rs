@@ -13,11 +13,11 @@ use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Check, Ending, Summary};
 use crate::export::report::{self, DeviceReport, Report};
 use crate::gpu::Gpu;
-use crate::render::{ParticleBuffers, Renderer, SceneBuffers};
+use crate::render::{Renderer, SceneBuffers};
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::snapshot::Snapshot;
-use crate::state::{MemoryPlan, State};
+use crate::state::MemoryPlan;
 use crate::{Error, Result};
 
 /// Runs a scene.
@@ -89,7 +89,7 @@ impl<'a> Run<'a> {
         }
         let simulation = Simulation::new(gpu, &scene)?;
         let start_budget = Budget::read(&simulation, &scene, 0.0)?;
-        let buffers = buffers(&simulation.state);
+        let buffers = SceneBuffers::of(&simulation.state);
         let renderer = (!options.no_frames).then(|| Renderer::new(gpu, &scene, &buffers)).transpose()?;
         let progress = Progress::new(scene.time.until, options.quiet);
         let clocks = Clocks { setup: start.elapsed(), ..Clocks::default() };
@@ -260,24 +260,6 @@ fn formats(options: &RunOptions, scene: &Scene) -> Vec<String> {
         }
     }
     formats
-}
-
-/// The simulation's buffers, as the renderer sees them.
-fn buffers(state: &State) -> SceneBuffers<'_> {
-    let particles = &state.particles;
-    SceneBuffers {
-        grid: state.grid,
-        conserved: state.gas.conserved.raw(),
-        energy: state.gas.energy.raw(),
-        cells: state.interface.cells.raw(),
-        particles: state.has_solids().then(|| ParticleBuffers {
-            count: particles.count,
-            position: particles.position.raw(),
-            velocity: particles.velocity.raw(),
-            affine: particles.affine.raw(),
-            deformation: particles.deformation.raw(),
-        }),
-    }
 }
 
 fn device(gpu: &Gpu) -> DeviceReport {

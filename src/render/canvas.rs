@@ -152,6 +152,22 @@ impl<'a> Canvas<'a> {
         }
     }
 
+    /// Draws a short smooth line through points given in pixels, inside `clip`: as [`Canvas::curve`], without looking at the
+    /// rest of the picture.
+    pub(crate) fn stroke(&mut self, points: &[[f32; 2]], clip: Rectangle, color: [u8; 3], width: f32) {
+        let reach = width as i32 + 2;
+        let bound = |axis: usize, pick: fn(f32, f32) -> f32, start: f32| {
+            points.iter().map(|point| point[axis]).fold(start, pick) as i32
+        };
+        let x = (bound(0, f32::min, f32::INFINITY) - reach).max(clip.x);
+        let y = (bound(1, f32::min, f32::INFINITY) - reach).max(clip.y);
+        let right = (bound(0, f32::max, f32::NEG_INFINITY) + reach).min(clip.right());
+        let bottom = (bound(1, f32::max, f32::NEG_INFINITY) + reach).min(clip.bottom());
+        if right > x && bottom > y {
+            self.curve(points, Rectangle { x, y, width: right - x, height: bottom - y }, color, width);
+        }
+    }
+
     /// Draws a smooth line through points given in pixels, inside `clip`.
     pub(crate) fn curve(&mut self, points: &[[f32; 2]], clip: Rectangle, color: [u8; 3], width: f32) {
         let mut coverage = vec![0.0_f32; (clip.width * clip.height).max(0) as usize];

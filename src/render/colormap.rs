@@ -5,12 +5,12 @@ use glam::Vec3;
 use crate::scene::{Colormap, Field};
 
 /// Entries of a colour table.
-pub(crate) const TABLE_LENGTH: usize = 256;
+pub(crate) const TABLE_LENGTH: usize = 1024;
 
 /// Decay of the schlieren shade over the range of gradients, as in exp(-k |grad rho| / max) [Quirk 1994, app. A].
 const SCHLIEREN_DECAY: f32 = 8.0;
 
-/// 256 colours from the low to the high end, sRGB in 0..1.
+/// Colours from the low to the high end, sRGB in 0..1.
 ///
 /// Schlieren in one and two dimensions has its own table: white where the gas is uniform, dark at shocks.
 pub(crate) fn table(colormap: Colormap, field: Field, dimension: u32) -> Vec<Vec3> {
@@ -24,12 +24,15 @@ pub(crate) fn table(colormap: Colormap, field: Field, dimension: u32) -> Vec<Vec
         Colormap::Magma => Some(colorous::MAGMA),
         Colormap::Plasma => Some(colorous::PLASMA),
         Colormap::Cividis => Some(colorous::CIVIDIS),
+        Colormap::RedBlue => Some(colorous::RED_BLUE),
         Colormap::Gray => None,
     };
+    // Theirs runs from red to blue; here the high end is red.
+    let mirrored = colormap == Colormap::RedBlue;
     fractions
         .map(|t| match gradient {
             Some(gradient) => {
-                let color = gradient.eval_continuous(t.into());
+                let color = gradient.eval_continuous(f64::from(if mirrored { 1.0 - t } else { t }));
                 Vec3::new(color.r.into(), color.g.into(), color.b.into()) / 255.0
             }
             None => Vec3::splat(t),
@@ -59,6 +62,8 @@ mod tests {
     fn ends_of_the_tables() {
         let viridis = table(Colormap::Viridis, Field::Density, 2);
         assert_eq!(lookup(&viridis, 0.0), [68, 1, 84]);
+        let signed = table(Colormap::RedBlue, Field::Velocity, 2);
+        assert!(lookup(&signed, 0.0)[2] > 80 && lookup(&signed, 1.0)[0] > 80 && lookup(&signed, 0.5)[1] > 240);
         assert_eq!(lookup(&viridis, 2.0), lookup(&viridis, 1.0));
         let schlieren = table(Colormap::Viridis, Field::Schlieren, 2);
         assert_eq!(lookup(&schlieren, 0.0), [255, 255, 255]);

@@ -1,36 +1,44 @@
-//! Pictures of the state: line plots in 1D, colour maps in 2D, ray marches in 3D, bodies as lit spheres.
+//! Pictures of the state: line plots in 1D, colour maps in 2D, ray marches in 3D, bodies as lit surfaces.
 //!
-//! Compute kernels write the pixels of the plot; the host frames them with title, time and colour bar. The renderer reads
-//! the simulation's buffers and never writes them.
+//! Compute kernels write the pixels of the plot; the host frames them with title, time and colour bars. The renderer reads
+//! the simulation's buffers and never writes them. A picture follows from state, look, field and time alone: the window and
+//! the files show the same bytes.
 
+mod arrows;
+mod buffers;
+mod camera;
 mod canvas;
 mod colormap;
 mod frame;
+mod gas;
 mod kernels;
+mod light;
+mod lines;
 mod overlay;
+mod particles;
+mod plane;
 mod plot;
 mod quantity;
+mod screen;
 mod ticks;
+mod transfer;
 mod view;
 
-use std::collections::HashMap;
-
-use glam::Vec3;
-
+pub use buffers::{ParticleBuffers, SceneBuffers};
+pub use camera::Ray;
 pub use frame::{Frame, Picture};
 pub use kernels::constants as shader_constants;
+pub use quantity::{caption, particle_caption};
 pub(crate) use ticks::ticks;
 pub use view::View;
 
 use crate::Result;
-use crate::gpu::{Gpu, readback};
-use crate::render::canvas::Canvas;
-use crate::render::kernels::Kernels;
-use crate::render::overlay::Layout;
-use crate::render::plot::Line;
-use crate::scene::{Field, RenderMode, Scene};
-use crate::snapshot::kind;
-use crate::state::Grid;
+use crate::gpu::Gpu;
+use crate::scene::{Camera, Contours, Field, RenderMode, RenderSettings, Scene};
+use buffers::Sources;
+use camera::Eye;
+use overlay::Layout;
+use plane::{Drawing, Labels};
 
 /// Colours of the bodies, sRGB, by index: light enough to stand out from the colour maps.
 const BODY_COLORS: [[u8; 3]; 8] = [
@@ -50,141 +58,221 @@ const SHOCK_OPTICAL_DEPTH: f32 = 0.9;
 /// Optical depth of the whole domain filled with the most unusual value.
 const DOMAIN_OPTICAL_DEPTH: f32 = 14.0;
 
-/// The simulation's buffers, in the padded index space of [`Grid`].
-#[derive(Debug, Clone, Copy)]
-pub struct SceneBuffers<'a> {
-    /// The grid of the cell arrays.
-    pub grid: Grid,
-    /// Density and momentum per volume, one vec4 per slot.
-    pub conserved: &'a wgpu::Buffer,
-    /// Total energy per volume, one f32 per slot.
-    pub energy: &'a wgpu::Buffer,
-    /// Cell words, one u32 per slot; bits 0 and 1 are the kind.
-    pub cells: &'a wgpu::Buffer,
-    /// The particles, if there are any.
-    pub particles: Option<ParticleBuffers<'a>>,
-}
-
-/// The particles' buffers.
-#[derive(Debug, Clone, Copy)]
-pub struct ParticleBuffers<'a> {
-    /// Number of particles.
-    pub count: u32,
-    /// Position and mass, one vec4 per particle.
-    pub position: &'a wgpu::Buffer,
-    /// Velocity and volume at rest, one vec4 per particle.
-    pub velocity: &'a wgpu::Buffer,
-    /// Affine velocity, three vec4 per particle; the second w is the plastic strain.
-    pub affine: &'a wgpu::Buffer,
-    /// Deformation gradient, three vec4 per particle; the first w holds the body, the second the active flag.
-    pub deformation: &'a wgpu::Buffer,
-}
-
 /// Title and time on a picture.
 struct Stamp<'a> {
-    title: &'a str,
-    time: f64,
+    title: Option<&'a str>,
+    time: Option<f64>,
 }
 
-/// Draws the pictures that a scene asks for.
+/// Draws the pictures that a scene asks for, and any other look at it.
 #[derive(Debug)]
 pub struct Renderer {
     gpu: Gpu,
     scene: Scene,
-    grid: Grid,
-    layout: Layout,
-    view: View,
-    kernels: Option<Kernels>,
     sources: Sources,
-    ranges: HashMap<Field, [f64; 2]>,
-}
-
-/// What the line plots of 1D read back.
-#[derive(Debug)]
-struct Sources {
-    conserved: wgpu::Buffer,
-    energy: wgpu::Buffer,
-    cells: wgpu::Buffer,
-    particles: Option<(u32, [wgpu::Buffer; 3])>,
+    /// In two and three dimensions.
+    drawing: Option<Drawing>,
 }
 
 impl Renderer {
     /// For one scene and the buffers that hold its state for as long as the renderer lives.
+    ///
+    /// # Errors
+    /// Those of the shaders and of the device's memory.
     pub fn new(gpu: &Gpu, scene: &Scene, buffers: &SceneBuffers) -> Result<Self> {
-        let grid = buffers.grid;
-        let [width, height] = scene.render.size;
-        let extent = grid.extent();
-        let layout = Layout::new(width, height, (grid.dimension < 3).then(|| extent[0] / extent[1]));
-        let particles = buffers.particles.filter(|particles| scene.render.particles && particles.count > 0);
-        let size = [layout.plot.width as u32, layout.plot.height as u32];
-        let view = View::of_scene(scene, &grid, size, particles.map_or(0, |particles| particles.count));
-        let kernels = if grid.dimension > 1 { Some(Kernels::new(gpu, buffers, particles, &view)?) } else { None };
-        let sources = Sources {
-            conserved: buffers.conserved.clone(),
-            energy: buffers.energy.clone(),
-            cells: buffers.cells.clone(),
-            particles: particles
-                .map(|own| (own.count, [own.position, own.velocity, own.deformation].map(wgpu::Buffer::clone))),
-        };
-        Ok(Self {
-            gpu: gpu.clone(),
-            scene: scene.clone(),
-            grid,
-            layout,
-            view,
-            kernels,
-            sources,
-            ranges: HashMap::new(),
-        })
+        let sources = Sources::from(buffers);
+        let drawing = if sources.grid.dimension > 1 { Some(Drawing::new(gpu, scene, &sources)?) } else { None };
+        Ok(Self { gpu: gpu.clone(), scene: scene.clone(), sources, drawing })
     }
 
     /// The pictures of the state as it is now: one per field of the scene's output, or one line plot in 1D.
+    /// The scene's range is meant for its first field.
+    ///
+    /// # Errors
+    /// As [`Renderer::draw`].
     pub fn render(&mut self, time: f64) -> Result<Vec<Picture>> {
-        if self.grid.dimension == 1 {
-            return Ok(vec![self.draw_lines(time)?]);
+        let mut look = self.scene.render.clone();
+        let one = self.sources.grid.dimension == 1;
+        let fields = if one { vec![Field::Density] } else { self.scene.output.fields.clone() };
+        let mut pictures = Vec::with_capacity(fields.len());
+        for field in fields {
+            pictures.push(self.draw(&look, field, time)?);
+            look.range = None;
         }
-        self.scene.output.fields.clone().into_iter().map(|field| self.draw_field(field, time)).collect()
+        Ok(pictures)
     }
 
-    /// The picture of one field; needs two or three dimensions.
-    fn draw_field(&mut self, asked: Field, time: f64) -> Result<Picture> {
-        let field = self.shown_field(asked);
-        let Some(kernels) = &self.kernels else { return self.draw_lines(time) };
-        let mut view = self.view;
-        view.field = quantity::code(field);
-        view.contrast = if self.grid.dimension == 3 && field == Field::Schlieren { 0.5 } else { 1.0 };
-        let seen = kernels.evaluate(&self.gpu, &view)?;
-        let range = self.range_to_show(field, asked, seen);
-        (view.low, view.high) = (range[0] as f32, range[1] as f32);
-        (view.neutral, view.opacity) = self.transparency(field, range);
+    /// One picture of the state as it is now, with any look; in 1D all fields are in it. What depends on the picture's size is
+    /// rebuilt when the size changes and kept otherwise.
+    ///
+    /// # Errors
+    /// [`crate::Error::DoesNotFit`] if the picture is too large for the device, and whatever the device reports.
+    pub fn draw(&mut self, look: &RenderSettings, field: Field, time: f64) -> Result<Picture> {
+        let layout = self.layout(look);
+        let mut view = self.view(look, &layout);
+        let Some(drawing) = &self.drawing else { return self.draw_lines(look, time) };
+        let shown = self.shown_field(look, field);
+        view.field = quantity::code(shown);
+        view.contrast = self.contrast(shown);
+        let [seen, of_particles] = drawing.evaluate(&self.gpu, &view)?;
+        let range = look.range.unwrap_or_else(|| self.range_to_show(shown, seen));
+        let particle_range = self.particle_range(look, of_particles);
+        self.set_range(&mut view, look, shown, range);
+        [view.particle_low, view.particle_high] = particle_range.map(|value| value as f32);
 
-        let table = colormap::table(self.scene.render.colormap, field, self.grid.dimension);
-        let kernels = self.kernels.as_ref().expect("checked above");
-        let pixels = kernels.draw(&self.gpu, &view, &table)?;
-        let frame = self.compose(&pixels, field, range, &table, time);
-        Ok(Picture { name: quantity::name(asked).to_owned(), range, frame })
+        let colors = colormap::table(look.colormap, shown, self.sources.grid.dimension);
+        let particle_colors = colormap::table(look.particle_colormap, Field::Velocity, 3);
+        let tables = self.tables(look, shown, range, &colors, &particle_colors);
+        let drawing = self.drawing.as_mut().expect("checked above");
+        let (pixels, arrows) = drawing.draw(&self.gpu, &self.sources, &mut view, &tables, look.overlays.edges)?;
+        let stamp = self.stamp(look, time);
+        let contrast = view.contrast;
+        let bars = [(caption(shown), &colors[..], range, contrast)];
+        let own = (particle_caption(look.particle_color), &particle_colors[..], particle_range, 1.0);
+        let labels =
+            Labels { stamp, bars: [bars[0], own], arrows: (view.arrows, arrows), scale: self.scale(look, &layout) };
+        let frame = plane::compose(look.size, &layout, &pixels, &labels, self.sources.grid.dimension < 3);
+        Ok(Picture { name: field.keyword().to_owned(), range, frame })
     }
 
-    /// In 3D the scene's render mode says how density is shown; everything else is shown as asked.
-    fn shown_field(&self, asked: Field) -> Field {
-        let gradient = self.grid.dimension == 3 && self.scene.render.mode == RenderMode::Schlieren;
-        if gradient && asked == Field::Density { Field::Schlieren } else { asked }
+    /// The camera of a look: its own, or the one that shows the whole domain.
+    #[must_use]
+    pub fn camera(&self, look: &RenderSettings) -> Camera {
+        look.camera.unwrap_or_else(|| camera::fitting_camera(&self.sources.grid, look.size))
     }
 
-    /// The scene's range, which is meant for its first field, or one that follows the values.
-    fn range_to_show(&mut self, field: Field, asked: Field, seen: [f64; 2]) -> [f64; 2] {
-        if let Some(range) = self.scene.render.range.filter(|_| self.scene.output.fields.first() == Some(&asked)) {
-            return range;
+    /// The line of sight through a place of the picture, in pixels from the top left corner of the frame. In 2D it meets the
+    /// plane of the domain at the point shown there.
+    #[must_use]
+    pub fn ray(&self, look: &RenderSettings, pixel: [f64; 2]) -> Ray {
+        let plot = self.layout(look).plot;
+        let size = glam::Vec2::new(plot.width as f32, plot.height as f32);
+        let place = glam::DVec2::from(pixel) - glam::DVec2::new(plot.x.into(), plot.y.into());
+        self.eye(look).ray(size, place.as_vec2())
+    }
+
+    /// The range that a picture without a given one shows: that of the values in the gas now.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn automatic_range(&self, look: &RenderSettings, field: Field) -> Result<[f64; 2]> {
+        let shown = self.shown_field(look, field);
+        let Some(drawing) = &self.drawing else { return Ok(self.read_line(look, 0.0)?.range(0)) };
+        let view = View { field: quantity::code(shown), ..self.view(look, &self.layout(look)) };
+        Ok(self.range_to_show(shown, drawing.evaluate(&self.gpu, &view)?[0]))
+    }
+
+    fn layout(&self, look: &RenderSettings) -> Layout {
+        let extent = self.sources.grid.extent();
+        let overlays = look.overlays;
+        let colored = look.particle_color.is_value() && look.particles && self.sources.particles.is_some();
+        let bars = [overlays.color_bar && self.optics(look) == 0, overlays.color_bar && colored];
+        let aspect = (self.sources.grid.dimension < 3).then(|| extent[0] / extent[1]);
+        Layout::new(look.size, aspect, bars, overlays.title || overlays.time)
+    }
+
+    fn eye(&self, look: &RenderSettings) -> Eye {
+        let grid = &self.sources.grid;
+        if grid.dimension == 3 { Eye::of_camera(&self.camera(look)) } else { Eye::onto_plane(grid) }
+    }
+
+    /// Everything about a picture but what depends on the field.
+    fn view(&self, look: &RenderSettings, layout: &Layout) -> View {
+        let size = [layout.plot.width as u32, layout.plot.height as u32];
+        let grid = &self.sources.grid;
+        let mut view = View::new(&self.scene, grid, &self.eye(look), look, size);
+        view.particles = self.sources.particles.as_ref().filter(|_| look.particles).map_or(0, |own| own.count);
+        view.particle_color = quantity::particle_code(look.particle_color);
+        view.smooth_skin = u32::from(look.surface == crate::scene::Surface::Smooth && grid.dimension == 3);
+        view.tone =
+            if grid.dimension == 3 && look.tone == crate::scene::ToneMap::Aces { kernels::TONE_ACES } else { 0 };
+        view.exposure = if grid.dimension == 3 { view.exposure } else { 1.0 };
+        view.optics = self.optics(look);
+        view.fineness = self.drawing.as_ref().map_or(0, |drawing| drawing.distance.fineness);
+        if look.arrows > 0 && grid.dimension == 2 {
+            let down = (look.arrows as f32 * size[1] as f32 / size[0] as f32).round().clamp(1.0, 1000.0);
+            view.arrows = [look.arrows, down as u32];
         }
+        if let Some(emission) = look.emission.filter(|_| grid.dimension == 3 && look.volume) {
+            let ambient = &self.scene.gas.ambient;
+            let [cold, hot] = transfer::RAMP_KELVIN;
+            let kelvin = emission.ambient_kelvin * ambient.density / ambient.pressure;
+            view.heat_scale = (kelvin / (hot - cold)) as f32;
+            view.heat_offset = (cold / (hot - cold)) as f32;
+            view.heat_opacity = emission.optical_depth as f32 / longest(grid.extent());
+        }
+        view
+    }
+
+    fn optics(&self, look: &RenderSettings) -> u32 {
+        match look.mode {
+            RenderMode::LineOfSight if self.sources.grid.dimension == 3 => kernels::OPTICS[0],
+            RenderMode::Shadowgraph if self.sources.grid.dimension == 3 => kernels::OPTICS[1],
+            _ => 0,
+        }
+    }
+
+    /// In 3D the mode says how density is shown; everything else is shown as asked.
+    fn shown_field(&self, look: &RenderSettings, asked: Field) -> Field {
+        let gradient = self.sources.grid.dimension == 3 && look.mode == RenderMode::Schlieren;
+        match asked {
+            _ if self.optics(look) > 0 => Field::Density,
+            Field::Density if gradient => Field::Schlieren,
+            other => other,
+        }
+    }
+
+    /// Power that turns a fraction of the range into a place in the colour table.
+    fn contrast(&self, shown: Field) -> f32 {
+        if self.sources.grid.dimension == 3 && shown == Field::Schlieren { 0.5 } else { 1.0 }
+    }
+
+    fn range_to_show(&self, field: Field, seen: [f64; 2]) -> [f64; 2] {
         let gas = &self.scene.gas;
-        let now = quantity::shown_range(field, seen, &gas.ambient, gas.gamma, self.grid.spacing.into());
-        let range = quantity::follow(self.ranges.get(&field).copied(), now);
-        self.ranges.insert(field, range);
-        range
+        quantity::shown_range(field, seen, &gas.ambient, gas.gamma, self.sources.grid.spacing.into())
     }
 
-    /// Transparent fraction of the range, and extinction of the most opaque value \[m^-1\].
-    fn transparency(&self, field: Field, range: [f64; 2]) -> (f32, f32) {
+    fn particle_range(&self, look: &RenderSettings, seen: [f64; 2]) -> [f64; 2] {
+        let gas = &self.scene.gas;
+        let automatic = || quantity::shown_particle_range(look.particle_color, seen, &gas.ambient, gas.gamma);
+        look.particle_range.unwrap_or_else(automatic)
+    }
+
+    /// What of a view depends on field and range.
+    fn set_range(&self, view: &mut View, look: &RenderSettings, field: Field, range: [f64; 2]) {
+        (view.low, view.high) = (range[0] as f32, range[1] as f32);
+        if view.optics > 0 {
+            view.low = self.scene.gas.ambient.density as f32;
+        }
+        let grid = &self.sources.grid;
+        let depth = match field {
+            Field::Schlieren | Field::Vorticity => SHOCK_OPTICAL_DEPTH / (3.0 * grid.spacing),
+            _ => DOMAIN_OPTICAL_DEPTH / longest(grid.extent()),
+        };
+        view.opacity = look.optical_depth.map_or(depth, |given| given as f32 / longest(grid.extent()));
+        let values: Vec<f64> = match &look.contours {
+            Contours::Count(count) => (1..=*count).map(|k| f64::from(k) / f64::from(count + 1)).collect(),
+            Contours::Values(values) => {
+                let fraction = |value: &f64| ((value - range[0]) / (range[1] - range[0])).powf(view.contrast.into());
+                values.iter().map(fraction).collect()
+            }
+        };
+        let places = view.contours.as_flattened_mut();
+        view.contour_count = values.len().min(places.len()) as u32;
+        for (place, value) in places.iter_mut().zip(values) {
+            *place = value as f32;
+        }
+    }
+
+    /// Colours and opacities for a range.
+    fn tables(
+        &self,
+        look: &RenderSettings,
+        field: Field,
+        range: [f64; 2],
+        colors: &[glam::Vec3],
+        particles: &[glam::Vec3],
+    ) -> transfer::Tables {
         let ambient = &self.scene.gas.ambient;
         let neutral = match field {
             Field::Density => ambient.density,
@@ -192,85 +280,39 @@ impl Renderer {
             Field::Temperature => ambient.pressure / ambient.density,
             Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => range[0],
         };
-        let fraction = ((neutral - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) as f32;
-        let opacity = match field {
-            Field::Schlieren | Field::Vorticity => SHOCK_OPTICAL_DEPTH / (3.0 * self.grid.spacing),
-            _ => DOMAIN_OPTICAL_DEPTH / Vec3::from(self.grid.extent()).max_element(),
+        let neutral = ((neutral - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) as f32;
+        let opacity = |fraction: f32| match &look.opacity[..] {
+            [] => transfer::contrast(neutral, fraction),
+            points => transfer::curve(points, fraction),
         };
-        (fraction, opacity)
+        let strength = look.emission.map_or(0.0, |emission| emission.strength);
+        transfer::Tables::new(colors, opacity, strength, particles)
     }
 
-    /// Puts the plot's pixels on a frame and writes around them.
-    fn compose(&self, pixels: &[u32], field: Field, range: [f64; 2], table: &[Vec3], time: f64) -> Frame {
-        let [width, height] = self.scene.render.size;
-        let mut frame = Frame::filled(width, height, overlay::BACKGROUND);
-        let plot = self.layout.plot;
-        for (row, line) in pixels.chunks_exact(plot.width as usize).enumerate() {
-            let first = 4 * ((plot.y as usize + row) * width as usize + plot.x as usize);
-            frame.rgba[first..first + 4 * line.len()].copy_from_slice(bytemuck::cast_slice(line));
-        }
-        let mut canvas = Canvas::new(&mut frame);
-        if self.grid.dimension < 3 {
-            canvas.outline(plot, overlay::FAINT);
-        }
-        let contrast = if self.grid.dimension == 3 && field == Field::Schlieren { 0.5 } else { 1.0 };
-        overlay::color_bar(&mut canvas, self.layout.bar, table, range, contrast, quantity::caption(field));
-        overlay::header(&mut canvas, &self.scene.title, time);
-        frame
+    /// Pixels per metre, where the whole picture has one scale and its bar is wanted.
+    fn scale(&self, look: &RenderSettings, layout: &Layout) -> Option<f64> {
+        let eye = self.eye(look);
+        (look.overlays.scale_bar && eye.parallel)
+            .then(|| f64::from(layout.plot.height) / (2.0 * f64::from(eye.half_height)))
+    }
+
+    fn stamp(&self, look: &RenderSettings, time: f64) -> Stamp<'_> {
+        let overlays = look.overlays;
+        Stamp { title: overlays.title.then_some(&self.scene.title), time: overlays.time.then_some(time) }
     }
 
     /// The line plot of a one-dimensional state.
-    fn draw_lines(&self, time: f64) -> Result<Picture> {
-        let line = self.read_line(time)?;
-        let frame = plot::draw(&line, self.scene.render.size, &Stamp { title: &self.scene.title, time });
+    fn draw_lines(&self, look: &RenderSettings, time: f64) -> Result<Picture> {
+        let line = self.read_line(look, time)?;
+        let frame = plot::draw(&line, look.size, &self.stamp(look, time));
         Ok(Picture { name: "lines".to_owned(), range: line.range(0), frame })
     }
 
-    fn read_line(&self, time: f64) -> Result<Line> {
-        let conserved: Vec<[f32; 4]> = self.grid.unpadded(&self.read(&self.sources.conserved, self.grid.slots())?);
-        let energy: Vec<f32> = self.grid.unpadded(&self.read(&self.sources.energy, self.grid.slots())?);
-        let cells: Vec<u32> = self.grid.unpadded(&self.read(&self.sources.cells, self.grid.slots())?);
-        let velocity: Vec<f32> = conserved.iter().map(|state| state[1] / state[0]).collect();
-        let thermal = |(state, energy): (&[f32; 4], &f32)| {
-            let kinetic = 0.5 * state[1..].iter().map(|momentum| momentum * momentum).sum::<f32>() / state[0];
-            (self.view.gamma - 1.0) * (energy - kinetic)
-        };
-        let pressure = conserved.iter().zip(&energy).map(thermal).collect();
-        let density = conserved.iter().map(|state| state[0]).collect();
-        let mut particles = Vec::new();
-        if let Some((count, [position, velocity, deformation])) = &self.sources.particles {
-            let count = *count as usize;
-            let (position, velocity): (Vec<[f32; 4]>, Vec<[f32; 4]>) =
-                (self.read(position, count)?, self.read(velocity, count)?);
-            let deformation: Vec<[[f32; 4]; 3]> = self.read(deformation, count)?;
-            let active = |index: &usize| deformation[*index][1][3] != 0.0;
-            particles = (0..count)
-                .filter(active)
-                .map(|index| (position[index][0], velocity[index][0], deformation[index][0][3].to_bits()))
-                .collect();
-        }
-        let kind = cells.iter().map(|word| (word & u32::from(kind::MASK)) as u8).collect();
-        let exact = self.exact_lines(time);
-        Ok(Line { grid: self.grid, kind, gas: [density, velocity, pressure], particles, exact })
+    fn read_line(&self, look: &RenderSettings, time: f64) -> Result<plot::Line> {
+        lines::read(&self.gpu, &self.sources, &self.scene, look.size[0], time)
     }
+}
 
-    /// Density, velocity and pressure of the exact solution over x, if the scene has one; a few points per pixel.
-    fn exact_lines(&self, time: f64) -> Option<[Vec<[f64; 2]>; 3]> {
-        let (exact, jump) = self.scene.riemann_until_waves_leave(time).filter(|_| time > 0.0)?;
-        let (low, points) = (self.scene.domain.origin[0], 2 * self.scene.render.size[0]);
-        let places = (0..=points).map(|k| low + self.scene.domain.size[0] * f64::from(k) / f64::from(points));
-        let mut lines = [const { Vec::new() }; 3];
-        for x in places {
-            let (density, velocity, pressure) = exact.sample((x - jump) / time);
-            for (line, value) in lines.iter_mut().zip([density, velocity, pressure]) {
-                line.push([x, value]);
-            }
-        }
-        Some(lines)
-    }
-
-    fn read<T: bytemuck::Pod>(&self, buffer: &wgpu::Buffer, len: usize) -> Result<Vec<T>> {
-        let bytes = readback::read_bytes(&self.gpu, buffer, 0, (len * size_of::<T>()) as u64)?;
-        Ok(bytemuck::pod_collect_to_vec(&bytes))
-    }
+fn longest(extent: [f32; 3]) -> f32 {
+    glam::Vec3::from(extent).max_element()
 }

@@ -13,35 +13,46 @@ pub(crate) const INK: [u8; 3] = [222, 226, 232];
 /// Frames and ticks.
 pub(crate) const FAINT: [u8; 3] = [118, 126, 138];
 
-/// Where the parts of a picture with a colour bar are.
+/// Where the parts of a picture are.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Layout {
     /// The field.
     pub(crate) plot: Rectangle,
-    /// The colour bar without its labels.
-    pub(crate) bar: Rectangle,
+    /// The colour bars without their labels, from below: of the gas, of the particles.
+    pub(crate) bars: [Option<Rectangle>; 2],
 }
 
 /// Letters that the labels of a colour bar may take.
 const LABEL_LETTERS: i32 = 8;
 
 impl Layout {
-    /// For a plot of the given width over height; `None` lets the plot take the whole frame, under the bar.
-    pub(crate) fn new(width: u32, height: u32, aspect: Option<f32>) -> Self {
-        let letters = Lettering::for_size(width, height);
-        let (width, height) = (width as i32, height as i32);
+    /// For a plot of the given width over height; `None` lets the plot take the whole frame, under everything else.
+    /// `shown` says which colour bars there are.
+    pub(crate) fn new(size: [u32; 2], aspect: Option<f32>, shown: [bool; 2], header: bool) -> Self {
+        let letters = Lettering::for_size(size[0], size[1]);
+        let [width, height] = size.map(|pixels| pixels as i32);
         let (line, advance) = (letters.line(), letters.advance());
+        let some = shown.contains(&true);
         let bar_width = 2 * advance;
-        let right = bar_width + (LABEL_LETTERS + 2) * advance;
-        let (top, bottom) = (15 * line / 4, line);
-        let area =
-            Rectangle { x: 2 * advance, y: top, width: width - 3 * advance - right, height: height - top - bottom };
+        let right = if some { bar_width + (LABEL_LETTERS + 2) * advance } else { 0 };
+        let top = if some {
+            15 * line / 4
+        } else if header {
+            2 * line
+        } else {
+            line
+        };
+        let area = Rectangle {
+            x: 2 * advance,
+            y: top,
+            width: width - if some { 3 * advance + right } else { 4 * advance },
+            height: height - top - line,
+        };
         let Some(aspect) = aspect else {
-            let plot = Rectangle { x: 0, y: 0, width, height };
             let bar_height = area.height * 6 / 10;
-            let bar =
+            let column =
                 Rectangle { x: width - right, y: (height - bar_height) / 2, width: bar_width, height: bar_height };
-            return Self { plot, bar };
+            return Self { plot: Rectangle { x: 0, y: 0, width, height }, bars: split(column, shown, line) };
         };
         let plot_width = ((area.height as f32 * aspect) as i32).min(area.width).max(1);
         let plot_height = ((plot_width as f32 / aspect) as i32).clamp(1, area.height.max(1));
@@ -53,25 +64,79 @@ impl Layout {
             height: plot_height,
         };
         let bar_height = plot_height.max(area.height / 2);
-        let bar = Rectangle {
-            x: plot.right() + advance,
-            y: area.y + (area.height - bar_height) / 2,
-            width: bar_width,
-            height: bar_height,
-        };
-        Self { plot, bar }
+        let y = area.y + (area.height - bar_height) / 2;
+        let column = Rectangle { x: plot.right() + advance, y, width: bar_width, height: bar_height };
+        Self { plot, bars: split(column, shown, line) }
     }
 }
 
+/// Shares a column among the colour bars in it, with room for a caption between two.
+fn split(column: Rectangle, shown: [bool; 2], line: i32) -> [Option<Rectangle>; 2] {
+    if shown != [true, true] {
+        return shown.map(|own| own.then_some(column));
+    }
+    let height = (column.height - 3 * line).max(2) / 2;
+    let lower = Rectangle { y: column.bottom() - height, height, ..column };
+    [Some(lower), Some(Rectangle { height, ..column })]
+}
+
 /// Title on the left, time on the right.
-pub(crate) fn header(canvas: &mut Canvas, title: &str, time: f64) {
+pub(crate) fn header(canvas: &mut Canvas, title: Option<&str>, time: Option<f64>) {
     let (line, advance) = (canvas.lettering.line(), canvas.lettering.advance());
     let right = canvas.frame.width as i32 - advance;
-    let stamp = format!("t = {} s", significant(time));
+    let stamp = time.map_or_else(String::new, |time| format!("t = {} s", significant(time)));
     let room = (right - 4 * advance - canvas.lettering.width(&stamp)) / advance;
-    let title: String = title.chars().take(room.max(0) as usize).collect();
+    let title: String = title.unwrap_or_default().chars().take(room.max(0) as usize).collect();
     canvas.text(2 * advance, line, Anchor::Left, &title, INK);
     canvas.text(right, line, Anchor::Right, &stamp, INK);
+}
+
+/// A bar of a round length in the lower left corner of the plot, where a metre has so many pixels everywhere.
+pub(crate) fn scale_bar(canvas: &mut Canvas, plot: Rectangle, pixels_per_metre: f64) {
+    let longest = 0.25 * f64::from(plot.width) / pixels_per_metre;
+    let Some((length, label)) = ticks([0.0, longest], 2).pop().filter(|(length, _)| *length > 0.0) else { return };
+    let (line, advance, unit) = (canvas.lettering.line(), canvas.lettering.advance(), canvas.lettering.unit());
+    let width = (length * pixels_per_metre).round() as i32;
+    let bar = Rectangle { x: plot.x + advance, y: plot.bottom() - line / 2 - 2 * unit, width, height: 2 * unit };
+    if bar.y - line < plot.y || width < 2 * advance {
+        return;
+    }
+    let around = Rectangle { x: bar.x - unit, y: bar.y - unit, width: width + 2 * unit, height: 4 * unit };
+    canvas.fill(around, BACKGROUND, 0.6);
+    canvas.fill(bar, INK, 1.0);
+    let label = format!("{label} m");
+    let text = (canvas.lettering.width(&label), bar.y - 2 * unit - line / 2);
+    let behind = Rectangle { x: bar.x - unit, y: text.1 - line / 2, width: text.0 + 2 * unit, height: line };
+    canvas.fill(behind, BACKGROUND, 0.6);
+    canvas.text(bar.x, text.1, Anchor::Left, &label, INK);
+}
+
+/// Velocities at places of a regular pattern, as arrows; the fastest is as long as the places are apart.
+pub(crate) fn arrows(canvas: &mut Canvas, plot: Rectangle, count: [u32; 2], velocities: &[[f32; 4]]) {
+    let speed = |velocity: &[f32; 4]| velocity[0].hypot(velocity[1]);
+    let fastest = velocities.iter().filter(|own| own[3] > 0.0).map(speed).fold(0.0, f32::max);
+    let apart = (plot.width as f32 / count[0] as f32).min(plot.height as f32 / count[1] as f32);
+    let width = 1.3 * canvas.lettering.unit() as f32;
+    for (index, velocity) in velocities.iter().enumerate().filter(|(_, own)| own[3] > 0.0) {
+        // Hardly any motion is no arrow.
+        if speed(velocity) < 0.02 * fastest || fastest == 0.0 {
+            continue;
+        }
+        let (column, row) = (index as u32 % count[0], index as u32 / count[0]);
+        let middle = glam::Vec2::new(
+            plot.x as f32 + (column as f32 + 0.5) / count[0] as f32 * plot.width as f32,
+            plot.bottom() as f32 - (row as f32 + 0.5) / count[1] as f32 * plot.height as f32,
+        );
+        let along = glam::Vec2::new(velocity[0], -velocity[1]) / fastest * apart;
+        let (tail, tip) = (middle - 0.5 * along, middle + 0.5 * along);
+        let side = 0.3 * (along + along.perp());
+        let barb = |side: glam::Vec2| (tip - side).to_array();
+        let mirrored = 0.3 * (along - along.perp());
+        for (color, width) in [(BACKGROUND, 2.6 * width), (INK, width)] {
+            canvas.stroke(&[tail.to_array(), tip.to_array()], plot, color, width);
+            canvas.stroke(&[barb(side), tip.to_array(), barb(mirrored)], plot, color, width);
+        }
+    }
 }
 
 /// Four significant digits, with an exponent for very small and very large numbers.

@@ -1,6 +1,6 @@
 //! The fields as pictures know them: names, units, and the smallest range worth showing.
 
-use crate::scene::{Field, GasState};
+use crate::scene::{Field, GasState, ParticleColor};
 
 /// All fields with the constants that shaders switch on.
 const CODES: [(&str, Field); 7] = [
@@ -13,6 +13,16 @@ const CODES: [(&str, Field); 7] = [
     ("FIELD_VORTICITY", Field::Vorticity),
 ];
 
+/// What the colours of particles mean, with the constants that shaders switch on.
+const PARTICLE_CODES: [(&str, ParticleColor); 6] = [
+    ("PARTICLE_BODY", ParticleColor::Body),
+    ("PARTICLE_MATERIAL", ParticleColor::Material),
+    ("PARTICLE_SPEED", ParticleColor::Speed),
+    ("PARTICLE_DEVIATORIC_STRESS", ParticleColor::DeviatoricStress),
+    ("PARTICLE_PLASTIC_STRAIN", ParticleColor::PlasticStrain),
+    ("PARTICLE_TEMPERATURE", ParticleColor::Temperature),
+];
+
 /// Changes below this fraction of the ambient state are rounding, and drawn as uniform.
 const SMALLEST_CONTRAST: f64 = 2e-3;
 
@@ -21,26 +31,46 @@ pub(super) fn code(field: Field) -> u32 {
     CODES.iter().position(|(_, known)| *known == field).unwrap_or_default() as u32
 }
 
-/// The constants that give each field its number in WGSL.
-pub(super) fn constants() -> String {
-    CODES.iter().enumerate().map(|(code, (name, _))| format!("const {name}: u32 = {code}u;\n")).collect()
+/// Number of a quantity of the particles in the shaders.
+pub(super) fn particle_code(color: ParticleColor) -> u32 {
+    PARTICLE_CODES.iter().position(|(_, known)| *known == color).unwrap_or_default() as u32
 }
 
-/// Keyword of a field, as in scene files.
-pub(super) fn name(field: Field) -> &'static str {
-    match field {
-        Field::Density => "density",
-        Field::Pressure => "pressure",
-        Field::Velocity => "velocity",
-        Field::Temperature => "temperature",
-        Field::Schlieren => "schlieren",
-        Field::Mach => "mach",
-        Field::Vorticity => "vorticity",
+/// The constants that give each field and each quantity of the particles its number in WGSL.
+pub(super) fn constants() -> String {
+    let fields = CODES.iter().map(|(name, _)| *name).enumerate();
+    let particles = PARTICLE_CODES.iter().map(|(name, _)| *name).enumerate();
+    fields.chain(particles).map(|(code, name)| format!("const {name}: u32 = {code}u;\n")).collect()
+}
+
+/// Caption of the particles' colour bar, with the unit; nothing where colours stand for names.
+#[must_use]
+pub fn particle_caption(color: ParticleColor) -> &'static str {
+    match color {
+        ParticleColor::Body | ParticleColor::Material => "",
+        ParticleColor::Speed => "speed of solids [m/s]",
+        ParticleColor::DeviatoricStress => "deviatoric stress [Pa]",
+        ParticleColor::PlasticStrain => "plastic strain",
+        ParticleColor::Temperature => "p/rho around [m\u{b2}/s\u{b2}]",
     }
 }
 
-/// Caption of the colour bar, with the unit.
-pub(super) fn caption(field: Field) -> &'static str {
+/// The range to show for values of the particles: all quantities but the temperature start at zero.
+pub(super) fn shown_particle_range(color: ParticleColor, seen: [f64; 2], ambient: &GasState, gamma: f64) -> [f64; 2] {
+    let smallest = match color {
+        ParticleColor::Speed => SMALLEST_CONTRAST * ambient.sound_speed(gamma),
+        ParticleColor::DeviatoricStress => SMALLEST_CONTRAST * ambient.pressure,
+        ParticleColor::Body | ParticleColor::Material | ParticleColor::PlasticStrain => SMALLEST_CONTRAST,
+        ParticleColor::Temperature => {
+            return shown_range(Field::Temperature, seen, ambient, gamma, 1.0);
+        }
+    };
+    [0.0, if seen[0] > seen[1] { smallest } else { seen[1].max(smallest) }]
+}
+
+/// Caption of a field's colour bar, with the unit.
+#[must_use]
+pub fn caption(field: Field) -> &'static str {
     match field {
         Field::Density => "density [kg/m\u{b3}]",
         Field::Pressure => "pressure [Pa]",
@@ -80,29 +110,17 @@ pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamm
     [seen[0] - 0.5 * missing, seen[1] + 0.5 * missing]
 }
 
-/// Moves a range shown before towards the new one: wider at once, narrower by a fifth of the way, so that colours do not
-/// flicker from frame to frame.
-pub(super) fn follow(before: Option<[f64; 2]>, now: [f64; 2]) -> [f64; 2] {
-    const SHRINK: f64 = 0.2;
-    let Some([low, high]) = before else { return now };
-    [
-        if now[0] < low { now[0] } else { low + SHRINK * (now[0] - low) },
-        if now[1] > high { now[1] } else { high + SHRINK * (now[1] - high) },
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn ranges_are_never_empty_and_follow_slowly() {
+    fn ranges_are_never_empty() {
         let air = GasState { density: 1.0, velocity: [0.0; 3], pressure: 1.0 };
         let range = shown_range(Field::Density, [1.0, 1.0], &air, 1.4, 0.1);
         assert!((range[1] - range[0] - 2e-3).abs() < 1e-12);
         assert_eq!(shown_range(Field::Velocity, [0.5, 3.0], &air, 1.4, 0.1), [0.0, 3.0]);
         let nothing = shown_range(Field::Pressure, [f64::INFINITY, f64::NEG_INFINITY], &air, 1.4, 0.1);
         assert!(nothing[0] < nothing[1]);
-        assert_eq!(follow(Some([0.0, 10.0]), [-1.0, 5.0]), [-1.0, 9.0]);
     }
 }

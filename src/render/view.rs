@@ -3,7 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4};
 
-use crate::scene::{Camera, Scene};
+use super::camera::{Eye, middle_of};
+use super::kernels::LIGHT_CELLS;
+use crate::scene::{RenderSettings, Scene};
 use crate::state::Grid;
 
 /// Diameter of a drawn particle over the edge of its volume: neighbours overlap, so that a body has no holes.
@@ -46,12 +48,16 @@ pub struct View {
     pub forward: [f32; 3],
     /// Quantity shown, a `FIELD_` constant of the shaders.
     pub field: u32,
-    /// Unit vector towards the light.
-    pub light: [f32; 3],
-    /// Radius of a particle over the edge of its volume.
-    pub particle_scale: f32,
-    /// Pixels of the picture.
+    /// Rays across the whole picture.
     pub size: [u32; 2],
+    /// First row of rays of the band drawn now.
+    pub first_row: u32,
+    /// Rows of rays of that band.
+    pub rows: u32,
+    /// Samples of a ray's place along each axis where particles are drawn.
+    pub samples: u32,
+    /// Rays per pixel along each axis.
+    pub supersampling: u32,
     /// Number of particles.
     pub particles: u32,
     /// 1 if cells are drawn as squares, 0 if values are interpolated.
@@ -60,78 +66,142 @@ pub struct View {
     pub low: f32,
     /// Value at the high end of the colours.
     pub high: f32,
-    /// Fraction of the range that is transparent in the ray march.
-    pub neutral: f32,
-    /// Extinction of the most opaque value \[m^-1\].
-    pub opacity: f32,
-    /// Length of a step of the ray march \[m\].
-    pub step: f32,
-    /// 1 if cells of the domain may be walls.
-    pub obstacles: u32,
     /// Power applied to fractions of the range in the ray march.
     pub contrast: f32,
+    /// Length of a step of the ray march \[m\].
+    pub step: f32,
+    /// Extinction at opacity 1 \[m^-1\].
+    pub opacity: f32,
+    /// 1 if the ray march draws the gas.
+    pub volume: u32,
+    /// Nodes of the obstacles' distance per cell and axis, 0 without obstacles.
+    pub fineness: u32,
+    /// Kind of line-of-sight picture, an `OPTICS_` constant of the shaders.
+    pub optics: u32,
+    /// The floor: the points x with dot(xyz, x) = w; zero for none.
+    pub ground: [f32; 4],
+    /// Radius of a particle over the edge of its volume.
+    pub particle_scale: f32,
     /// Plastic strain at which a particle has lost half of its brightness.
     pub dark_strain: f32,
+    /// Quantity of the particles, a `PARTICLE_` constant of the shaders.
+    pub particle_color: u32,
+    /// 1 if the particles are smoothed into a surface.
+    pub smooth_skin: u32,
+    /// Value at the low end of the particles' colours.
+    pub particle_low: f32,
+    /// Value at the high end of the particles' colours.
+    pub particle_high: f32,
+    /// Factor on all light.
+    pub exposure: f32,
+    /// Tone map, a `TONE_` constant of the shaders.
+    pub tone: u32,
+    /// Unit vector towards the light.
+    pub light: [f32; 3],
+    /// Strength of the light.
+    pub light_strength: f32,
+    /// Unit vector across the light.
+    pub light_right: [f32; 3],
+    /// Strength of the sky.
+    pub sky_strength: f32,
+    /// Unit vector across the light.
+    pub light_up: [f32; 3],
+    /// 1 if there are shadows.
+    pub shadows: u32,
+    /// Corner of the light grid that is nearest to the light \[m\].
+    pub light_origin: [f32; 3],
+    /// Edge of a cell of the light grid \[m\].
+    pub light_spacing: f32,
+    /// Place in the black-body ramp per p / rho.
+    pub heat_scale: f32,
+    /// What is taken off that place.
+    pub heat_offset: f32,
+    /// Extinction of the hottest gas \[m^-1\]; 0 for no emission.
+    pub heat_opacity: f32,
+    /// Values at the ends of the line-of-sight pictures' grey are -gain and gain.
+    pub gain: f32,
+    /// Number of slices.
+    pub slice_count: u32,
+    /// Number of contour lines.
+    pub contour_count: u32,
+    /// Velocity arrows along x and y.
+    pub arrows: [u32; 2],
+    /// Slices: the points x with dot(xyz, x) = w.
+    pub slices: [[f32; 4]; 4],
+    /// Values of the contour lines, as fractions of the range.
+    pub contours: [[f32; 4]; 8],
 }
 
 impl View {
-    /// The view of a scene in a picture of `size` pixels; range and field are set per picture.
-    pub(crate) fn of_scene(scene: &Scene, grid: &Grid, size: [u32; 2], particles: u32) -> Self {
-        let middle = middle_of(grid);
-        let extent = Vec3::from(grid.extent());
-        let eye = if grid.dimension == 3 {
-            Eye::pinhole(&scene.render.camera.unwrap_or_else(|| fitting_camera(grid, size)))
-        } else {
-            Eye {
-                position: middle - extent.max_element() * Vec3::NEG_Z,
-                forward: Vec3::NEG_Z,
-                up: Vec3::Y,
-                parallel: true,
-                half_height: 0.5 * extent.y,
-            }
-        };
-        let right = eye.forward.cross(eye.up);
-        let light = (0.75 * eye.up - 0.55 * right - 0.65 * eye.forward).normalize();
-        Self {
+    /// Grid, camera, light and places of a picture of `size` pixels; what depends on field and range is set later.
+    pub(super) fn new(scene: &Scene, grid: &Grid, eye: &Eye, look: &RenderSettings, size: [u32; 2]) -> Self {
+        let supersampling = look.supersampling.clamp(1, 4);
+        let mut view = Self {
             cells: grid.cells,
             dimension: grid.dimension,
             origin: grid.origin,
             spacing: grid.spacing,
             eye: eye.position.into(),
             parallel: eye.parallel.into(),
-            right: right.into(),
+            right: eye.forward.cross(eye.up).into(),
             half_height: eye.half_height,
             up: eye.up.into(),
             gamma: scene.gas.gamma as f32,
             forward: eye.forward.into(),
-            field: 0,
-            light: light.into(),
-            particle_scale: 0.5 * particle_overlap(grid.dimension),
-            size,
-            particles,
+            size: size.map(|pixels| pixels * supersampling),
+            // Several rays per pixel smooth edges well enough.
+            samples: if supersampling > 1 { 1 } else { 2 },
+            supersampling,
             // Interpolation would hide the cells of a coarse grid and invent detail.
             squares: u32::from(size[0] >= 4 * grid.cells[0]),
             low: 0.0,
             high: 1.0,
-            neutral: 0.0,
-            opacity: 0.0,
-            step: MARCH_STEP * grid.spacing,
-            obstacles: u32::from(!scene.obstacles.is_empty()),
             contrast: 1.0,
+            step: MARCH_STEP * grid.spacing,
+            volume: look.volume.into(),
+            ground: if look.ground && grid.dimension == 3 { floor(grid, single(scene.gravity)) } else { [0.0; 4] },
+            particle_scale: 0.5 * particle_overlap(grid.dimension),
             dark_strain: DARK_STRAIN,
+            particle_low: 0.0,
+            particle_high: 1.0,
+            exposure: look.exposure as f32,
+            gain: 1.0,
+            ..Self::zeroed()
+        };
+        view.set_light(grid, look);
+        for (plane, slice) in view.slices.iter_mut().zip(&look.slices) {
+            let normal = single(slice.normal).normalize_or(Vec3::Z);
+            *plane = normal.extend(normal.dot(single(slice.point))).into();
         }
+        view.slice_count = look.slices.len().min(view.slices.len()) as u32;
+        view
     }
 
-    /// Where a point appears, in pixels from the top left corner, and its depth along the view axis \[m\].
+    /// Axes of the light, and the box along them that holds the whole domain.
+    fn set_light(&mut self, grid: &Grid, look: &RenderSettings) {
+        let light = single(look.light.direction).normalize_or(Vec3::Z);
+        let (right, up) = light.any_orthonormal_pair();
+        let reach = 0.5 * Vec3::from(grid.extent()).length();
+        self.light = light.into();
+        (self.light_right, self.light_up) = (right.into(), up.into());
+        self.light_origin = (middle_of(grid) - reach * right - reach * up + reach * light).into();
+        self.light_spacing = 2.0 * reach / LIGHT_CELLS as f32;
+        self.light_strength = look.light.strength as f32;
+        self.sky_strength = look.light.ambient as f32;
+        self.shadows = u32::from(look.light.shadows && grid.dimension == 3);
+    }
+
+    /// Where a point appears, in rays from the top left corner, and its depth along the view axis \[m\].
     fn project(&self, point: Vec3) -> (Vec2, f32) {
         let relative = point - Vec3::from(self.eye);
         let depth = relative.dot(self.forward.into());
         let offset = Vec2::new(relative.dot(self.right.into()), -relative.dot(self.up.into()));
         let size = Vec2::new(self.size[0] as f32, self.size[1] as f32);
-        (0.5 * size + offset / (depth * self.half_height) * 0.5 * size.y, depth)
+        let scale = if self.parallel == 1 { self.half_height } else { depth * self.half_height };
+        (0.5 * size + offset / scale * 0.5 * size.y, depth)
     }
 
-    /// The twelve edges of the domain as the shader reads them: end points in pixels, then their depths.
+    /// The twelve edges of the domain as the shader reads them: end points in rays, then their depths.
     /// Edges behind the eye become points outside of the picture.
     pub(crate) fn edges(&self) -> [[Vec4; 2]; 12] {
         let low = Vec3::from(self.origin);
@@ -152,7 +222,7 @@ impl View {
         let depth = |point: Vec3| (point - Vec3::from(self.eye)).dot(self.forward.into());
         let (depth_from, depth_to) = (depth(from), depth(to));
         if depth_from.max(depth_to) <= nearest {
-            return [Vec4::splat(-1e6), Vec4::ONE];
+            return Self::NO_EDGE;
         }
         let cut = |near: Vec3, far: Vec3| near.lerp(far, (nearest - depth(near)) / (depth(far) - depth(near)));
         let from_seen = if depth_from < nearest { cut(from, to) } else { from };
@@ -160,63 +230,67 @@ impl View {
         let ((a, depth_a), (b, depth_b)) = (self.project(from_seen), self.project(to_seen));
         [Vec4::new(a.x, a.y, b.x, b.y), Vec4::new(depth_a, depth_b, 0.0, 0.0)]
     }
+
+    /// An edge outside of every picture.
+    pub(super) const NO_EDGE: [Vec4; 2] = [Vec4::splat(-1e6), Vec4::ONE];
 }
 
-/// Position and orientation of the eye.
-struct Eye {
-    position: Vec3,
-    forward: Vec3,
-    up: Vec3,
-    parallel: bool,
-    half_height: f32,
+/// The plane of the domain's floor, as normal and offset: the side that gravity points to, low z without gravity.
+fn floor(grid: &Grid, gravity: Vec3) -> [f32; 4] {
+    let axis = (0..3).rev().max_by(|&a, &b| gravity[a].abs().total_cmp(&gravity[b].abs())).unwrap_or(2);
+    let axis = if gravity == Vec3::ZERO { 2 } else { axis };
+    let high = gravity[axis] > 0.0;
+    let mut normal = Vec3::ZERO;
+    normal[axis] = if high { -1.0 } else { 1.0 };
+    let side = grid.origin[axis] + if high { grid.extent()[axis] } else { 0.0 };
+    normal.extend(normal[axis] * side).into()
 }
 
-impl Eye {
-    fn pinhole(camera: &Camera) -> Self {
-        let vector = |v: [f64; 3]| Vec3::from_array(v.map(|coordinate| coordinate as f32));
-        let position = vector(camera.eye);
-        let forward = (vector(camera.target) - position).normalize_or(Vec3::Y);
-        // A camera that looks along its own `up` still needs some picture: any direction across will do.
-        let right = forward.cross(vector(camera.up)).normalize_or(forward.any_orthonormal_vector());
-        let half_height = (0.5 * camera.fov_degrees as f32).to_radians().tan();
-        Self { position, forward, up: right.cross(forward), parallel: false, half_height }
+fn single(vector: [f64; 3]) -> Vec3 {
+    Vec3::from_array(vector.map(|coordinate| coordinate as f32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CUBE: Grid = Grid { dimension: 3, cells: [4; 3], origin: [0.0, 1.0, 2.0], spacing: 0.5 };
+
+    #[test]
+    fn the_floor_is_where_things_fall() {
+        assert_eq!(floor(&CUBE, Vec3::ZERO), [0.0, 0.0, 1.0, 2.0]);
+        assert_eq!(floor(&CUBE, Vec3::new(0.0, -9.8, 0.1)), [0.0, 1.0, 0.0, 1.0]);
+        assert_eq!(floor(&CUBE, Vec3::X), [-1.0, 0.0, 0.0, -2.0]);
     }
-}
 
-fn middle_of(grid: &Grid) -> Vec3 {
-    Vec3::from(grid.origin) + 0.5 * Vec3::from(grid.extent())
-}
-
-/// A view from the side and above that shows the whole domain, below the title.
-fn fitting_camera(grid: &Grid, size: [u32; 2]) -> Camera {
-    const FIELD_OF_VIEW: f32 = 32.0;
-    /// Share of the picture that the domain may take.
-    const FILLED: f32 = 0.86;
-    let half_height = (0.5 * FIELD_OF_VIEW).to_radians().tan();
-    let half_size = half_height * FILLED * Vec2::new((size[0] as f32 / size[1] as f32).min(1.2), 1.0);
-    let forward = -Vec3::new(0.55, -0.90, 0.42).normalize();
-    let right = forward.cross(Vec3::Z).normalize();
-    let up = right.cross(forward);
-    let extent = Vec3::from(grid.extent());
-    let mut target = middle_of(grid);
-    let mut distance = 2.0 * extent.length() / half_height;
-    // Perspective makes the fit depend on the distance; a few rounds settle it.
-    for _ in 0..8 {
-        let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-        for corner in 0..8 {
-            let part = Vec3::new((corner & 1) as f32, ((corner >> 1) & 1) as f32, (corner >> 2) as f32);
-            let relative = Vec3::from(grid.origin) + part * extent - (target - distance * forward);
-            let place = Vec2::new(relative.dot(right), relative.dot(up)) / relative.dot(forward);
-            (low, high) = (low.min(place), high.max(place));
+    /// Points appear where the rays through their pixels pass, for both kinds of camera.
+    #[test]
+    fn projection_is_the_inverse_of_rays() {
+        let camera = |height| crate::scene::Camera {
+            eye: [3.0, -4.0, 3.5],
+            target: [1.0, 2.0, 3.0],
+            up: [0.0, 0.0, 1.0],
+            fov_degrees: 40.0,
+            height,
+        };
+        for height in [None, Some(3.0)] {
+            let eye = Eye::of_camera(&camera(height));
+            let view = View {
+                eye: eye.position.into(),
+                parallel: eye.parallel.into(),
+                right: eye.forward.cross(eye.up).into(),
+                up: eye.up.into(),
+                forward: eye.forward.into(),
+                half_height: eye.half_height,
+                size: [640, 480],
+                ..View::zeroed()
+            };
+            let point = Vec3::new(1.3, 1.2, 3.9);
+            let (pixel, depth) = view.project(point);
+            let ray = eye.ray(Vec2::new(640.0, 480.0), pixel);
+            let [origin, direction] = [ray.origin, ray.direction].map(single);
+            let passed = origin + direction * (depth / direction.dot(eye.forward));
+            assert!(passed.distance(point) < 1e-4, "{height:?}: {passed} instead of {point}");
         }
-        let middle = 0.5 * (low + high) * distance;
-        target += middle.x * right + middle.y * up;
-        distance *= (0.5 * (high - low) / half_size).max_element();
-    }
-    Camera {
-        eye: (target - distance * forward).to_array().map(f64::from),
-        target: target.to_array().map(f64::from),
-        up: [0.0, 0.0, 1.0],
-        fov_degrees: FIELD_OF_VIEW.into(),
     }
 }

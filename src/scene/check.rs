@@ -67,7 +67,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     check.geometry();
     check.time();
     check.numerics();
-    check.output();
+    check.render();
     check.expect();
     if sound_domain && check.findings.len() == before {
         check_shape::places(scene, &mut check.findings);
@@ -294,31 +294,6 @@ impl Check<'_> {
         if self.scene.time.cfl > Integrator::ARS_CFL {
             let message = format!("\"ars222\" with time.cfl = {}", self.scene.time.cfl);
             self.add(key, message, format!("give a time.cfl of at most {}", Integrator::ARS_CFL));
-        }
-    }
-
-    fn output(&mut self) {
-        let render = &self.scene.render;
-        for pixels in render.size {
-            self.count("render.size", pixels, 16, 8192);
-        }
-        if let Some([low, high]) =
-            render.range.filter(|[low, high]| low.partial_cmp(high) != Some(std::cmp::Ordering::Less))
-        {
-            self.add("render.range", format!("[{low}, {high}] is empty"), "give the lower value first");
-        }
-        let Some(camera) = render.camera else { return };
-        let view: [f64; 3] = std::array::from_fn(|d| camera.target[d] - camera.eye[d]);
-        let [a, b] = [view, camera.up];
-        let across = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        if view == [0.0; 3] {
-            self.add("render.camera.eye", "eye and target are the same point", "move one of them");
-        } else if across.iter().all(|x| x.abs() < 1e-9) {
-            self.add("render.camera.up", format!("{b:?} is zero or points along the view"), "give another direction");
-        }
-        if !(1.0..=170.0).contains(&camera.fov_degrees) {
-            let message = format!("{} is out of range", camera.fov_degrees);
-            self.add("render.camera.fov_degrees", message, "give a number from 1 to 170 [degrees]");
         }
     }
 

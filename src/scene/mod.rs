@@ -10,6 +10,7 @@ mod boundary;
 mod check;
 mod check_body;
 mod check_boundary;
+mod check_render;
 mod check_shape;
 mod coupling;
 mod cut;
@@ -18,6 +19,7 @@ mod fill;
 mod integrator;
 mod load;
 mod polyhedron;
+mod render;
 mod settings;
 mod shape;
 mod source;
@@ -48,10 +50,11 @@ pub use cut::{CutCell, CutGeometry};
 pub use fill::Seed;
 pub use integrator::{FaceVelocity, Integrator};
 pub use polyhedron::Part;
-pub use settings::{
-    Camera, Colormap, Expect, ExpectedBody, Field, Film, Numerics, Obstacles, Output, Pair, RenderMode, RenderSettings,
-    Time, Transfer,
+pub use render::{
+    Camera, Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice,
+    Surface, ToneMap,
 };
+pub use settings::{Expect, ExpectedBody, Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
 pub use shape::Shape;
 pub use vortex::Vortex;
 pub use wave::Wave;

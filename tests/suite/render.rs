@@ -1,158 +1,13 @@
-//! Pictures of a synthetic state: a dense blob of hot gas beside the middle, a ring or shell of particles around it, one obstacle.
+//! Pictures of a synthetic state.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use brisance::export::{self, Exporter, Moment};
-use brisance::gpu::{Buffer, Folder, Gpu, GpuOptions, Shader, readback};
-use brisance::render::{ParticleBuffers, Picture, Renderer, SceneBuffers, View};
-use brisance::scene::Scene;
-use brisance::state::Grid;
+use brisance::gpu::{Folder, Shader, readback};
+use brisance::render::{Renderer, View};
+use brisance::scene::{Camera, Field};
 
-/// Buffers that play a simulation's state.
-struct State {
-    grid: Grid,
-    conserved: Buffer<[f32; 4]>,
-    energy: Buffer<f32>,
-    cells: Buffer<u32>,
-    particles: u32,
-    position: Buffer<[f32; 4]>,
-    velocity: Buffer<[f32; 4]>,
-    affine: Buffer<[f32; 4]>,
-    deformation: Buffer<[f32; 4]>,
-}
-
-const BLOB: [f32; 3] = [0.35, 0.6, 0.5];
-
-fn scene(dimension: u32, cells: u32, size: [u32; 2], more: &str) -> Scene {
-    let cells = vec![cells; dimension as usize];
-    let edges = vec![1.0; dimension as usize];
-    let text = format!(
-        "title = \"Synthetic state\"\n\
-         domain = {{ dimension = {dimension}, cells = {cells:?}, size = {edges:?} }}\n\
-         gas.ambient = {{ density = 1.0, pressure = 1.0 }}\n\
-         time = {{ until = 1.0, frames = 1 }}\n\
-         render.size = {size:?}\n{more}"
-    );
-    Scene::parse(&text, "synthetic.toml", &[]).expect("the scene of the test is valid")
-}
-
-impl State {
-    fn new(gpu: &Gpu, scene: &Scene) -> Self {
-        let dimension = scene.domain.dimension;
-        let spacing = scene.domain.spacing() as f32;
-        let grid = Grid { dimension, cells: scene.domain.cells, origin: [0.0; 3], spacing };
-        let ring: [i32; 3] = grid.padding().map(|n| n as i32);
-        let (mut conserved, mut energy, mut cells) =
-            (vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()], vec![2.5; grid.slots()], vec![2_u32; grid.slots()]);
-        for (slot, cell) in every_cell(&grid, ring) {
-            let inside = (0..3).all(|axis| cell[axis] >= 0 && cell[axis] < grid.cells[axis] as i32);
-            let centre = grid.centre(cell);
-            let r = distance(&grid, centre);
-            let wall = dimension > 1 && centre[0] > 0.85 && centre[1] < 0.15 && (dimension < 3 || centre[2] < 0.3);
-            let solid = (r - 0.28).abs() < 0.03;
-            cells[slot] = if !inside || wall { 2 } else { u32::from(solid) };
-            let density = 1.0 + 3.0 * (1.0 / (1.0 + ((r - 0.2) / 0.012).exp()));
-            let speed = r * (-r * r * 40.0).exp();
-            let velocity = [speed, 0.5 * speed * centre[2], -0.5 * speed * centre[1]];
-            let [u, v, w] = velocity.map(|v| density * v);
-            conserved[slot] = [density, u, v, w];
-            energy[slot] = 2.5 * density.powf(1.4) + 0.5 * (u * u + v * v + w * w) / density;
-        }
-        let points = shell(&grid);
-        let four = |values: Vec<[f32; 4]>, label: &str| Buffer::from_slice(gpu, label, &values).unwrap();
-        let volume = (0.5 * spacing).powi(dimension as i32);
-        let deformation = points.iter().flat_map(|point| {
-            let body = f32::from_bits(u32::from(point[0] > BLOB[0]));
-            [[1.0, 0.0, 0.0, body], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]]
-        });
-        let affine = points.iter().flat_map(|point| [[0.0; 4], [0.0, 0.0, 0.0, point[1].powi(4)], [0.0; 4]]);
-        Self {
-            grid,
-            conserved: four(conserved, "conserved"),
-            energy: Buffer::from_slice(gpu, "energy", &energy).unwrap(),
-            cells: Buffer::from_slice(gpu, "cells", &cells).unwrap(),
-            particles: points.len() as u32,
-            position: four(points.iter().map(|&[x, y, z]| [x, y, z, 1.0]).collect(), "position"),
-            velocity: four(points.iter().map(|point| [0.1 + 0.1 * point[0], 0.0, 0.0, volume]).collect(), "velocity"),
-            affine: four(affine.collect(), "affine"),
-            deformation: four(deformation.collect(), "deformation"),
-        }
-    }
-
-    fn buffers(&self) -> SceneBuffers<'_> {
-        SceneBuffers {
-            grid: self.grid,
-            conserved: self.conserved.raw(),
-            energy: self.energy.raw(),
-            cells: self.cells.raw(),
-            particles: Some(ParticleBuffers {
-                count: self.particles,
-                position: self.position.raw(),
-                velocity: self.velocity.raw(),
-                affine: self.affine.raw(),
-                deformation: self.deformation.raw(),
-            }),
-        }
-    }
-}
-
-fn every_cell(grid: &Grid, ring: [i32; 3]) -> impl Iterator<Item = (usize, [i32; 3])> {
-    let stride = grid.strides().map(|n| n as usize);
-    (0..grid.slots()).map(move |slot| {
-        let place = [slot % stride[0], slot / stride[0] % stride[1], slot / (stride[0] * stride[1])];
-        (slot, std::array::from_fn(|axis| place[axis] as i32 - ring[axis]))
-    })
-}
-
-fn distance(grid: &Grid, point: [f32; 3]) -> f32 {
-    (0..grid.dimension as usize).map(|axis| (point[axis] - BLOB[axis]).powi(2)).sum::<f32>().sqrt()
-}
-
-/// Points of a half-cell lattice within a shell around the blob, one quarter left out.
-fn shell(grid: &Grid) -> Vec<[f32; 3]> {
-    let fine = grid.cells.map(|n| if n > 1 { 2 * n } else { 1 });
-    let step = 0.5 * grid.spacing;
-    let mut points = Vec::new();
-    for index in 0..fine.iter().product::<u32>() {
-        let place = [index % fine[0], index / fine[0] % fine[1], index / (fine[0] * fine[1])];
-        let point = place.map(|n| (n as f32 + 0.5) * step);
-        let left_out = grid.dimension > 1 && point[0] > BLOB[0] && point[1] < BLOB[1];
-        if (distance(grid, point) - 0.28).abs() < 0.03 && !left_out {
-            points.push(point);
-        }
-    }
-    points
-}
-
-fn gpu() -> Gpu {
-    Gpu::new(&GpuOptions::default()).expect("the suite needs an adapter; a software one will do")
-}
-
-fn render(dimension: u32, cells: u32, size: [u32; 2], more: &str) -> Vec<Picture> {
-    let gpu = gpu();
-    let scene = scene(dimension, cells, size, more);
-    let state = State::new(&gpu, &scene);
-    let mut renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
-    let pictures = renderer.render(0.0125).unwrap();
-    for picture in &pictures {
-        assert_eq!(picture.frame.rgba.len(), 4 * (size[0] * size[1]) as usize);
-        let path =
-            Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{dimension}d_{}_{}.png", picture.name, size[1]));
-        export::png::write(&path, &picture.frame, &[]).unwrap();
-    }
-    assert_eq!(pictures, Renderer::new(&gpu, &scene, &state.buffers()).unwrap().render(0.0125).unwrap(), "equal bits");
-    pictures
-}
-
-fn pixel(picture: &Picture, x: u32, y: u32) -> [i32; 3] {
-    let first = 4 * (y * picture.frame.width + x) as usize;
-    std::array::from_fn(|channel| i32::from(picture.frame.rgba[first + channel]))
-}
-
-fn brightness(color: [i32; 3]) -> i32 {
-    color.iter().sum()
-}
+use crate::synthetic::{State, brightness, every_cell, gpu, pixel, render, scene};
 
 #[test]
 fn slice_has_y_up_and_the_range_of_its_field() {
@@ -261,6 +116,46 @@ fn given_range_is_kept() {
 }
 
 #[test]
+fn a_look_may_change_from_picture_to_picture() {
+    let gpu = gpu();
+    let scene = scene(3, 16, [96, 64], "");
+    let state = State::new(&gpu, &scene);
+    let mut renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
+    let first = renderer.render(0.0125).unwrap();
+    let mut look = scene.render.clone();
+    look.size = [48, 80];
+    look.particles = false;
+    let eye = [0.5, -2.0, 0.6];
+    look.camera = Some(Camera { eye, target: [0.5; 3], up: [0.0, 0.0, 1.0], fov_degrees: 35.0, height: None });
+    let other = renderer.draw(&look, Field::Pressure, 0.0125).unwrap();
+    assert_eq!((other.frame.width, other.frame.height, other.name.as_str()), (48, 80, "pressure"));
+    assert_eq!(other.range, renderer.automatic_range(&look, Field::Pressure).unwrap());
+    assert_ne!(renderer.draw(&look, Field::Velocity, 0.0125).unwrap().frame, other.frame);
+    let again = renderer.draw(&scene.render, Field::Density, 0.0125).unwrap();
+    assert_eq!(again, first[0], "what was drawn in between leaves no trace");
+    let ray = renderer.ray(&look, [24.0, 40.0]);
+    assert_eq!(ray.origin, eye.map(|x: f64| f64::from(x as f32)));
+    assert!(ray.direction[1] > 0.99, "{ray:?}");
+    assert_eq!(renderer.camera(&look), look.camera.unwrap());
+}
+
+#[test]
+fn a_pixel_of_the_plane_is_the_point_it_shows() {
+    let gpu = gpu();
+    let scene = scene(2, 48, [320, 200], "");
+    let state = State::new(&gpu, &scene);
+    let renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
+    let mut look = scene.render.clone();
+    look.size = [640, 400];
+    let along = |x: f64| renderer.ray(&look, [x, 200.0]).origin[0];
+    // the picture of the unit square is as high as the frame but for the margins
+    let pixels = (1.0 / (along(301.0) - along(300.0))).round();
+    assert!((300.0..400.0).contains(&pixels), "{pixels} pixels per unit length");
+    assert!((along(300.0) - along(200.0) - 100.0 / pixels).abs() < 1e-3);
+    assert!(renderer.ray(&look, [320.0, 100.0]).origin[1] > renderer.ray(&look, [320.0, 300.0]).origin[1]);
+}
+
+#[test]
 fn volume_shows_the_particles_in_front() {
     let with = render(3, 24, [192, 108], "");
     let without = render(3, 24, [192, 108], "render.particles = false");
@@ -314,21 +209,50 @@ fn view_has_the_offsets_of_the_shader() {
     macro_rules! same {
         ($($field:ident),*) => { $(assert_eq!(offset(stringify!($field)), std::mem::offset_of!(View, $field));)* };
     }
-    same!(cells, dimension, origin, spacing, eye, parallel, right, half_height, up, gamma, forward, field, light);
     same!(
-        particle_scale,
+        cells,
+        dimension,
+        origin,
+        spacing,
+        eye,
+        parallel,
+        right,
+        half_height,
+        up,
+        gamma,
+        forward,
+        field,
         size,
+        first_row
+    );
+    same!(
+        rows,
+        samples,
+        supersampling,
         particles,
         squares,
         low,
         high,
-        neutral,
-        opacity,
-        step,
-        obstacles,
         contrast,
-        dark_strain
+        step,
+        opacity,
+        volume,
+        fineness,
+        optics
     );
+    same!(
+        ground,
+        particle_scale,
+        dark_strain,
+        particle_color,
+        smooth_skin,
+        particle_low,
+        particle_high,
+        exposure,
+        tone
+    );
+    same!(light, light_strength, light_right, sky_strength, light_up, shadows, light_origin, light_spacing, heat_scale);
+    same!(heat_offset, heat_opacity, gain, slice_count, contour_count, arrows, slices, contours);
     assert_eq!(*span as usize, size_of::<View>());
 }
 

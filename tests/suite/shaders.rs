@@ -7,7 +7,19 @@ use brisance::gpu::{Compiled, Folder, SOURCES, Shader};
 use wgpu::naga;
 
 /// Shaders of the pictures; all others belong to the step.
-const PICTURES: [&str; 4] = ["field.wgsl", "points.wgsl", "slice.wgsl", "volume.wgsl"];
+const PICTURES: [&str; 11] = [
+    "arrows.wgsl",
+    "field.wgsl",
+    "finish.wgsl",
+    "glow.wgsl",
+    "light.wgsl",
+    "optics.wgsl",
+    "points.wgsl",
+    "skin.wgsl",
+    "slice.wgsl",
+    "solids.wgsl",
+    "volume.wgsl",
+];
 
 /// The text injected before a shader's source.
 fn constants(shader: &str) -> String {

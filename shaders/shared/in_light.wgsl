@@ -1,0 +1,23 @@
+// The light that arrives in the gas: reads light_grid, the light that passes the gas up to each cell of a grid along the light,
+// alone and with the shadows of solids, 16 bits each.
+
+// A point in cells of the light grid: across, across, away from the light.
+fn in_light(point: vec3f) -> vec3f {
+    let q = point - view.light_origin;
+    return vec3f(dot(q, view.light_right), dot(q, view.light_up), -dot(q, view.light)) / view.light_spacing;
+}
+
+// Light that arrives in the nearest cell: through the gas alone, and past solids too.
+fn light_inside(place: vec3f) -> vec2f {
+    let cell = vec3u(clamp(place, vec3f(0.0), vec3f(f32(LIGHT_CELLS) - 0.5)));
+    return unpack2x16unorm(light_grid[cell.x + LIGHT_CELLS * (cell.y + LIGHT_CELLS * cell.z)]);
+}
+
+// Light that arrives at a place of the light grid: through the gas alone, and past solids too.
+fn light_at(place: vec3f) -> vec2f {
+    let cells = f32(LIGHT_CELLS);
+    if (view.shadows == 0u || any(place.xy < vec2f(0.0)) || any(place.xy >= vec2f(cells))) {
+        return vec2f(1.0);
+    }
+    return light_inside(place);
+}

@@ -1,0 +1,98 @@
+//! The simulation's buffers, as the renderer reads them.
+
+use crate::state::{Grid, State};
+
+/// The simulation's buffers, in the padded index space of [`Grid`].
+#[derive(Debug, Clone, Copy)]
+pub struct SceneBuffers<'a> {
+    /// The grid of the cell arrays.
+    pub grid: Grid,
+    /// Density and momentum per volume, one vec4 per slot.
+    pub conserved: &'a wgpu::Buffer,
+    /// Total energy per volume, one f32 per slot.
+    pub energy: &'a wgpu::Buffer,
+    /// Cell words, one u32 per slot; bits 0 and 1 are the kind.
+    pub cells: &'a wgpu::Buffer,
+    /// The particles, if there are any.
+    pub particles: Option<ParticleBuffers<'a>>,
+}
+
+/// The particles' buffers.
+#[derive(Debug, Clone, Copy)]
+pub struct ParticleBuffers<'a> {
+    /// Number of particles.
+    pub count: u32,
+    /// Position and mass, one vec4 per particle.
+    pub position: &'a wgpu::Buffer,
+    /// Velocity and volume at rest, one vec4 per particle.
+    pub velocity: &'a wgpu::Buffer,
+    /// Affine velocity, three vec4 per particle; the second w is the plastic strain.
+    pub affine: &'a wgpu::Buffer,
+    /// Deformation gradient, three vec4 per particle; the first w holds the body, the second the active flag.
+    pub deformation: &'a wgpu::Buffer,
+    /// Kirchhoff stress times volume at rest, two vec4 per particle: xx, yy, zz; then xy, yz, zx.
+    pub stress: &'a wgpu::Buffer,
+}
+
+impl<'a> SceneBuffers<'a> {
+    /// The buffers of a simulation's state.
+    #[must_use]
+    pub fn of(state: &'a State) -> Self {
+        let particles = &state.particles;
+        Self {
+            grid: state.grid,
+            conserved: state.gas.conserved.raw(),
+            energy: state.gas.energy.raw(),
+            cells: state.interface.cells.raw(),
+            particles: state.has_solids().then(|| ParticleBuffers {
+                count: particles.count,
+                position: particles.position.raw(),
+                velocity: particles.velocity.raw(),
+                affine: particles.affine.raw(),
+                deformation: particles.deformation.raw(),
+                stress: particles.stress.raw(),
+            }),
+        }
+    }
+}
+
+/// Handles of the same buffers that live as long as the renderer.
+#[derive(Debug, Clone)]
+pub(super) struct Sources {
+    pub(super) grid: Grid,
+    pub(super) conserved: wgpu::Buffer,
+    pub(super) energy: wgpu::Buffer,
+    pub(super) cells: wgpu::Buffer,
+    pub(super) particles: Option<ParticleSources>,
+}
+
+/// Handles of the particles' buffers.
+#[derive(Debug, Clone)]
+pub(super) struct ParticleSources {
+    pub(super) count: u32,
+    pub(super) position: wgpu::Buffer,
+    pub(super) velocity: wgpu::Buffer,
+    pub(super) affine: wgpu::Buffer,
+    pub(super) deformation: wgpu::Buffer,
+    pub(super) stress: wgpu::Buffer,
+}
+
+impl From<&SceneBuffers<'_>> for Sources {
+    fn from(buffers: &SceneBuffers<'_>) -> Self {
+        let particles = buffers.particles.filter(|own| own.count > 0).map(|own| ParticleSources {
+            count: own.count,
+            position: own.position.clone(),
+            velocity: own.velocity.clone(),
+            affine: own.affine.clone(),
+            deformation: own.deformation.clone(),
+            stress: own.stress.clone(),
+        });
+        Self {
+            grid: buffers.grid,
+            conserved: buffers.conserved.clone(),
+            energy: buffers.energy.clone(),
+            cells: buffers.cells.clone(),
+            particles,
+        }
+    }
+}

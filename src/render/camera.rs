@@ -1,0 +1,139 @@
+//! Where the eye is: cameras, and the rays through pixels.
+
+use glam::{Vec2, Vec3};
+
+use crate::scene::Camera;
+use crate::state::Grid;
+
+/// Position and orientation of the eye.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Eye {
+    pub(super) position: Vec3,
+    pub(super) forward: Vec3,
+    pub(super) up: Vec3,
+    pub(super) parallel: bool,
+    /// Half the height of the picture: at unit distance, or in metres for parallel rays.
+    pub(super) half_height: f32,
+}
+
+/// The line of sight through a point of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    /// Where it starts \[m\].
+    pub origin: [f64; 3],
+    /// Unit vector into the picture.
+    pub direction: [f64; 3],
+}
+
+impl Eye {
+    /// A camera in space.
+    pub(super) fn of_camera(camera: &Camera) -> Self {
+        let vector = |v: [f64; 3]| Vec3::from_array(v.map(|coordinate| coordinate as f32));
+        let position = vector(camera.eye);
+        let forward = (vector(camera.target) - position).normalize_or(Vec3::Y);
+        // A camera that looks along its own `up` still needs some picture: any direction across will do.
+        let right = forward.cross(vector(camera.up)).normalize_or(forward.any_orthonormal_vector());
+        let half_height = match camera.height {
+            Some(height) => 0.5 * height as f32,
+            None => (0.5 * camera.fov_degrees as f32).to_radians().tan(),
+        };
+        Self { position, forward, up: right.cross(forward), parallel: camera.height.is_some(), half_height }
+    }
+
+    /// Straight onto a plane domain, all of it in the picture.
+    pub(super) fn onto_plane(grid: &Grid) -> Self {
+        let extent = Vec3::from(grid.extent());
+        Self {
+            position: middle_of(grid) - extent.max_element() * Vec3::NEG_Z,
+            forward: Vec3::NEG_Z,
+            up: Vec3::Y,
+            parallel: true,
+            half_height: 0.5 * extent.y,
+        }
+    }
+
+    /// The ray through a place of a picture of `size` pixels, in pixels from the top left corner.
+    pub(super) fn ray(&self, size: Vec2, pixel: Vec2) -> Ray {
+        let offset = (pixel - 0.5 * size) / (0.5 * size.y) * self.half_height;
+        let across = offset.x * self.forward.cross(self.up) - offset.y * self.up;
+        let (origin, direction) = if self.parallel {
+            (self.position + across, self.forward)
+        } else {
+            (self.position, (self.forward + across).normalize())
+        };
+        Ray { origin: origin.as_dvec3().into(), direction: direction.as_dvec3().into() }
+    }
+}
+
+pub(super) fn middle_of(grid: &Grid) -> Vec3 {
+    Vec3::from(grid.origin) + 0.5 * Vec3::from(grid.extent())
+}
+
+/// A view from the side and above that shows the whole domain, below the title.
+pub(super) fn fitting_camera(grid: &Grid, size: [u32; 2]) -> Camera {
+    const FIELD_OF_VIEW: f32 = 32.0;
+    /// Share of the picture that the domain may take.
+    const FILLED: f32 = 0.86;
+    let half_height = (0.5 * FIELD_OF_VIEW).to_radians().tan();
+    let half_size = half_height * FILLED * Vec2::new((size[0] as f32 / size[1] as f32).min(1.2), 1.0);
+    let forward = -Vec3::new(0.55, -0.90, 0.42).normalize();
+    let right = forward.cross(Vec3::Z).normalize();
+    let up = right.cross(forward);
+    let extent = Vec3::from(grid.extent());
+    let mut target = middle_of(grid);
+    let mut distance = 2.0 * extent.length() / half_height;
+    // Perspective makes the fit depend on the distance; a few rounds settle it.
+    for _ in 0..8 {
+        let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+        for corner in 0..8 {
+            let part = Vec3::new((corner & 1) as f32, ((corner >> 1) & 1) as f32, (corner >> 2) as f32);
+            let relative = Vec3::from(grid.origin) + part * extent - (target - distance * forward);
+            let place = Vec2::new(relative.dot(right), relative.dot(up)) / relative.dot(forward);
+            (low, high) = (low.min(place), high.max(place));
+        }
+        let middle = 0.5 * (low + high) * distance;
+        target += middle.x * right + middle.y * up;
+        distance *= (0.5 * (high - low) / half_size).max_element();
+    }
+    Camera {
+        eye: (target - distance * forward).to_array().map(f64::from),
+        target: target.to_array().map(f64::from),
+        up: [0.0, 0.0, 1.0],
+        fov_degrees: FIELD_OF_VIEW.into(),
+        height: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rays_pass_through_the_pixels_where_points_appear() {
+        let mut camera =
+            Camera { eye: [2.0, -3.0, 1.5], target: [0.5; 3], up: [0.0, 0.0, 1.0], fov_degrees: 30.0, height: None };
+        let (eye, size) = (Eye::of_camera(&camera), Vec2::new(640.0, 360.0));
+        let middle = eye.ray(size, 0.5 * size);
+        let towards = glam::DVec3::from(camera.target) - glam::DVec3::from(camera.eye);
+        assert!(glam::DVec3::from(middle.direction).distance(towards.normalize()) < 1e-6, "{middle:?}");
+        // the upper edge of the picture is half the opening angle away from the middle
+        let top = eye.ray(size, Vec2::new(320.0, 0.0));
+        let angle = glam::DVec3::from(top.direction).angle_between(middle.direction.into()).to_degrees();
+        assert!((angle - 15.0).abs() < 1e-4 && top.direction[2] > middle.direction[2], "{angle} {top:?}");
+        // parallel rays: one direction, and the edge is half the height away
+        camera.height = Some(2.0);
+        let eye = Eye::of_camera(&camera);
+        let (middle, top) = (eye.ray(size, 0.5 * size), eye.ray(size, Vec2::new(320.0, 0.0)));
+        assert_eq!(middle.direction, top.direction);
+        let apart = glam::DVec3::from(middle.origin).distance(top.origin.into());
+        assert!((apart - 1.0).abs() < 1e-6, "{apart}");
+    }
+
+    #[test]
+    fn the_plane_fills_its_picture() {
+        let grid = Grid { dimension: 2, cells: [8, 4, 1], origin: [1.0, 2.0, 0.0], spacing: 0.5 };
+        let corner = Eye::onto_plane(&grid).ray(Vec2::new(80.0, 40.0), Vec2::ZERO);
+        assert_eq!(corner.origin[..2], [1.0, 4.0]);
+        assert_eq!(corner.direction, [0.0, 0.0, -1.0]);
+    }
+}

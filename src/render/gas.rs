@@ -1,0 +1,118 @@
+//! The kernels that turn the state of the gas into the field that a picture shows. They know nothing of the picture's size.
+
+use glam::Vec4;
+
+use super::buffers::Sources;
+use super::colormap::TABLE_LENGTH;
+use super::kernels::{BRICK, bind};
+use super::transfer::Tables;
+use super::view::View;
+use crate::Result;
+use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
+
+/// Workgroups that search a range; each leaves one pair of values.
+pub(super) const RANGE_GROUPS: u32 = 64;
+
+/// Kernels and buffers of the field shown, and the uniform and colour tables that all drawing kernels read.
+#[derive(Debug)]
+pub(super) struct Gas {
+    cell_count: u64,
+    cube_count: u64,
+    pub(super) view: Buffer<View>,
+    /// Colours and opacity of the field, of hot gas, of the particles.
+    pub(super) colors: Buffer<Vec4>,
+    visible: Buffer<u32>,
+    pub(super) field: Buffer<f32>,
+    /// p / rho.
+    pub(super) heat: Buffer<f32>,
+    ranges: Buffer<[f32; 2]>,
+    /// Per cube between eight cell centres, their fractions of the range; empty in 2D.
+    pub(super) corners: Buffer<[u32; 2]>,
+    /// The same cubes' places in the black-body ramp.
+    pub(super) glow: Buffer<[u32; 2]>,
+    /// One word per brick of cubes: whether the ray march must enter it.
+    pub(super) bricks: Buffer<u32>,
+    evaluate_field: Bound,
+    find_range: Bound,
+    pack_corners: Bound,
+    pack_glow: Bound,
+    mark_bricks: Bound,
+}
+
+impl Gas {
+    pub(super) fn new(gpu: &Gpu, sources: &Sources) -> Result<Self> {
+        let grid = &sources.grid;
+        let volume = grid.dimension == 3;
+        let cube_count = if volume { grid.cells.map(|n| u64::from(n) + 1).iter().product() } else { 0 };
+        let brick_count = grid.cells.iter().map(|n| (n + 1).div_ceil(BRICK) as usize).product();
+        let view: Buffer<View> = Buffer::uniform(gpu, "view", 1)?;
+        let colors: Buffer<Vec4> = Buffer::new(gpu, "colour tables", 3 * TABLE_LENGTH)?;
+        let visible: Buffer<u32> = Buffer::new(gpu, "visible colours", 2 * (TABLE_LENGTH + 1))?;
+        let field: Buffer<f32> = Buffer::new(gpu, "field shown", grid.cell_count())?;
+        let heat: Buffer<f32> = Buffer::new(gpu, "heat", grid.cell_count())?;
+        let ranges: Buffer<[f32; 2]> = Buffer::new(gpu, "ranges", RANGE_GROUPS as usize)?;
+        let corners: Buffer<[u32; 2]> = Buffer::new(gpu, "field corners", cube_count as usize)?;
+        let glow: Buffer<[u32; 2]> = Buffer::new(gpu, "heat corners", cube_count as usize)?;
+        let bricks: Buffer<u32> = Buffer::new(gpu, "bricks", brick_count)?;
+
+        let shared = ("view", view.raw());
+        let (of_field, of_heat) = (("field", field.raw()), ("heat", heat.raw()));
+        let (of_corners, of_glow) = (("corners", corners.raw()), ("glow", glow.raw()));
+        let state = [("conserved", &sources.conserved), ("energy", &sources.energy), ("cells", &sources.cells)];
+        let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "field.wgsl", entry, buffers);
+        let bricks_and_tables = [("bricks", bricks.raw()), ("visible", visible.raw())];
+        Ok(Self {
+            evaluate_field: bind("evaluate_field", &[&state[..], &[shared, of_field, of_heat]].concat())?,
+            find_range: bind("find_range", &[shared, of_field, ("ranges", ranges.raw())])?,
+            pack_corners: bind("pack_corners", &[shared, of_field, of_corners])?,
+            pack_glow: bind("pack_glow", &[shared, of_heat, of_glow])?,
+            mark_bricks: bind("mark_bricks", &[&bricks_and_tables[..], &[shared, of_corners, of_glow]].concat())?,
+            cell_count: grid.cell_count() as u64,
+            cube_count,
+            view,
+            colors,
+            visible,
+            field,
+            heat,
+            ranges,
+            corners,
+            glow,
+            bricks,
+        })
+    }
+
+    /// Records the view's field and its range.
+    pub(super) fn record_field(&self, pass: &mut Pass) {
+        pass.dispatch(&self.evaluate_field, &Extent::Threads(self.cell_count));
+        pass.dispatch(&self.find_range, &Extent::Groups([RANGE_GROUPS, 1, 1]));
+    }
+
+    /// Least and largest value of the field recorded last; the first is the larger where there is no gas.
+    pub(super) fn range(&self, gpu: &Gpu) -> Result<[f64; 2]> {
+        Ok(bounds(&readback::read(gpu, &self.ranges)?))
+    }
+
+    /// Uploads the tables.
+    pub(super) fn set_tables(&self, gpu: &Gpu, tables: &Tables) {
+        self.colors.write(gpu, 0, &tables.colors);
+        self.visible.write(gpu, 0, &tables.visible);
+    }
+
+    /// Records what the ray march needs of the field evaluated last, for the range and tables of the view.
+    pub(super) fn record_packing(&self, pass: &mut Pass, view: &View) {
+        if self.cube_count > 0 {
+            pass.dispatch(&self.pack_corners, &Extent::Threads(self.cube_count));
+            if view.heat_opacity > 0.0 {
+                pass.dispatch(&self.pack_glow, &Extent::Threads(self.cube_count));
+            }
+            pass.dispatch(&self.mark_bricks, &Extent::Threads(self.bricks.len() as u64));
+        }
+    }
+}
+
+/// What the workgroups of a search saw together.
+pub(super) fn bounds(ranges: &[[f32; 2]]) -> [f64; 2] {
+    let low = ranges.iter().map(|range| f64::from(range[0])).fold(f64::INFINITY, f64::min);
+    let high = ranges.iter().map(|range| f64::from(range[1])).fold(f64::NEG_INFINITY, f64::max);
+    [low, high]
+}

@@ -1,0 +1,289 @@
+//! The kernels that write pixels, and everything that has the size of the picture. Large pictures are drawn in bands.
+
+use glam::Vec4;
+
+use super::buffers::Sources;
+use super::gas::{Gas, RANGE_GROUPS};
+use super::kernels::{SAMPLE_MARGIN, bind, bind_with};
+use super::light::{Distance, Light};
+use super::particles::Particles;
+use super::view::View;
+use crate::Result;
+use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
+
+/// Rays of a band at most: more need more memory and gain nothing.
+const BAND_RAYS: u32 = 1 << 21;
+
+/// Root mean squares of a line-of-sight picture that reach half way to black or white.
+const OPTICS_CONTRAST: f64 = 1.5;
+
+/// What all pictures of a scene share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shared<'a> {
+    pub(super) gpu: &'a Gpu,
+    pub(super) sources: &'a Sources,
+    pub(super) gas: &'a Gas,
+    pub(super) particles: Option<&'a Particles>,
+    pub(super) light: &'a Light,
+    pub(super) distance: &'a Distance,
+}
+
+/// Everything bound for one size of picture.
+#[derive(Debug)]
+pub(super) struct Screen {
+    /// What this is made for.
+    key: Key,
+    band_rows: u32,
+    edges: Buffer<[Vec4; 2]>,
+    surface: Buffer<[u32; 4]>,
+    solid: Buffer<[u32; 4]>,
+    pixels: Buffer<u32>,
+    skin: Option<Skin>,
+    trace_solids: Option<Bound>,
+    optics: Option<Optics>,
+    draw: Bound,
+    finish: Bound,
+}
+
+/// The kernels that draw particles, in order.
+#[derive(Debug)]
+struct Skin {
+    count: u64,
+    samples: u64,
+    depth: Buffer<u32>,
+    nearest: Buffer<u32>,
+    /// Number and list of the rays that meet particles.
+    covered: Buffer<u32>,
+    /// Workgroups for them.
+    groups: Buffer<u32>,
+    splat_depth: Bound,
+    splat_nearest: Bound,
+    smooth_depth: [Bound; 2],
+    list_skin: Bound,
+    shade_skin: Bound,
+}
+
+/// The kernels of line-of-sight pictures.
+#[derive(Debug)]
+struct Optics {
+    ranges: Buffer<[f32; 2]>,
+    integrate_lines: Bound,
+    measure_lines: Bound,
+    draw_lines: Bound,
+}
+
+/// What a screen depends on: rays across, samples and rays per pixel, and the switches of its kernels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Key {
+    rays: [u32; 2],
+    samples: [u32; 2],
+    emission: bool,
+    slices: bool,
+    smooth: bool,
+}
+
+impl Key {
+    fn of(view: &View) -> Self {
+        Self {
+            rays: view.size,
+            samples: [view.samples, view.supersampling],
+            emission: view.heat_opacity > 0.0,
+            slices: view.slice_count > 0,
+            smooth: view.smooth_skin == 1,
+        }
+    }
+
+    fn switches(&self) -> [(&'static str, bool); 3] {
+        [("EMISSION", self.emission), ("SLICES", self.slices), ("SMOOTH", self.smooth)]
+    }
+}
+
+impl Screen {
+    pub(super) fn new(shared: &Shared, view: &View) -> Result<Self> {
+        let Shared { gpu, sources, gas, light, distance, .. } = *shared;
+        let key = Key::of(view);
+        let [width, height] = view.size;
+        let n = view.supersampling;
+        let band_rows = (BAND_RAYS / width / n * n).clamp(n, height);
+        let rays = width as usize * band_rows as usize;
+        let edges: Buffer<[Vec4; 2]> = Buffer::uniform(gpu, "edges", 12)?;
+        let surface: Buffer<[u32; 4]> = Buffer::new(gpu, "surface", rays)?;
+        let solid: Buffer<[u32; 4]> = Buffer::new(gpu, "solids", rays)?;
+        let gathered: Buffer<[f32; 4]> = Buffer::new(gpu, "light", rays)?;
+        let pixels: Buffer<u32> = Buffer::new(gpu, "pixels", rays / (n * n) as usize)?;
+        let of_view = ("view", gas.view.raw());
+        let drawn = [of_view, ("surface", surface.raw()), ("light", gathered.raw())];
+        let volume = sources.grid.dimension == 3;
+        let tables = ("colors", gas.colors.raw());
+        let draw = if volume {
+            let field =
+                [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("bricks", gas.bricks.raw()), tables];
+            let own = [("edges", edges.raw()), ("solid", solid.raw()), ("light_grid", light.grid.raw())];
+            bind_with(gpu, "volume.wgsl", "draw_volume", &key.switches(), &[&drawn[..], &field, &own].concat())?
+        } else {
+            let own =
+                [("cells", &sources.cells), ("field", gas.field.raw()), ("distance", distance.nodes.raw()), tables];
+            bind(gpu, "slice.wgsl", "draw_slice", &[&drawn[..], &own].concat())?
+        };
+        let trace = || {
+            let shade = light.of_surfaces();
+            let own = [of_view, ("distance", distance.nodes.raw()), ("solid", solid.raw())];
+            bind_with(gpu, "solids.wgsl", "trace_solids", &key.switches(), &[&shade[..], &own].concat())
+        };
+        let optics = || Optics::new(shared, width as usize * height as usize, &surface, &solid, &gathered);
+        Ok(Self {
+            key,
+            band_rows,
+            skin: shared.particles.map(|own| Skin::new(shared, own, view, band_rows, &surface)).transpose()?,
+            trace_solids: volume.then(trace).transpose()?,
+            optics: (view.optics > 0).then(optics).transpose()?,
+            draw,
+            finish: bind(gpu, "finish.wgsl", "finish", &[of_view, drawn[2], ("pixels", pixels.raw())])?,
+            edges,
+            surface,
+            solid,
+            pixels,
+        })
+    }
+
+    /// Whether this screen can draw a view.
+    pub(super) fn fits(&self, view: &View) -> bool {
+        self.key == Key::of(view) && (view.optics == 0 || self.optics.is_some())
+    }
+
+    /// Draws what was prepared; one packed pixel per pixel of the picture, rows from the top.
+    pub(super) fn draw(&self, shared: &Shared, view: &mut View, edges: bool) -> Result<Vec<u32>> {
+        let Shared { gpu, gas, .. } = *shared;
+        self.edges.write(gpu, 0, &if edges { view.edges() } else { [View::NO_EDGE; 12] });
+        if let Some(optics) = self.optics.as_ref().filter(|_| view.optics > 0) {
+            view.gain = optics.measure(shared, view)?;
+        }
+        let n = view.supersampling;
+        let mut pixels = Vec::with_capacity((view.size[0] / n * (view.size[1] / n)) as usize);
+        for first_row in (0..view.size[1]).step_by(self.band_rows as usize) {
+            view.first_row = first_row;
+            view.rows = self.band_rows.min(view.size[1] - first_row);
+            gas.view.write(gpu, 0, &[*view]);
+            let mut pass = Pass::new(gpu, "picture");
+            self.record_band(gpu, &mut pass, view);
+            pass.submit()?;
+            let count = view.size[0] / n * (view.rows / n);
+            pixels.extend(readback::read_range(gpu, &self.pixels, 0, count as usize)?);
+        }
+        Ok(pixels)
+    }
+
+    fn record_band(&self, gpu: &Gpu, pass: &mut Pass, view: &View) {
+        let rays = Extent::Threads(u64::from(view.size[0]) * u64::from(view.rows));
+        pass.clear(&self.surface);
+        if let Some(skin) = self.skin.as_ref().filter(|_| view.particles > 0) {
+            skin.record(gpu, pass, view, &rays);
+        }
+        match self.trace_solids.as_ref().filter(|_| view.fineness > 0 || view.ground != [0.0; 4]) {
+            Some(trace_solids) => pass.dispatch(trace_solids, &rays),
+            None => pass.clear(&self.solid),
+        }
+        let optics = self.optics.as_ref().filter(|_| view.optics > 0);
+        pass.dispatch(optics.map_or(&self.draw, |optics| &optics.draw_lines), &rays);
+        pass.dispatch(&self.finish, &rays);
+    }
+}
+
+impl Skin {
+    fn new(shared: &Shared, own: &Particles, view: &View, rows: u32, surface: &Buffer<[u32; 4]>) -> Result<Self> {
+        let Shared { gpu, gas, light, .. } = *shared;
+        let samples = (view.size[0] * view.samples) as usize * (rows * view.samples + 2 * SAMPLE_MARGIN) as usize;
+        let depth: Buffer<u32> = Buffer::new(gpu, "sample depths", samples)?;
+        let smooth: Buffer<u32> = Buffer::new(gpu, "smooth depths", samples)?;
+        let nearest: Buffer<u32> = Buffer::new(gpu, "sample particles", samples)?;
+        let of_view = ("view", gas.view.raw());
+        let of_nearest = ("nearest", nearest.raw());
+        let balls = ("balls", own.balls.raw());
+        let rays = view.size[0] as usize * rows as usize;
+        let covered: Buffer<u32> = Buffer::new(gpu, "covered rays", 1 + rays)?;
+        let groups: Buffer<u32> = Buffer::indirect(gpu, "skin groups", 3)?;
+        let of_covered = ("covered", covered.raw());
+        let splat = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
+            bind(gpu, "points.wgsl", entry, &[&[of_view, balls, ("depth_bits", depth.raw())], own].concat())
+        };
+        let smoothed = |from: &Buffer<u32>, to: &Buffer<u32>| {
+            let own = [of_view, of_nearest, balls, ("depth_in", from.raw()), ("depth_out", to.raw())];
+            bind(gpu, "skin.wgsl", "smooth_depth", &own)
+        };
+        let shade = light.of_surfaces();
+        let result = [of_view, of_nearest, balls, of_covered, ("depth_in", depth.raw()), ("surface", surface.raw())];
+        let switches = Key::of(view).switches();
+        Ok(Self {
+            count: own.count,
+            samples: samples as u64,
+            splat_depth: splat("splat_depth", &[])?,
+            splat_nearest: splat("splat_nearest", &[of_nearest])?,
+            smooth_depth: [smoothed(&depth, &smooth)?, smoothed(&smooth, &depth)?],
+            list_skin: bind(
+                gpu,
+                "skin.wgsl",
+                "list_skin",
+                &[of_view, of_nearest, of_covered, ("skin_groups", groups.raw())],
+            )?,
+            shade_skin: bind_with(gpu, "skin.wgsl", "shade_skin", &switches, &[&shade[..], &result].concat())?,
+            depth,
+            nearest,
+            covered,
+            groups,
+        })
+    }
+
+    fn record(&self, gpu: &Gpu, pass: &mut Pass, view: &View, rays: &Extent) {
+        self.covered.write(gpu, 0, &[0]);
+        self.groups.write(gpu, 0, &[0, 1, 1]);
+        pass.clear(&self.depth);
+        pass.clear(&self.nearest);
+        pass.dispatch(&self.splat_depth, &Extent::Threads(self.count));
+        pass.dispatch(&self.splat_nearest, &Extent::Threads(self.count));
+        if view.smooth_skin == 1 {
+            for smooth_depth in [&self.smooth_depth, &self.smooth_depth].into_iter().flatten() {
+                pass.dispatch(smooth_depth, &Extent::Threads(self.samples));
+            }
+        }
+        pass.dispatch(&self.list_skin, rays);
+        pass.dispatch(&self.shade_skin, &Extent::Indirect(&self.groups, 0));
+    }
+}
+
+impl Optics {
+    fn new(
+        shared: &Shared,
+        rays: usize,
+        surface: &Buffer<[u32; 4]>,
+        solid: &Buffer<[u32; 4]>,
+        light: &Buffer<[f32; 4]>,
+    ) -> Result<Self> {
+        let Shared { gpu, gas, .. } = *shared;
+        let columns: Buffer<f32> = Buffer::new(gpu, "columns", rays)?;
+        let ranges: Buffer<[f32; 2]> = Buffer::new(gpu, "column ranges", RANGE_GROUPS as usize)?;
+        let both = [("view", gas.view.raw()), ("columns", columns.raw())];
+        let bind =
+            |entry: &str, own: &[(&str, &wgpu::Buffer)]| bind(gpu, "optics.wgsl", entry, &[&both[..], own].concat());
+        let drawn = [("surface", surface.raw()), ("solid", solid.raw()), ("light", light.raw())];
+        Ok(Self {
+            integrate_lines: bind("integrate_lines", &[("field", gas.field.raw())])?,
+            measure_lines: bind("measure_lines", &[("ranges", ranges.raw())])?,
+            draw_lines: bind("draw_lines", &drawn)?,
+            ranges,
+        })
+    }
+
+    /// Integrates along all lines of sight and finds the contrast of the picture.
+    fn measure(&self, shared: &Shared, view: &View) -> Result<f32> {
+        shared.gas.view.write(shared.gpu, 0, &[*view]);
+        let mut pass = Pass::new(shared.gpu, "lines of sight");
+        pass.dispatch(&self.integrate_lines, &Extent::Threads(u64::from(view.size[0]) * u64::from(view.size[1])));
+        pass.dispatch(&self.measure_lines, &Extent::Groups([RANGE_GROUPS, 1, 1]));
+        pass.submit()?;
+        let sums = readback::read(shared.gpu, &self.ranges)?;
+        let [squares, count] = sums.iter().fold([0.0; 2], |sum, own| [0, 1].map(|k| sum[k] + f64::from(own[k])));
+        // Differences below rounding are no picture.
+        let smallest = 1e-5 * f64::from(view.low.abs().max(f32::MIN_POSITIVE)) * f64::from(view.spacing);
+        Ok((OPTICS_CONTRAST * (squares / f64::max(count, 1.0)).sqrt()).max(smallest) as f32)
+    }
+}

@@ -1,0 +1,362 @@
+//! What pictures show and how: fields, camera, colours.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A quantity of the gas that can be shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    /// Density `[kg m^-3]`.
+    Density,
+    /// Pressure `[Pa]`.
+    Pressure,
+    /// Speed `[m s^-1]`.
+    Velocity,
+    /// Pressure over density, the temperature times the gas constant `[m^2 s^-2]`.
+    Temperature,
+    /// Shades of the density gradient, like the optical method.
+    Schlieren,
+    /// Speed over the speed of sound.
+    Mach,
+    /// Magnitude of the curl of the velocity `[s^-1]`.
+    Vorticity,
+}
+
+impl Field {
+    /// All fields, in the order of menus.
+    pub const ALL: [Field; 7] = [
+        Field::Density,
+        Field::Pressure,
+        Field::Velocity,
+        Field::Temperature,
+        Field::Schlieren,
+        Field::Mach,
+        Field::Vorticity,
+    ];
+
+    /// The field's keyword in scene files.
+    #[must_use]
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Field::Density => "density",
+            Field::Pressure => "pressure",
+            Field::Velocity => "velocity",
+            Field::Temperature => "temperature",
+            Field::Schlieren => "schlieren",
+            Field::Mach => "mach",
+            Field::Vorticity => "vorticity",
+        }
+    }
+}
+
+/// How the pictures look.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RenderSettings {
+    /// Width and height in pixels, 16 to 8192 each.
+    pub size: [u32; 2],
+    /// Where the eye is, in 3D; a view from the side and above when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Camera>,
+    /// How a 3D domain is seen.
+    pub mode: RenderMode,
+    /// Values at the ends of the colour bar; those of each picture when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+    /// Colour map.
+    pub colormap: Colormap,
+    /// Draw the gas in 3D; without it slices and solids stand alone.
+    pub volume: bool,
+    /// Opacity of the gas over the colour bar: points (fraction of the bar, opacity), both 0 to 1, linear between them. When
+    /// left out, what differs most from the ambient gas is most opaque.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub opacity: Vec<[f64; 2]>,
+    /// Optical depth of the whole domain at opacity 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub optical_depth: Option<f64>,
+    /// Light of hot gas; none when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub emission: Option<Emission>,
+    /// Light from outside.
+    pub light: Light,
+    /// From light to pixels, in 3D.
+    pub tone: ToneMap,
+    /// Factor on all light before the tone map, in 3D.
+    pub exposure: f64,
+    /// Rays per pixel along each axis, 1 to 4.
+    pub supersampling: u32,
+    /// Draw the particles.
+    pub particles: bool,
+    /// How particles make up a body, in 3D.
+    pub surface: Surface,
+    /// What the colours of the particles mean.
+    pub particle_color: ParticleColor,
+    /// Values at the ends of the particles' colour bar; those of each picture when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub particle_range: Option<[f64; 2]>,
+    /// Colour map of the particles.
+    pub particle_colormap: Colormap,
+    /// A floor on the side of a 3D domain that gravity points to, low z without gravity; it catches shadows.
+    pub ground: bool,
+    /// Planes through a 3D domain that show the field, at most 4.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub slices: Vec<Slice>,
+    /// Lines of equal value in 2D and on slices, at most 32: their number, or their values.
+    #[serde(skip_serializing_if = "Contours::is_none")]
+    pub contours: Contours,
+    /// Velocity arrows across a 2D picture, 0 to 200; 0 for none.
+    pub arrows: u32,
+    /// What is written over and around the picture.
+    pub overlays: Overlays,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        RenderSettings {
+            size: [1280, 720],
+            camera: None,
+            mode: RenderMode::default(),
+            range: None,
+            colormap: Colormap::default(),
+            volume: true,
+            opacity: Vec::new(),
+            optical_depth: None,
+            emission: None,
+            light: Light::default(),
+            tone: ToneMap::default(),
+            exposure: 1.0,
+            supersampling: 1,
+            particles: true,
+            surface: Surface::default(),
+            particle_color: ParticleColor::default(),
+            particle_range: None,
+            particle_colormap: Colormap::Plasma,
+            ground: false,
+            slices: Vec::new(),
+            contours: Contours::default(),
+            arrows: 0,
+            overlays: Overlays::default(),
+        }
+    }
+}
+
+/// A camera: a pinhole, or parallel rays where `height` is given.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Camera {
+    /// Position of the eye `[m]`.
+    pub eye: [f64; 3],
+    /// The point in the middle of the picture `[m]`.
+    pub target: [f64; 3],
+    /// Direction that is up in the picture.
+    #[serde(default = "Camera::default_up")]
+    pub up: [f64; 3],
+    /// Vertical opening angle of the pinhole `[degrees]`, 1 to 170.
+    #[serde(default = "Camera::default_fov")]
+    pub fov_degrees: f64,
+    /// Height of what is seen by parallel rays `[m]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
+}
+
+impl Camera {
+    fn default_up() -> [f64; 3] {
+        [0.0, 0.0, 1.0]
+    }
+    fn default_fov() -> f64 {
+        40.0
+    }
+}
+
+/// How a 3D domain is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RenderMode {
+    /// Ray march; density is shown by shades of its gradient.
+    #[default]
+    Schlieren,
+    /// Ray march; density is shown through the colour map.
+    Density,
+    /// Brightness by the bending of light along each line of sight, in grey, like a schlieren camera.
+    LineOfSight,
+    /// Brightness by the focusing of light along each line of sight, in grey, like a shadow on a screen.
+    Shadowgraph,
+}
+
+/// Colour map; all but gray and the diverging one are perceptually uniform in hue and lightness.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Colormap {
+    /// Blue, green, yellow.
+    #[default]
+    Viridis,
+    /// Black, red, pale yellow.
+    Inferno,
+    /// Black, purple, pale yellow.
+    Magma,
+    /// Blue, pink, yellow.
+    Plasma,
+    /// Blue, gray, yellow; for colour-blind readers.
+    Cividis,
+    /// Black to white.
+    Gray,
+    /// Blue, white, red; for ranges with a middle.
+    RedBlue,
+}
+
+/// Light of hot gas: a black body whose temperature is that of the gas, p / rho, in units of the ambient one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Emission {
+    /// Temperature of the ambient gas \[K\]: hotter gas shines by its ratio to this.
+    pub ambient_kelvin: f64,
+    /// Factor on the light.
+    pub strength: f64,
+    /// Optical depth of the whole domain filled with white-hot gas.
+    pub optical_depth: f64,
+}
+
+impl Default for Emission {
+    fn default() -> Self {
+        Emission { ambient_kelvin: 300.0, strength: 1.0, optical_depth: 20.0 }
+    }
+}
+
+/// Light from outside, in 3D.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Light {
+    /// Direction towards the light.
+    pub direction: [f64; 3],
+    /// Brightness of the light itself.
+    pub strength: f64,
+    /// Brightness of the sky around.
+    pub ambient: f64,
+    /// Gas, bodies, obstacles cast shadows.
+    pub shadows: bool,
+}
+
+impl Default for Light {
+    fn default() -> Self {
+        Light { direction: [-0.3, -0.55, 0.9], strength: 1.0, ambient: 0.35, shadows: true }
+    }
+}
+
+/// From light to pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ToneMap {
+    /// Brighter than white is white; colours stay those of the colour bar.
+    #[default]
+    None,
+    /// The shoulder of film: bright light keeps its shape and turns white.
+    Aces,
+}
+
+/// How particles make up a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Surface {
+    /// Every particle is a ball.
+    #[default]
+    Spheres,
+    /// The balls in front are smoothed into a surface.
+    Smooth,
+}
+
+/// What the colours of the particles mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ParticleColor {
+    /// One colour per body, darker where it has flowed.
+    #[default]
+    Body,
+    /// One colour per material, darker where it has flowed.
+    Material,
+    /// Speed `[m s^-1]`.
+    Speed,
+    /// Norm of the deviatoric stress `[Pa]`.
+    DeviatoricStress,
+    /// Equivalent plastic strain.
+    PlasticStrain,
+    /// Pressure over density of the gas around `[m^2 s^-2]`.
+    Temperature,
+}
+
+impl ParticleColor {
+    /// All of them, in the order of menus.
+    pub const ALL: [ParticleColor; 6] = [
+        ParticleColor::Body,
+        ParticleColor::Material,
+        ParticleColor::Speed,
+        ParticleColor::DeviatoricStress,
+        ParticleColor::PlasticStrain,
+        ParticleColor::Temperature,
+    ];
+
+    /// Whether colours are values on a colour bar.
+    #[must_use]
+    pub fn is_value(self) -> bool {
+        !matches!(self, ParticleColor::Body | ParticleColor::Material)
+    }
+}
+
+/// A plane through a 3D domain.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Slice {
+    /// A point of the plane `[m]`.
+    pub point: [f64; 3],
+    /// Direction across the plane.
+    pub normal: [f64; 3],
+}
+
+/// Lines of equal value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a number of lines, or a list of values")]
+pub enum Contours {
+    /// This many, evenly spaced over the range.
+    Count(u32),
+    /// At these values.
+    Values(Vec<f64>),
+}
+
+impl Default for Contours {
+    fn default() -> Self {
+        Contours::Count(0)
+    }
+}
+
+impl Contours {
+    /// Whether there are no lines.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        match self {
+            Contours::Count(count) => *count == 0,
+            Contours::Values(values) => values.is_empty(),
+        }
+    }
+}
+
+/// What is written over and around a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Overlays {
+    /// The scene's title.
+    pub title: bool,
+    /// The time.
+    pub time: bool,
+    /// Colours with their values and units.
+    pub color_bar: bool,
+    /// A length, where the picture has one scale: in 2D, and in 3D with parallel rays.
+    pub scale_bar: bool,
+    /// The edges of a 3D domain.
+    pub edges: bool,
+}
+
+impl Default for Overlays {
+    fn default() -> Self {
+        Overlays { title: true, time: true, color_bar: true, scale_bar: true, edges: true }
+    }
+}

@@ -1,0 +1,167 @@
+//! Pictures of the synthetic state against stored ones, and what each part of a look must change.
+
+use std::path::{Path, PathBuf};
+
+use brisance::export;
+use brisance::render::{Frame, Picture, Renderer};
+use brisance::scene::Field;
+
+use crate::synthetic::{State, brightness, gpu, pixel, scene};
+
+/// Mean difference of a channel that drivers may make, of 255.
+const MEAN_ERROR: f64 = 1.0;
+
+const BLOCK: &str = "\n[[obstacles]]\nname = \"ball\"\nshape.sphere = { center = [0.8, 0.25, 0.3], radius = 0.15 }";
+
+/// Name, dimension, field and look of each stored picture.
+const PICTURES: [(&str, u32, Field, &str); 8] = [
+    ("plane", 2, Field::Density, "render.contours = 4\nrender.arrows = 8\nrender.particle_color = \"plastic_strain\""),
+    ("plane_schlieren", 2, Field::Schlieren, "render.overlays = { title = false, color_bar = false }"),
+    ("volume", 3, Field::Density, ""),
+    ("volume_density", 3, Field::Density, "render.mode = \"density\"\nrender.colormap = \"magma\""),
+    (
+        "explosion",
+        3,
+        Field::Density,
+        "render.emission = { ambient_kelvin = 750.0 }\nrender.tone = \"aces\"\nrender.ground = true\nrender.supersampling = 2\n\
+         render.surface = \"smooth\"\nrender.opacity = [[0, 0], [1, 0.2]]",
+    ),
+    (
+        "slices",
+        3,
+        Field::Pressure,
+        "render.slices = [{ point = [0.5, 0.5, 0.5], normal = [0, 1, 0] }, { point = [0.4, 0, 0], normal = [1, 0, 0.2] }]\n\
+         render.volume = false\nrender.contours = [2.0, 4.0]\nrender.colormap = \"red_blue\"\n\
+         render.particle_color = \"speed\"\n\
+         render.camera = { eye = [2, -2, 1.6], target = [0.5, 0.5, 0.5], height = 1.7 }",
+    ),
+    ("shadowgraph", 3, Field::Density, "render.mode = \"shadowgraph\"\nrender.particles = false"),
+    ("line_of_sight", 3, Field::Density, "render.mode = \"line_of_sight\""),
+];
+
+fn draw(dimension: u32, field: Field, look: &str) -> Picture {
+    let gpu = gpu();
+    let block = if dimension == 3 { BLOCK } else { "" };
+    let scene = scene(dimension, 20, [160, 120], &format!("{look}{block}"));
+    let state = State::new(&gpu, &scene);
+    Renderer::new(&gpu, &scene, &state.buffers()).unwrap().draw(&scene.render, field, 0.0125).unwrap()
+}
+
+fn stored(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/images").join(format!("{name}.png"))
+}
+
+fn read(path: &Path) -> Vec<u8> {
+    let file = std::fs::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    pixels
+}
+
+/// Colours without alpha.
+fn colors(frame: &Frame) -> Vec<u8> {
+    frame.rgba.chunks_exact(4).flat_map(|pixel| pixel[..3].to_vec()).collect()
+}
+
+/// Mean difference of the channels; the picture and its difference, four times as strong, go to the target folder.
+fn error(name: &str, frame: &Frame, expected: &[u8]) -> f64 {
+    let found = colors(frame);
+    assert_eq!(found.len(), expected.len(), "{name}: size of the stored picture");
+    let differences: Vec<u8> = found.iter().zip(expected).map(|(a, b)| a.abs_diff(*b)).collect();
+    let strong = differences.chunks_exact(3).flat_map(|own| [own[0], own[1], own[2], 63].map(|v| v.saturating_mul(4)));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("images");
+    std::fs::create_dir_all(&folder).unwrap();
+    export::png::write(&folder.join(format!("{name}.png")), frame, &[]).unwrap();
+    let difference = Frame { rgba: strong.collect(), ..frame.clone() };
+    export::png::write(&folder.join(format!("{name}_difference.png")), &difference, &[]).unwrap();
+    differences.iter().map(|own| f64::from(*own)).sum::<f64>() / differences.len() as f64
+}
+
+#[test]
+fn pictures_are_those_stored() {
+    let mut failures = Vec::new();
+    for (name, dimension, field, look) in PICTURES {
+        let error = error(name, &draw(dimension, field, look).frame, &read(&stored(name)));
+        if error > MEAN_ERROR {
+            failures.push(format!("{name}: mean error {error:.2} of 255, at most {MEAN_ERROR}"));
+        }
+    }
+    assert!(failures.is_empty(), "{}; look into target/tmp/images", failures.join("; "));
+}
+
+#[test]
+#[ignore = "writes the stored pictures anew: cargo test -- --ignored store_the_pictures, then look at tests/images"]
+fn store_the_pictures() {
+    for (name, dimension, field, look) in PICTURES {
+        export::png::write(&stored(name), &draw(dimension, field, look).frame, &[]).unwrap();
+    }
+}
+
+/// Mean brightness of a part of a picture, three channels together.
+fn mean(picture: &Picture, columns: std::ops::Range<u32>, rows: std::ops::Range<u32>) -> f64 {
+    let places = columns.flat_map(|x| rows.clone().map(move |y| (x, y)));
+    let values: Vec<i32> = places.map(|(x, y)| brightness(pixel(picture, x, y))).collect();
+    f64::from(values.iter().sum::<i32>()) / values.len() as f64
+}
+
+/// From straight above, so that the floor fills the picture.
+const ABOVE: &str = "render.camera = { eye = [0.5, 0.5, 4], target = [0.5, 0.5, 0], up = [0, 1, 0], height = 1.4 }\n\
+                     render.ground = true\nrender.volume = false\nrender.overlays = { color_bar = false }\n";
+
+#[test]
+fn bodies_cast_shadows_on_the_floor() {
+    let lit = draw(3, Field::Density, &format!("{ABOVE}render.light = {{ direction = [-1, 0, 1], shadows = false }}"));
+    let shaded = draw(3, Field::Density, &format!("{ABOVE}render.light = {{ direction = [-1, 0, 1] }}"));
+    // The shell stands half a length above the floor: its shadow lies that much to the right of it, beyond x = 0.75.
+    let (columns, rows) = (105..120, 45..58);
+    let [before, after] = [&lit, &shaded].map(|picture| mean(picture, columns.clone(), rows.clone()));
+    assert!(after < 0.75 * before, "brightness {before} without shadows, {after} with them");
+    // Towards the light nothing is in the way.
+    let [before, after] = [&lit, &shaded].map(|picture| mean(picture, 20..30, 45..58));
+    assert!((after / before - 1.0).abs() < 0.02, "{before} {after}");
+}
+
+#[test]
+fn hot_gas_shines_and_transparent_gas_is_not_there() {
+    let plain = "render.particles = false\nrender.overlays = { edges = false, color_bar = false }\nrender.opacity = [[0, 0], [1, 0]]\n";
+    let nothing = draw(3, Field::Density, &format!("{plain}render.volume = false"));
+    assert_eq!(draw(3, Field::Density, plain).frame, nothing.frame, "gas without opacity is not seen");
+    let shining = draw(3, Field::Density, &format!("{plain}render.emission = {{ ambient_kelvin = 1200.0 }}"));
+    let [dark, bright] = [&nothing, &shining].map(|picture| mean(picture, 60..100, 45..75));
+    assert!(bright > dark + 60.0, "{dark} {bright}");
+    let cold = draw(3, Field::Density, &format!("{plain}render.emission = {{ ambient_kelvin = 200.0 }}"));
+    assert_eq!(cold.frame, nothing.frame, "cold gas does not shine");
+}
+
+#[test]
+fn a_slice_shows_the_value_of_its_plane() {
+    let look = "render.slices = [{ point = [0, 0.55, 0], normal = [0, 1, 0] }]\nrender.volume = false\nrender.particles = false\n\
+                render.overlays = { edges = false, color_bar = false }\nrender.colormap = \"gray\"\nrender.range = [0, 8]\n\
+                render.camera = { eye = [0.5, -3, 0.5], target = [0.5, 0.5, 0.5], height = 1.0 }";
+    let picture = draw(3, Field::Pressure, look);
+    // In the middle of the blob the density is 4, so that p = 4^1.4; gray is the fraction of the range, in sRGB.
+    let (inside, far) = (pixel(&picture, 62, 60), pixel(&picture, 30, 20));
+    let expected = [4.0_f64.powf(1.4), 1.0].map(|pressure| (pressure / 8.0 * 255.0).round() as i32);
+    for (found, expected) in [(inside, expected[0]), (far, expected[1])] {
+        assert!((found[1] - expected).abs() <= 4, "{found:?}, expected {expected}");
+    }
+}
+
+#[test]
+fn large_pictures_are_drawn_in_bands_without_seams() {
+    let gpu = gpu();
+    let scene = scene(3, 12, [2048, 1100], "render.overlays = { color_bar = false, title = false, time = false }");
+    let state = State::new(&gpu, &scene);
+    let mut renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
+    let whole = renderer.draw(&scene.render, Field::Density, 0.0).unwrap();
+    // The same picture in one band: half as large, so that one pixel stands for four.
+    let mut look = scene.render.clone();
+    look.size = [1024, 550];
+    let half = renderer.draw(&look, Field::Density, 0.0).unwrap();
+    for y in [500, 510, 511, 512, 513, 530, 545] {
+        let far = (0..1024).map(|x| (brightness(pixel(&half, x, y)) - brightness(pixel(&whole, 2 * x, 2 * y))).abs());
+        let mean = f64::from(far.sum::<i32>()) / 1024.0;
+        assert!(mean < 12.0, "row {y}: mean difference {mean} of 765");
+    }
+}
