@@ -1,16 +1,19 @@
 //! The step: the whole method on one page, and the run around it.
 
+mod live;
+
 use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
 use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, ElasticOrder, FluidUpdate, G2p, GasAdvection, InterfaceStage,
+    Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticOrder, FluidUpdate, G2p, GasAdvection, InterfaceStage,
     IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::{self, NO_FAULT, STAGES};
 use crate::state::{Control, HISTORY, State};
+pub use live::Blast;
 
 /// A running simulation: buffers, stages, clock.
 #[derive(Debug)]
@@ -33,8 +36,9 @@ pub struct Simulation {
     g2p: Option<G2p>,
     odd_even: Option<OddEven>,
     totals: Totals,
+    detonate: Option<Detonate>,
     gamma: f64,
-    /// Momentum and energy that bodies were given from outside since the start.
+    /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
     given: [f64; 4],
     /// Pressure solves per step.
     solves: u32,
@@ -47,7 +51,7 @@ pub struct Simulation {
 /// Iterations recorded in the first steps, before the solver's habit is known.
 const FIRST_ITERATIONS: u32 = 12;
 /// Steps recorded into one submission at most.
-const BATCH: u32 = 16;
+pub const BATCH: u32 = 16;
 
 impl Simulation {
     /// Builds buffers and kernels for a scene.
@@ -81,6 +85,7 @@ impl Simulation {
             g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
             odd_even: (scene.numerics.filter > 0.0).then(|| OddEven::new(parts, scene.numerics.filter)).transpose()?,
             totals: Totals::new(parts)?,
+            detonate: None,
             gamma: scene.gas.gamma,
             given: [0.0; 4],
             solves: scene.solves(),
@@ -228,8 +233,16 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_batch(&mut self, records: &mut Vec<StepRecord>) -> Result<bool> {
+        self.advance_batch_of(records, BATCH)
+    }
+
+    /// The same with at most `steps` steps, 1 to 16.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    pub fn advance_batch_of(&mut self, records: &mut Vec<StepRecord>, steps: u32) -> Result<bool> {
         let mut pass = Pass::new(&self.gpu, "steps");
-        for _ in 0..BATCH {
+        for _ in 0..steps.clamp(1, BATCH) {
             self.record_step(&mut pass);
             self.totals.record(&mut pass, &self.state);
         }
@@ -331,7 +344,7 @@ impl Simulation {
         std::array::from_fn(|axis| at[axis] as i32 - padding[axis] as i32)
     }
 
-    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies since the start.
+    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies, and blasts to gas, since the start.
     #[must_use]
     pub fn given(&self) -> [f64; 4] {
         self.given

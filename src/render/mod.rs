@@ -173,7 +173,11 @@ impl Renderer {
 
     fn eye(&self, look: &RenderSettings) -> Eye {
         let grid = &self.sources.grid;
-        if grid.dimension == 3 { Eye::of_camera(&self.camera(look)) } else { Eye::onto_plane(grid) }
+        if grid.dimension == 3 {
+            Eye::of_camera(&self.camera(look))
+        } else {
+            Eye::onto_plane(grid, look.camera.as_ref())
+        }
     }
 
     /// Everything about a picture but what depends on the field.

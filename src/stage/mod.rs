@@ -21,6 +21,7 @@
 
 mod carrier;
 mod coupled_solve;
+mod detonate;
 mod elastic_order;
 mod fluid_update;
 mod g2p;
@@ -38,6 +39,7 @@ pub mod traffic;
 
 pub use carrier::{Carried, CarrierVelocity};
 pub use coupled_solve::CoupledSolve;
+pub use detonate::Detonate;
 pub use elastic_order::ElasticOrder;
 pub use fluid_update::FluidUpdate;
 pub use g2p::G2p;
