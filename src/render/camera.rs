@@ -138,7 +138,13 @@ mod tests {
         assert_eq!(corner.origin[..2], [1.0, 4.0]);
         assert_eq!(corner.direction, [0.0, 0.0, -1.0]);
         // 90 degrees from one quarter of a metre away: half a metre of height around the target
-        let camera = Camera { eye: [2.0, 3.5, 0.25], target: [2.0, 3.5, 0.0], up: [0.0, 1.0, 0.0], fov_degrees: 90.0, height: None };
+        let camera = Camera {
+            eye: [2.0, 3.5, 0.25],
+            target: [2.0, 3.5, 0.0],
+            up: [0.0, 1.0, 0.0],
+            fov_degrees: 90.0,
+            height: None,
+        };
         let corner = Eye::onto_plane(&grid, Some(&camera)).ray(Vec2::new(80.0, 40.0), Vec2::ZERO);
         assert!((corner.origin[0] - 1.5).abs() < 1e-6 && (corner.origin[1] - 3.75).abs() < 1e-6, "{corner:?}");
     }

@@ -26,6 +26,7 @@ mod view;
 
 pub use buffers::{ParticleBuffers, SceneBuffers};
 pub use camera::Ray;
+pub use colormap::colors;
 pub use frame::{Frame, Picture};
 pub use kernels::constants as shader_constants;
 pub use quantity::{caption, particle_caption};

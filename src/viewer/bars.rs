@@ -100,7 +100,7 @@ fn clock(ui: &mut Ui, view: &View, status: &Status) {
     let rate = match status.steps_per_second {
         rate if rate > 0.0 => format!("{rate:.1} steps/s"),
         _ if status.phase == Phase::Failed => "stopped".to_owned(),
-        _ if status.finished => "end of the run; Space goes on".to_owned(),
+        _ if status.finished => "end; Space goes on".to_owned(),
         _ if status.playing && status.step == 0 => "starting".to_owned(),
         _ if status.playing => "running".to_owned(),
         _ => "paused".to_owned(),

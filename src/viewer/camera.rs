@@ -97,7 +97,13 @@ pub fn with_parallel_rays(camera: &Camera, parallel: bool) -> Camera {
 pub fn above(origin: [f64; 3], size: [f64; 3]) -> Camera {
     let target = [origin[0] + 0.5 * size[0], origin[1] + 0.5 * size[1], 0.0];
     let height = 0.5 * size[1] / (0.5 * PLANE_OPENING).to_radians().tan();
-    Camera { eye: [target[0], target[1], height], target, up: [0.0, 1.0, 0.0], fov_degrees: PLANE_OPENING, height: None }
+    Camera {
+        eye: [target[0], target[1], height],
+        target,
+        up: [0.0, 1.0, 0.0],
+        fov_degrees: PLANE_OPENING,
+        height: None,
+    }
 }
 
 /// Keeps the view of a camera above a plane domain inside the domain, at most all of it.
@@ -106,8 +112,8 @@ pub fn kept_inside(camera: &Camera, origin: [f64; 3], size: [f64; 3]) -> Camera 
     let whole = above(origin, size);
     let share = (2.0 * half_height(camera, frame(camera).distance) / size[1]).min(1.0);
     let mut kept = whole;
-    for axis in 0..2 {
-        let room = 0.5 * size[axis] * (1.0 - share);
+    for (axis, size) in size.into_iter().enumerate().take(2) {
+        let room = 0.5 * size * (1.0 - share);
         kept.target[axis] = camera.target[axis].clamp(whole.target[axis] - room, whole.target[axis] + room);
         kept.eye[axis] = kept.target[axis];
     }
@@ -152,8 +158,13 @@ pub fn project(camera: &Camera, point: [f64; 3]) -> (DVec2, f64) {
 mod tests {
     use super::*;
 
-    const CAMERA: Camera =
-        Camera { eye: [3.0, -4.0, 2.0], target: [0.5, 0.25, 0.5], up: [0.0, 0.0, 1.0], fov_degrees: 32.0, height: None };
+    const CAMERA: Camera = Camera {
+        eye: [3.0, -4.0, 2.0],
+        target: [0.5, 0.25, 0.5],
+        up: [0.0, 0.0, 1.0],
+        fov_degrees: 32.0,
+        height: None,
+    };
 
     fn distance(camera: &Camera) -> f64 {
         DVec3::from(camera.eye).distance(camera.target.into())

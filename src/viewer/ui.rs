@@ -186,7 +186,6 @@ impl Ui {
         if self.watch.is_some() {
             root.ctx().request_repaint_after(Watch::period());
         }
-        self.keyboard(root);
         self.dropped(root);
         if self.request.is_none() {
             let chosen = egui::CentralPanel::default().show(root, |ui| self.gallery.show(ui)).inner;
@@ -197,6 +196,8 @@ impl Ui {
         } else {
             self.scene(root);
         }
+        // After the mouse: what is saved is what was just turned.
+        self.keyboard(root);
         self.messages(root);
         self.ask_for_path(root);
         if self.help {
@@ -264,6 +265,9 @@ impl Ui {
             });
             keys.collect::<Vec<_>>()
         });
+        if !pressed.is_empty() {
+            root.ctx().request_repaint();
+        }
         for action in pressed {
             self.act(action);
         }
@@ -347,7 +351,7 @@ fn message(ui: &mut EguiUi, note: &Note) -> bool {
         ui.horizontal_top(|ui| {
             let text = RichText::new(note.text.trim_end());
             if wrong {
-                let scroll = egui::ScrollArea::both().max_height(320.0).max_width(660.0);
+                let scroll = egui::ScrollArea::both().min_scrolled_height(320.0).max_height(320.0).max_width(660.0);
                 scroll.show(ui, |ui| {
                     let label =
                         egui::Label::new(text.monospace()).selectable(true).wrap_mode(egui::TextWrapMode::Extend);

@@ -1,5 +1,6 @@
 //! The page of an open scene: the picture, what the mouse does to it, and what is asked of the worker.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -239,9 +240,8 @@ impl View {
         if moving {
             ui.ctx().request_repaint_after(SETTLES);
         }
-        if let Some(range) = &self.look.settings.range
-            && !(range[0] < range[1])
-        {
+        // A range that is being typed may be empty for a moment.
+        if self.look.settings.range.is_some_and(|[low, high]| low.partial_cmp(&high) != Some(Ordering::Less)) {
             return;
         }
         let wanted = (self.look.clone(), moving);

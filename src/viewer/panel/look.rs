@@ -1,20 +1,29 @@
-//! What pictures show: field, range, colours, particles.
+//! What pictures show of the gas: field, range, colours, volume.
 
-use egui::{ComboBox, DragValue, Ui};
+use egui::{ComboBox, DragValue, Slider, Ui};
 
 use super::super::view::View;
-use super::{rows, short};
+use super::{curve, rows, short};
 use crate::render::caption;
-use crate::scene::{Colormap, Field, RenderMode, RenderSettings};
+use crate::scene::{Colormap, Emission, Field, RenderMode, RenderSettings, ToneMap};
 
 /// Colour maps with their names.
-const COLORMAPS: [(Colormap, &str); 6] = [
+pub(super) const COLORMAPS: [(Colormap, &str); 7] = [
     (Colormap::Viridis, "viridis"),
     (Colormap::Inferno, "inferno"),
     (Colormap::Magma, "magma"),
     (Colormap::Plasma, "plasma"),
     (Colormap::Cividis, "cividis"),
     (Colormap::Gray, "gray"),
+    (Colormap::RedBlue, "blue and red"),
+];
+
+/// Ways to see a volume, with their names.
+const MODES: [(RenderMode, &str); 4] = [
+    (RenderMode::Schlieren, "gradient of density"),
+    (RenderMode::Density, "density"),
+    (RenderMode::LineOfSight, "schlieren camera"),
+    (RenderMode::Shadowgraph, "shadowgraph"),
 ];
 
 /// Where the ends of the colour bar come from.
@@ -34,6 +43,19 @@ impl Range {
     }
 }
 
+/// Width of a choice.
+pub(super) const WIDTH: f32 = 172.0;
+
+/// One of a list.
+pub(super) fn choice<T: Copy + PartialEq>(ui: &mut Ui, id: &str, value: &mut T, choices: &[(T, &str)]) {
+    let name = choices.iter().find(|(own, _)| own == value).map_or("", |(_, name)| name);
+    ComboBox::from_id_salt(id).selected_text(name).width(WIDTH).show_ui(ui, |ui| {
+        for (own, name) in choices {
+            ui.selectable_value(value, *own, *name);
+        }
+    });
+}
+
 /// Shows the controls.
 pub(super) fn show(ui: &mut Ui, view: &mut View) {
     rows(ui, "look", |ui| {
@@ -41,24 +63,12 @@ pub(super) fn show(ui: &mut Ui, view: &mut View) {
         field(ui, &mut view.look.field);
         ui.end_row();
         if view.dimension() > 1 {
-            colors(ui, view);
-        }
-        range(ui, view);
-        if view.dimension() == 3 {
-            ui.label("volume");
-            let mode = &mut view.look.settings.mode;
-            ui.horizontal(|ui| {
-                ui.selectable_value(mode, RenderMode::Schlieren, "schlieren")
-                    .on_hover_text("shades of the density gradient");
-                ui.selectable_value(mode, RenderMode::Density, "density")
-                    .on_hover_text("density through the colour map");
-            });
+            ui.label("colours");
+            choice(ui, "colours", &mut view.look.settings.colormap, &COLORMAPS);
             ui.end_row();
         }
+        range(ui, view);
     });
-    if !view.scene.bodies.is_empty() {
-        ui.checkbox(&mut view.look.settings.particles, "particles");
-    }
     if ui.button("as in the scene file").clicked() {
         view.reset_look();
         view.panel.range = Range::of(&view.look.settings);
@@ -66,23 +76,11 @@ pub(super) fn show(ui: &mut Ui, view: &mut View) {
 }
 
 fn field(ui: &mut Ui, field: &mut Field) {
-    ComboBox::from_id_salt("field").selected_text(caption(*field)).width(170.0).show_ui(ui, |ui| {
-        for (number, choice) in Field::ALL.into_iter().enumerate() {
-            ui.selectable_value(field, choice, caption(choice)).on_hover_text(format!("key {}", number + 1));
+    ComboBox::from_id_salt("field").selected_text(caption(*field)).width(WIDTH).show_ui(ui, |ui| {
+        for (number, own) in Field::ALL.into_iter().enumerate() {
+            ui.selectable_value(field, own, caption(own)).on_hover_text(format!("key {}", number + 1));
         }
     });
-}
-
-fn colors(ui: &mut Ui, view: &mut View) {
-    ui.label("colours");
-    let chosen = &mut view.look.settings.colormap;
-    let name = |map: Colormap| COLORMAPS.iter().find(|(own, _)| *own == map).map_or("", |(_, name)| name);
-    ComboBox::from_id_salt("colours").selected_text(name(*chosen)).width(170.0).show_ui(ui, |ui| {
-        for (map, name) in COLORMAPS {
-            ui.selectable_value(chosen, map, name);
-        }
-    });
-    ui.end_row();
 }
 
 fn range(ui: &mut Ui, view: &mut View) {
@@ -113,4 +111,51 @@ fn range(ui: &mut Ui, view: &mut View) {
         view.look.settings.range = Some(values);
     }
     ui.end_row();
+}
+
+/// How a volume is seen: mode, opacity, light of hot gas.
+pub(super) fn volume(ui: &mut Ui, view: &mut View) {
+    let table = view.shown.as_ref().map(|shown| shown.look.settings.colormap);
+    let settings = &mut view.look.settings;
+    rows(ui, "volume", |ui| {
+        ui.label("seen as");
+        choice(ui, "mode", &mut settings.mode, &MODES);
+        ui.end_row();
+    });
+    ui.checkbox(&mut settings.volume, "draw the gas");
+    let mut own = !settings.opacity.is_empty();
+    if ui.checkbox(&mut own, "opacity by a curve").on_hover_text("else by the distance from the ambient gas").changed()
+    {
+        settings.opacity = if own { vec![[0.0, 0.0], [0.3, 0.05], [1.0, 1.0]] } else { Vec::new() };
+    }
+    if own {
+        curve::show(ui, &mut settings.opacity, table.unwrap_or_default());
+    }
+    let mut deep = settings.optical_depth.is_some();
+    ui.horizontal(|ui| {
+        if ui.checkbox(&mut deep, "optical depth").changed() {
+            settings.optical_depth = deep.then_some(14.0);
+        }
+        if let Some(depth) = &mut settings.optical_depth {
+            ui.add(Slider::new(depth, 0.1..=1000.0).logarithmic(true));
+        }
+    });
+    let mut glows = settings.emission.is_some();
+    if ui.checkbox(&mut glows, "hot gas shines").changed() {
+        settings.emission = glows.then(Emission::default);
+        settings.tone = if glows { ToneMap::Aces } else { ToneMap::None };
+    }
+    if let Some(emission) = &mut settings.emission {
+        rows(ui, "emission", |ui| {
+            ui.label("ambient");
+            ui.add(DragValue::new(&mut emission.ambient_kelvin).speed(5.0).range(1.0..=1e5).suffix(" K"));
+            ui.end_row();
+            ui.label("strength");
+            ui.add(DragValue::new(&mut emission.strength).speed(0.02).range(0.0..=1e3));
+            ui.end_row();
+            ui.label("depth");
+            ui.add(DragValue::new(&mut emission.optical_depth).speed(0.2).range(0.01..=1e4));
+            ui.end_row();
+        });
+    }
 }

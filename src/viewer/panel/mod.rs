@@ -1,6 +1,8 @@
 //! The panel beside the picture: look, blast, parameters, plots, stages, camera, scene.
 
 mod camera;
+mod curve;
+mod extras;
 mod look;
 mod parameters;
 mod plots;
@@ -80,12 +82,25 @@ pub(super) fn show(ui: &mut Ui, view: &mut View, status: &Status) {
     ui.add_space(4.0);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         section(ui, "Look", true, |ui| look::show(ui, view));
+        if view.dimension() == 3 {
+            section(ui, "Volume", false, |ui| look::volume(ui, view));
+        }
+        if view.opened.particles > 0 && view.dimension() > 1 {
+            section(ui, "Bodies", false, |ui| extras::bodies(ui, view));
+        }
+        if view.dimension() > 1 {
+            section(ui, "Planes and lines", false, |ui| extras::planes_and_lines(ui, view));
+        }
+        if view.dimension() == 3 {
+            section(ui, "Light", false, |ui| extras::light(ui, view));
+        }
         section(ui, "Detonate", true, |ui| detonate(ui, view));
         section(ui, "Plots", true, |ui| plots::show(ui, view));
         section(ui, "Parameters", false, |ui| parameters::show(ui, view));
         section(ui, "Times", false, |ui| times(ui, view, status));
         if view.dimension() > 1 {
             section(ui, "Camera", false, |ui| camera::show(ui, view));
+            section(ui, "Words", false, |ui| extras::overlays(ui, view));
         }
         section(ui, "Scene", false, |ui| about(ui, view));
     });
