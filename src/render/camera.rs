@@ -127,7 +127,7 @@ mod tests {
         let eye = Eye::of_camera(&camera);
         let (middle, top) = (eye.ray(size, 0.5 * size), eye.ray(size, Vec2::new(320.0, 0.0)));
         assert_eq!(middle.direction, top.direction);
-        let apart = glam::DVec3::from(middle.origin).distance(top.origin.into());
+        let apart = DVec3::from(middle.origin).distance(top.origin.into());
         assert!((apart - 1.0).abs() < 1e-6, "{apart}");
     }
 

@@ -46,6 +46,7 @@ impl Simulation {
         params.max_growth = to.time.max_growth as f32;
         params.tolerance = to.numerics.tolerance as f32;
         params.blending = u32::from(to.numerics.blending);
+        self.coupled_solve.pcg.set_tolerance(&self.gpu, params.tolerance);
         state.params_buffer.write(&self.gpu, 0, &[state.params]);
         state.openings.write(&self.gpu, 0, &openings.padded());
         state.knots.write(&self.gpu, 0, &openings.knots);
