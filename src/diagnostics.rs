@@ -49,7 +49,7 @@ pub struct StepRecord {
     pub ghost_energy: f32,
     /// Heat of plastic flow since the start, in the particles that are still there \[J\].
     pub plastic_heat: f32,
-    /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start. What clamped and driven
+    /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start, and the energy of blasts. What clamped and driven
     /// parts give is not in it. Mass is 0.
     pub given: Total,
     /// Conjugate gradient iterations.

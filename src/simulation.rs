@@ -1,17 +1,22 @@
 //! The step: the whole method on one page, and the run around it.
 
+mod live;
+mod recorded;
+
 use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
 use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, ElasticOrder, ElasticSolve, FluidUpdate, G2p, GasAdvection, InterfaceStage,
-    IntermediatePressure, MAX_ELASTIC_ITERATIONS, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep,
-    Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticOrder, ElasticSolve, FluidUpdate, G2p, GasAdvection,
+    InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals,
+    Transfer,
 };
-use crate::state::constants::{self, MAX_ROUNDS, NO_FAULT, STAGES};
+use crate::state::constants::{self, NO_FAULT, STAGES};
 use crate::state::{Control, HISTORY, State};
+pub use live::Blast;
+use recorded::Recorded;
 
 /// A running simulation: buffers, stages, clock.
 #[derive(Debug)]
@@ -35,8 +40,9 @@ pub struct Simulation {
     g2p: Option<G2p>,
     odd_even: Option<OddEven>,
     totals: Totals,
+    detonate: Option<Detonate>,
     gamma: f64,
-    /// Momentum and energy that bodies were given from outside since the start.
+    /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
     given: [f64; 4],
     /// Pressure solves per step.
     solves: u32,
@@ -45,19 +51,8 @@ pub struct Simulation {
     recorded: Recorded,
 }
 
-/// What is recorded per step (rounds: of the implicit elastic step); a step that needs more goes on in the next recording.
-#[derive(Clone, Copy, Debug)]
-struct Recorded {
-    iterations: u32,
-    substeps: u32,
-    rounds: u32,
-    round_iterations: u32,
-}
-
-/// What is recorded in the first steps, before the solver's habit is known.
-const FIRST: Recorded = Recorded { iterations: 12, substeps: 1, rounds: 3, round_iterations: 12 };
 /// Steps per submission at most.
-const BATCH: u32 = 16;
+pub const BATCH: u32 = 16;
 
 impl Simulation {
     /// Builds buffers and kernels for a scene.
@@ -92,12 +87,13 @@ impl Simulation {
             g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
             odd_even: (scene.numerics.filter > 0.0).then(|| OddEven::new(parts, scene.numerics.filter)).transpose()?,
             totals: Totals::new(parts)?,
+            detonate: None,
             gamma: scene.gas.gamma,
             given: [0.0; 4],
             solves: scene.solves(),
             time: 0.0,
             step: 0,
-            recorded: FIRST,
+            recorded: Recorded::FIRST,
             gpu: gpu.clone(),
             state,
         };
@@ -253,8 +249,16 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_batch(&mut self, records: &mut Vec<StepRecord>) -> Result<bool> {
+        self.advance_batch_of(records, BATCH)
+    }
+
+    /// The same with at most `steps` steps, 1 to 16.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    pub fn advance_batch_of(&mut self, records: &mut Vec<StepRecord>, steps: u32) -> Result<bool> {
         let mut pass = Pass::new(&self.gpu, "steps");
-        for _ in 0..BATCH {
+        for _ in 0..steps.clamp(1, BATCH) {
             self.record_step(&mut pass);
             self.totals.record(&mut pass, &self.state);
         }
@@ -290,24 +294,8 @@ impl Simulation {
         if control.fault != NO_FAULT {
             return Err(self.fault(&control));
         }
-        self.recorded = self.recorded_next(newest, control.phase != 0);
+        self.recorded = self.recorded.next(newest, control.phase != 0, self.solves, &self.state);
         Ok(control.remaining <= 0.0 && control.phase == 0)
-    }
-
-    /// What the next recording holds: what the newest steps took, and twice as much of everything if a step was left unfinished.
-    fn recorded_next(&self, newest: &[StepRecord], unfinished: bool) -> Recorded {
-        let most = |of: fn(&StepRecord) -> u32| newest.iter().map(of).fold(1, u32::max);
-        let (params, now) = (&self.state.params, self.recorded);
-        let enough = |took: u32, now: u32| if unfinished { took.max(2 * now) } else { took };
-        let substeps = enough(most(|record| record.substeps), now.substeps);
-        Recorded {
-            iterations: enough(most(|record| record.iterations).div_ceil(self.solves) + 2, now.iterations)
-                .min(params.max_iterations + 1),
-            substeps: if self.state.has_solids() { substeps.min(params.max_substeps.max(1)) } else { 1 },
-            rounds: enough(most(|record| record.rounds), now.rounds).min(MAX_ROUNDS),
-            round_iterations: enough(most(|record| record.longest_round) + 2, now.round_iterations)
-                .min(MAX_ELASTIC_ITERATIONS + 1),
-        }
     }
 
     /// Records of the steps since the last reading.
@@ -366,7 +354,7 @@ impl Simulation {
         std::array::from_fn(|axis| at[axis] as i32 - padding[axis] as i32)
     }
 
-    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies since the start.
+    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies, and blasts to gas, since the start.
     #[must_use]
     pub fn given(&self) -> [f64; 4] {
         self.given

@@ -9,7 +9,6 @@ override CONSISTENT: bool;      // gas is carried by what the solve sees of its 
 override CUT: bool;             // obstacles cut cells; gas only, B1B0
 override ARS: bool;             // two solves per step, ARS(2,2,2)
 override LIMITER: bool;         // conservative flux limiter for positivity
-override BLENDING: bool;        // blocked fraction of partly filled cells
 override LEDGER: bool;          // gas of covered cells is kept and given back
 override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed
 override FRICTION: bool;        // some body does not slip
@@ -49,6 +48,7 @@ struct Params {
     groups: u32,                // groups that leave partial results
     march: u32,                 // slots that one thread of a marching kernel takes, along the last axis
     wall_sides: u32,            // sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
+    blending: u32,              // 1: faces of partly filled cells are blocked by their share
     scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 

@@ -8,13 +8,13 @@ use crate::gpu::Detail;
 
 /// Compressible gas, shock waves and the solids they bend, tear and shatter.
 #[derive(Debug, Parser)]
-#[command(name = "brisance", version, arg_required_else_help = true, subcommand_required = true)]
+#[command(name = "brisance", version)]
 #[command(after_help = "Exit codes: 0 done, 1 internal, 2 usage, 3 scene, 4 no device, 5 does not fit, 7 diverged, \
                         8 expectation or gate failed, 9 disk, 75 device lost, 130 interrupted")]
 pub struct Cli {
-    /// What to do.
+    /// What to do; without a verb the gallery of scenes opens.
     #[command(subcommand)]
-    pub command: Command,
+    pub command: Option<Command>,
     /// Print one JSON object on standard output
     #[arg(long, global = true)]
     pub json: bool,
@@ -28,6 +28,8 @@ pub struct Cli {
 pub enum Command {
     /// Run a scene: pictures, tables and a report
     Run(RunOptions),
+    /// Watch a scene in a live window; without a verb, the gallery of all scenes
+    View(ViewOptions),
     /// Check a scene and print cells, particles, memory and every default
     Check(SceneOptions),
     /// Measure a scene: a table of stages, then totals per second
@@ -59,6 +61,17 @@ pub struct SceneOptions {
     /// Cells along the longest axis
     #[arg(long, value_name = "CELLS")]
     pub resolution: Option<u32>,
+}
+
+/// Options of `view`.
+#[derive(Debug, Args)]
+pub struct ViewOptions {
+    /// What to watch.
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// Run as fast as the device can; otherwise the whole run takes 12 seconds at least
+    #[arg(long)]
+    pub full_speed: bool,
 }
 
 /// Options of `run`.

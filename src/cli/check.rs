@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::args::{Cli, SceneOptions};
-use super::{check_fit, open_device, scenes};
+use super::{open_device, scenes};
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
 
@@ -16,7 +16,7 @@ pub(super) fn check(options: &SceneOptions, cli: &Cli) -> Result<()> {
     let scene = scenes::load(options, &[])?;
     let plan = MemoryPlan::new(&scene, scene.particle_count());
     if cli.device.is_some() {
-        check_fit(&plan, &scene, &open_device(cli)?)?;
+        plan.check_device(&scene, &open_device(cli)?)?;
     }
     if cli.json {
         let groups: serde_json::Map<_, _> =

@@ -2,9 +2,8 @@
 
 use serde_json::json;
 
-use super::scenes;
 use crate::gpu::Gpu;
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 use crate::{Error, Result};
 
 /// Prints the devices, best first.
@@ -36,7 +35,7 @@ pub(super) fn devices(as_json: bool) -> Result<()> {
 /// # Errors
 /// [`Error::Scene`] if one of them is wrong.
 pub(super) fn scenes(as_json: bool) -> Result<()> {
-    let shipped = scenes::shipped();
+    let shipped = scene::shipped();
     let mut list = Vec::new();
     for scene in &shipped {
         let read = Scene::parse(&scene.text, &scene.path, &[]).map_err(|error| Error::Scene(error.to_string()))?;

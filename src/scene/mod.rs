@@ -22,6 +22,7 @@ mod polyhedron;
 mod render;
 mod settings;
 mod shape;
+mod shipped;
 mod source;
 #[cfg(test)]
 mod tests;
@@ -56,6 +57,7 @@ pub use render::{
 };
 pub use settings::{Expect, ExpectedBody, Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
 pub use shape::Shape;
+pub use shipped::{Shipped, shipped, stem};
 pub use vortex::Vortex;
 pub use wave::Wave;
 

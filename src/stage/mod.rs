@@ -22,6 +22,7 @@
 
 mod carrier;
 mod coupled_solve;
+mod detonate;
 mod elastic_order;
 mod elastic_solve;
 mod fluid_update;
@@ -40,6 +41,7 @@ pub mod traffic;
 
 pub use carrier::{Carried, CarrierVelocity};
 pub use coupled_solve::CoupledSolve;
+pub use detonate::Detonate;
 pub use elastic_order::ElasticOrder;
 pub use elastic_solve::{ElasticSolve, MAX_ITERATIONS as MAX_ELASTIC_ITERATIONS};
 pub use fluid_update::FluidUpdate;

@@ -67,6 +67,10 @@ pub struct Params {
     pub march: u32,
     /// Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+.
     pub wall_sides: u32,
+    /// 1 if faces of partly filled cells are blocked by their share.
+    pub blending: u32,
+    /// Fills the last 16 bytes.
+    pub unused: [u32; 3],
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -151,6 +155,8 @@ impl Params {
             groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, limits.groups),
             march: limits.march,
             wall_sides: wall_sides(scene),
+            blending: u32::from(numerics.blending),
+            unused: [0; 3],
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
@@ -177,7 +183,6 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("CONSISTENT", flag(scene.consistent())),
         ("ARS", flag(scene.solves() == 2)),
         ("LIMITER", flag(numerics.limiter)),
-        ("BLENDING", flag(numerics.blending)),
         ("LEDGER", flag(numerics.ledger)),
         ("MIDPOINT_POWER", flag(scene.midpoint_power())),
         ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),

@@ -66,6 +66,7 @@ fn params() {
             groups,
             march,
             wall_sides,
+            blending,
             scan,
         ]
     );
