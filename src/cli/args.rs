@@ -53,6 +53,9 @@ pub enum Command {
 pub struct SceneOptions {
     /// Scene file, or name of a shipped scene (see `brisance list`)
     pub scene: String,
+    /// Variant of the scene, one of those that `brisance check` lists; may be repeated
+    #[arg(long = "variant", value_name = "NAME")]
+    pub variant: Vec<String>,
     /// Change a key of the scene, for example gas.ambient.density=2; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,

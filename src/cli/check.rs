@@ -34,6 +34,9 @@ pub(super) fn check(options: &SceneOptions, cli: &Cli) -> Result<()> {
     say!("# {}\n#", scene.title);
     say!("# cells      {cells} = {} of edge {} m", plan.cells, domain.spacing());
     say!("# particles  {}", plan.particles);
+    if !scene.variants.is_empty() {
+        say!("# variants   {}", scene.variants.keys().cloned().collect::<Vec<_>>().join(", "));
+    }
     say!("# memory     {}", size(plan.bytes(None)));
     for (group, bytes) in plan.groups() {
         say!("#   {group:10} {}", size(bytes));

@@ -59,12 +59,13 @@ fn collect(folder: &Path, found: &mut Vec<Shipped>) {
     }
 }
 
-/// Reads the scene that the options name, with `further` overrides, at the resolution asked for.
+/// Reads the scene that the options name, in the variants asked for, with `further` overrides, at the resolution asked for.
 ///
 /// # Errors
 /// [`Error::Scene`] if there is none of that name or it is wrong.
 pub(super) fn load(options: &SceneOptions, further: &[String]) -> Result<Scene> {
-    let overrides: Vec<String> = options.set.iter().chain(further).cloned().collect();
+    let variants = options.variant.iter().map(|name| format!("variant={name}"));
+    let overrides: Vec<String> = variants.chain(options.set.iter().chain(further).cloned()).collect();
     let scene = read(&options.scene, &overrides)?;
     match options.resolution {
         Some(cells) => scene.with_resolution(cells),

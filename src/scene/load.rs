@@ -7,12 +7,13 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::source::{self, Finding, Source};
-use super::{Material, Scene, check};
+use super::{Material, Scene, check, variants};
 use crate::{Error, Result};
 
 impl Scene {
     /// Reads a scene file and applies overrides of the form `key=value`, such as `gas.ambient.density=2` or
-    /// `bodies[0].material=rubber`. Values are TOML; what is no TOML value is taken as a string.
+    /// `bodies[0].material=rubber`. Values are TOML; what is no TOML value is taken as a string. `variant=NAME` makes the changes of
+    /// one of the scene's variants. Overrides apply in their order.
     ///
     /// # Errors
     /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with every mistake, its file, line, key and what is allowed.
@@ -101,9 +102,13 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
     let documents = override_documents(source)?;
     let mut findings = Vec::new();
     for (index, (key, texts)) in documents.iter().enumerate() {
-        let applied = parse_value(texts).and_then(|value| source::set(&mut root, key, value));
+        let applied = parse_value(texts).and_then(|value| match value.get_ref().as_str() {
+            Some(name) if key == variants::KEY => variants::apply(&mut root, name, &text),
+            _ => source::set(&mut root, key, value),
+        });
         if let Err(message) = applied {
-            let help = "name an existing key or entry, for example gas.ambient.density=2 or bodies[0].density=3";
+            let help = "name an existing key or entry, for example gas.ambient.density=2 or bodies[0].density=3, or one of the \
+                        scene's variants";
             findings.push(Finding {
                 span: Some(source.override_place(index)),
                 ..Finding::new("", format!("--set {message}"), help)

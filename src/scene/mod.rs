@@ -25,6 +25,7 @@ mod shape;
 mod source;
 #[cfg(test)]
 mod tests;
+mod variants;
 mod vector;
 mod vortex;
 mod wave;
@@ -105,6 +106,10 @@ pub struct Scene {
     /// What the result must satisfy; checked by the tests and reported by `run`.
     #[serde(default)]
     pub expect: Expect,
+    /// Named sets of changes to the keys above, chosen by `--variant`: what the scene is otherwise.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(with = "BTreeMap<String, BTreeMap<String, serde_json::Value>>")]
+    pub variants: BTreeMap<String, toml::Table>,
 }
 
 /// The grid: cubes of edge `size / cells`. Axes beyond `dimension` have one cell and unit thickness.
