@@ -29,7 +29,7 @@ pub enum Command {
     /// Run a scene: pictures, tables and a report
     Run(RunOptions),
     /// Check a scene and print cells, particles, memory and every default
-    Check(SceneOptions),
+    Check(CheckOptions),
     /// Measure a scene: a table of stages, then totals per second
     Bench(BenchOptions),
     /// Compare the method with numbers from elsewhere: a table, a page with plots, an exit code
@@ -59,9 +59,23 @@ pub struct SceneOptions {
     /// Change a key of the scene, for example gas.ambient.density=2; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// Read mesh files outside of the scene's folder, too
+    #[arg(long)]
+    pub allow_outside: bool,
     /// Cells along the longest axis
     #[arg(long, value_name = "CELLS")]
     pub resolution: Option<u32>,
+}
+
+/// Options of `check`.
+#[derive(Debug, Args)]
+pub struct CheckOptions {
+    /// What to check.
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// Draw the start, as `run` does, and write it here as PNG
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
 }
 
 /// Options of `run`.

@@ -65,7 +65,8 @@ fn collect(folder: &Path, found: &mut Vec<Shipped>) {
 /// [`Error::Scene`] if there is none of that name or it is wrong.
 pub(super) fn load(options: &SceneOptions, further: &[String]) -> Result<Scene> {
     let variants = options.variant.iter().map(|name| format!("variant={name}"));
-    let overrides: Vec<String> = variants.chain(options.set.iter().chain(further).cloned()).collect();
+    let outside = options.allow_outside.then(|| "allow_outside=true".to_owned());
+    let overrides: Vec<String> = variants.chain(outside).chain(options.set.iter().chain(further).cloned()).collect();
     let scene = read(&options.scene, &overrides)?;
     match options.resolution {
         Some(cells) => scene.with_resolution(cells),

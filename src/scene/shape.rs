@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{distance, vector};
+use super::{Mesh, Named, distance, vector};
 
 /// A set of points, given by its signed distance `[m]`: negative inside, and never steeper than 1.
 ///
@@ -75,6 +75,13 @@ pub enum Shape {
         /// Radius `[m]`.
         radius: f64,
     },
+    /// Straight pieces from point to point, round and as thick as the radii at their ends: limbs, ears, stems.
+    Chain {
+        /// The points `[m]`, at least two.
+        points: Vec<[f64; 3]>,
+        /// Radius at each point `[m]`, or one for all.
+        radii: Vec<f64>,
+    },
     /// A circular cone, or a frustum if `top_radius` is given.
     Cone {
         /// Middle of the base `[m]`.
@@ -130,6 +137,62 @@ pub enum Shape {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         height: Option<f64>,
     },
+    /// A polygon that is turned about an axis: pots, wheels, barrels.
+    Revolve {
+        /// The point of the axis at height 0 `[m]`.
+        #[serde(deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        center: [f64; 3],
+        /// Direction of the axis, of any length; z when left out.
+        #[serde(default = "along_z", deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        axis: [f64; 3],
+        /// Corners: distance from the axis, height along it `[m]`.
+        points: Vec<[f64; 2]>,
+    },
+    /// A shape and its mirror image.
+    Mirror {
+        /// A point of the mirror `[m]`; the origin when left out.
+        #[serde(default, deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        point: [f64; 3],
+        /// Direction across the mirror, of any length.
+        #[serde(deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        normal: [f64; 3],
+        /// What.
+        shape: Box<Shape>,
+    },
+    /// Copies of a shape, each moved by the same offset from the one before.
+    Repeat {
+        /// How many.
+        count: u32,
+        /// From one to the next `[m]`.
+        #[serde(deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        offset: [f64; 3],
+        /// What.
+        shape: Box<Shape>,
+    },
+    /// Copies of a shape around an axis, evenly over the circle.
+    Around {
+        /// How many.
+        count: u32,
+        /// Direction of the axis, of any length; z when left out.
+        #[serde(default = "along_z", deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        axis: [f64; 3],
+        /// A point of the axis `[m]`; the origin when left out.
+        #[serde(default, deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        about: [f64; 3],
+        /// What.
+        shape: Box<Shape>,
+    },
+    /// A shape by its name, placed.
+    Use(Named),
+    /// What a mesh file encloses, placed.
+    Mesh(Mesh),
     /// A shape, moved.
     Translate {
         /// By how much `[m]`.
@@ -187,7 +250,7 @@ pub enum Shape {
     },
 }
 
-fn along_z() -> [f64; 3] {
+pub(super) fn along_z() -> [f64; 3] {
     [0.0, 0.0, 1.0]
 }
 
@@ -196,7 +259,7 @@ impl Shape {
     /// true distance's magnitude, never steeper than 1.
     #[must_use]
     pub fn distance(&self, point: [f64; 3]) -> f64 {
-        let each = |shapes: &[Shape]| shapes.iter().map(|shape| shape.distance(point)).collect::<Vec<_>>();
+        let least = |places: &mut dyn Iterator<Item = f64>| places.fold(f64::INFINITY, f64::min);
         match self {
             Shape::Box { center, size, round } => distance::cuboid(distance::minus(point, *center), *size, *round),
             Shape::Sphere { center, radius } => distance::length(distance::minus(point, *center)) - radius,
@@ -206,6 +269,7 @@ impl Shape {
                 distance::corner(across - radius, height.map_or(f64::NEG_INFINITY, |height| along.abs() - 0.5 * height))
             }
             Shape::Capsule { from, to, radius } => distance::segment(point, *from, *to) - radius,
+            Shape::Chain { points, radii } => distance::chain(point, points, radii),
             Shape::Cone { center, axis, radius, top_radius, height } => {
                 let (along, across) = distance::cylindrical(distance::minus(point, *center), *axis);
                 distance::frustum([across, along], *radius, *top_radius, *height)
@@ -222,6 +286,23 @@ impl Shape {
                     height.map_or(f64::NEG_INFINITY, |height| (point[2] - base - 0.5 * height).abs() - 0.5 * height);
                 distance::corner(distance::polygon([point[0], point[1]], points), faces)
             }
+            Shape::Revolve { center, axis, points } => {
+                let (along, across) = distance::cylindrical(distance::minus(point, *center), *axis);
+                distance::polygon([across, along], points)
+            }
+            Shape::Mirror { point: origin, normal, shape } => {
+                shape.distance(point).min(shape.distance(distance::mirrored(point, *origin, *normal)))
+            }
+            Shape::Repeat { count, offset, shape } => {
+                let moved = |k: u32| distance::minus(point, offset.map(|x| x * f64::from(k)));
+                least(&mut (0..*count).map(|k| shape.distance(moved(k))))
+            }
+            Shape::Around { count, axis, about, shape } => {
+                let turned = |k: u32| distance::turn(point, *about, *axis, -360.0 * f64::from(k) / f64::from(*count));
+                least(&mut (0..*count).map(|k| shape.distance(turned(k))))
+            }
+            Shape::Use(named) => named.distance(point),
+            Shape::Mesh(mesh) => mesh.distance(point),
             Shape::Translate { offset, shape } => shape.distance(distance::minus(point, *offset)),
             Shape::Rotate { axis, degrees, about, shape } => {
                 shape.distance(distance::turn(point, *about, *axis, -degrees))
@@ -230,21 +311,45 @@ impl Shape {
                 let inner = std::array::from_fn(|d| about[d] + (point[d] - about[d]) / factor);
                 shape.distance(inner) * factor
             }
-            Shape::Union(shapes) => each(shapes).into_iter().fold(f64::INFINITY, f64::min),
-            Shape::Intersection(shapes) => each(shapes).into_iter().fold(f64::NEG_INFINITY, f64::max),
+            Shape::Union(shapes) => least(&mut shapes.iter().map(|shape| shape.distance(point))),
+            Shape::Intersection(shapes) => {
+                shapes.iter().map(|shape| shape.distance(point)).fold(f64::NEG_INFINITY, f64::max)
+            }
             Shape::Difference(shapes) => {
-                let mut distances = each(shapes).into_iter();
+                let mut distances = shapes.iter().map(|shape| shape.distance(point));
                 let first = distances.next().unwrap_or(f64::INFINITY);
                 distances.fold(first, |rest, cut| rest.max(-cut))
             }
             Shape::SmoothUnion { radius, shapes } => {
-                each(shapes).into_iter().fold(f64::INFINITY, |a, b| distance::smooth_minimum(a, b, *radius))
+                let blend = |a, b| distance::smooth_minimum(a, b, *radius);
+                shapes.iter().map(|shape| shape.distance(point)).fold(f64::INFINITY, blend)
             }
             Shape::Shell { thickness, shape } => {
                 let distance = shape.distance(point);
                 distance.max(-distance - thickness)
             }
         }
+    }
+
+    /// The shapes that this one is made of, each with its key below this shape's.
+    pub(super) fn parts(&self) -> Vec<(String, &Shape)> {
+        let (key, shapes) = match self {
+            Shape::Translate { shape, .. } => ("translate.shape", std::slice::from_ref(&**shape)),
+            Shape::Rotate { shape, .. } => ("rotate.shape", std::slice::from_ref(&**shape)),
+            Shape::Scale { shape, .. } => ("scale.shape", std::slice::from_ref(&**shape)),
+            Shape::Shell { shape, .. } => ("shell.shape", std::slice::from_ref(&**shape)),
+            Shape::Mirror { shape, .. } => ("mirror.shape", std::slice::from_ref(&**shape)),
+            Shape::Repeat { shape, .. } => ("repeat.shape", std::slice::from_ref(&**shape)),
+            Shape::Around { shape, .. } => ("around.shape", std::slice::from_ref(&**shape)),
+            Shape::Union(shapes) => ("union", &shapes[..]),
+            Shape::Intersection(shapes) => ("intersection", &shapes[..]),
+            Shape::Difference(shapes) => ("difference", &shapes[..]),
+            Shape::SmoothUnion { shapes, .. } => ("smooth_union.shapes", &shapes[..]),
+            _ => return Vec::new(),
+        };
+        let listed = !key.ends_with(".shape");
+        let name = |k: usize| if listed { format!("{key}[{k}]") } else { key.to_owned() };
+        shapes.iter().enumerate().map(|(k, shape)| (name(k), shape)).collect()
     }
 
     /// Corners of a box along the axes that holds the shape `[m]`; infinite where the shape has no end.
@@ -261,6 +366,7 @@ impl Shape {
             Shape::Capsule { from, to, radius } => {
                 distance::join(distance::around(*from, [*radius; 3]), distance::around(*to, [*radius; 3]))
             }
+            Shape::Chain { points, radii } => distance::chain_bounds(points, radii),
             Shape::Cone { center, axis, radius, top_radius, height } => {
                 let direction = distance::unit(*axis);
                 let top = std::array::from_fn(|d| center[d] + height * direction[d]);
@@ -275,6 +381,23 @@ impl Shape {
             }
             Shape::HalfSpace { point, normal } => distance::half_space_bounds(*point, *normal),
             Shape::Polygon { points, base, height } => distance::polygon_bounds(points, *base, *height),
+            Shape::Revolve { center, axis, points } => distance::revolved_bounds(*center, *axis, points),
+            Shape::Mirror { point, normal, shape } => {
+                let bounds = shape.bounds();
+                distance::join(bounds, distance::mirrored_bounds(bounds, *point, *normal))
+            }
+            Shape::Repeat { count, offset, shape } => {
+                let (low, high) = shape.bounds();
+                let whole = offset.map(|x| x * f64::from(count.saturating_sub(1)));
+                distance::join((low, high), (distance::plus(low, whole), distance::plus(high, whole)))
+            }
+            Shape::Around { count, axis, about, shape } => {
+                let turned = |k: u32| 360.0 * f64::from(k) / f64::from(*count);
+                let bounds = (0..*count).map(|k| distance::turned_bounds(shape.bounds(), *about, *axis, turned(k)));
+                bounds.reduce(distance::join).unwrap_or(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]))
+            }
+            Shape::Use(named) => named.bounds(),
+            Shape::Mesh(mesh) => mesh.bounds(),
             Shape::Translate { offset, shape } => {
                 let (low, high) = shape.bounds();
                 (distance::plus(low, *offset), distance::plus(high, *offset))

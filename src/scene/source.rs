@@ -62,6 +62,11 @@ impl Source {
         &self.buffer[self.parts[0].clone()]
     }
 
+    /// Name of the scene file.
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// Number of overrides.
     pub(super) fn override_count(&self) -> usize {
         self.parts.len() - 1
