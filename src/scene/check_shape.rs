@@ -38,16 +38,6 @@ pub(super) fn sizes(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
             direction(path, "cylinder.axis", *axis, findings);
         }
         Shape::Capsule { radius, .. } => positive("capsule.radius", *radius),
-        Shape::Chain { points, radii } => {
-            radii.iter().for_each(|radius| positive("chain.radii", *radius));
-            if points.len() < 2 || !(radii.len() == 1 || radii.len() == points.len()) {
-                add(
-                    "chain.points",
-                    format!("{} points and {} radii", points.len(), radii.len()),
-                    "give at least 2 points, and one radius for all or one for each",
-                );
-            }
-        }
         Shape::Cone { axis, radius, top_radius, height, .. } => {
             positive("cone.height", *height);
             if !(*radius >= 0.0 && *top_radius >= 0.0 && radius + top_radius > 0.0) {
@@ -103,6 +93,14 @@ fn combined(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
             copies("around.count", *count, findings);
             direction(path, "around.axis", *axis, findings);
         }
+        Shape::Chain { points, radii } => {
+            radii.iter().for_each(|radius| positive("chain.radii", *radius, findings));
+            if points.len() < 2 || !(radii.len() == 1 || radii.len() == points.len()) {
+                let message = format!("{} points and {} radii", points.len(), radii.len());
+                let help = "give at least 2 points, and one radius for all or one for each";
+                findings.push(Finding::new(format!("{path}.chain.points"), message, help));
+            }
+        }
         Shape::Revolve { axis, points, .. } => {
             direction(path, "revolve.axis", *axis, findings);
             if points.len() < 3 || points.iter().any(|[radius, _]| *radius < 0.0) {
@@ -121,6 +119,11 @@ fn combined(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
         // single shapes are checked by `sizes`
         _ => {}
     }
+    parts(path, shape, findings);
+}
+
+/// The shapes below a shape.
+fn parts(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
     let parts = shape.parts();
     let empty = match shape {
         Shape::Union(_) => Some("union"),

@@ -16,6 +16,7 @@ mod coupling;
 mod cut;
 mod distance;
 mod expectation;
+mod extent;
 mod fill;
 mod integrator;
 mod load;
