@@ -10,7 +10,7 @@ use super::{Body, Sampling, Scene, Shape};
 /// Particles that leave their lattice point go this far at most along each axis, in units of the lattice's spacing. In 3D that is
 /// less than half a spacing, so that only particles of the outermost layer can leave the body.
 const JITTER: f64 = 0.25;
-/// Limits of the volume of the particles in the outermost layer over that of a lattice point: bodies thinner than the lattice.
+/// Limits of the volume of the particles in the outermost layer over that of a lattice point.
 const LAYER: [f64; 2] = [0.5, 1.5];
 /// Relative error of volumes that is none.
 const EXACT: f64 = 1e-6;
@@ -68,6 +68,13 @@ impl Claim<'_> {
     fn depth(&self, point: [f64; 3]) -> f64 {
         self.before.iter().fold(self.body.shape.distance(point), |depth, shape| depth.max(-shape.distance(point)))
     }
+
+    /// Whether the surface next to a point is not that of what is left: another body is as near or nearer, on the same side.
+    fn hidden(&self, point: [f64; 3]) -> bool {
+        let own = self.body.shape.distance(point);
+        let nearer = |other: f64| (own < 0.0) == (other < 0.0) && other <= own;
+        self.before.iter().any(|shape| nearer(shape.distance(point)))
+    }
 }
 
 impl Scene {
@@ -81,8 +88,10 @@ impl Scene {
     pub(super) fn seed_particles_of(&self, index: usize) -> impl Iterator<Item = Seed> + use<> {
         let body = &self.bodies[index];
         let sampled = self.sample(index);
-        let layer_count = sampled.inside.iter().filter(|(_, outer)| *outer).count() as f64;
-        let ratio = if layer_count > 0.0 { (sampled.layer / layer_count).clamp(LAYER[0], LAYER[1]) } else { 1.0 };
+        let count = sampled.inside.iter().filter(|(_, outer)| *outer).count();
+        // what is thinner than the lattice has no layer around something
+        let resolved = (1..sampled.inside.len()).contains(&count);
+        let ratio = if resolved { (sampled.layer / count as f64).clamp(LAYER[0], LAYER[1]) } else { 1.0 };
         let ratio = if (ratio - 1.0).abs() < EXACT { 1.0 } else { ratio };
         let per_cell = f64::from(body.particles_per_cell).powi(self.domain.dimension as i32);
         let volume = self.domain.cell_volume() / per_cell;
@@ -189,7 +198,7 @@ impl Scene {
                 let point = std::array::from_fn(|d| center[d] + offset[d] * spacing);
                 let depth = if whole { f64::NEG_INFINITY } else { claim.depth(point) };
                 let outer = depth.abs() < 0.5 * fine * (1.0 - EXACT);
-                if outer {
+                if outer && (depth < 0.0 || !claim.hidden(point)) {
                     sampled.layer += 0.5 - depth / fine;
                 }
                 if depth < 0.0 {

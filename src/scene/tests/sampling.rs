@@ -23,6 +23,15 @@ fn volumes_are_those_of_the_shapes() {
         let volume: f64 = scene.seed_particles().iter().map(|seed| seed.volume).sum();
         assert!((volume / exact - 1.0).abs() < 5e-3, "{volume} {exact}");
     }
+    // what is left beside a body whose surface goes on as its own
+    let half = "intersection = [{ sphere = { center = [0.5, 0.5, 0.5], radius = 0.31 } }, { half_space = { point = [0.5, 0.5, 0.5], normal = [1, 0, 0] } }]";
+    let both = format!("{}{}", body("a", half), body("b", "sphere = { center = [0.5, 0.5, 0.5], radius = 0.31 }"));
+    let scene = parse(&space(&both), &[]);
+    for index in 0..2 {
+        let own = scene.seed_particles().into_iter().filter(|seed| seed.body == index);
+        let volume: f64 = own.map(|seed| seed.volume).sum();
+        assert!((volume / (2.0 / 3.0 * PI * 0.31_f64.powi(3)) - 1.0).abs() < 5e-3, "{index}: {volume}");
+    }
     // aligned with the lattice, every particle has the volume of its point
     let aligned = parse(&space(&body("b", "box = { center = [0.5, 0.5, 0.5], size = [0.5, 0.25, 0.25] }")), &[]);
     assert!(aligned.seed_particles().iter().all(|seed| seed.volume == aligned.domain.cell_volume() / 8.0));
