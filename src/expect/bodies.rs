@@ -124,6 +124,8 @@ fn orthogonal_part(matrix: DMat3, size: f64) -> DMat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::snapshot::ParticleSample;
+    use crate::state::Grid;
 
     fn pairs(map: impl Fn(DVec3) -> DVec3) -> Vec<[DVec3; 2]> {
         let points = (0..60).map(|k| DVec3::new(f64::from(k % 5), f64::from(k / 5 % 4), f64::from(k / 20)));
@@ -139,6 +141,80 @@ mod tests {
         let flat = |x: DVec3| turn_in_plane(x) * DVec3::new(1.0, 1.0, 0.0);
         let plane: Vec<_> = pairs(flat).into_iter().map(|[a, b]| [a * DVec3::new(1.0, 1.0, 0.0), b]).collect();
         assert!(distortion(&plane) < 1e-12);
+    }
+
+    const SCENE: &str = r#"
+title = "two boxes"
+[domain]
+dimension = 2
+cells = [20, 10]
+size = [2.0, 1.0]
+[gas]
+ambient = { density = 1.0, pressure = 1.0 }
+[time]
+until = 1.0
+[materials.rubber]
+neo_hookean = { young_modulus = 100.0, poisson_ratio = 0.3 }
+[[bodies]]
+name = "near"
+material = "rubber"
+density = 1.0
+shape = { box = { center = [0.5, 0.5], size = [0.4, 0.4] } }
+[[bodies]]
+name = "far"
+material = "rubber"
+density = 1.0
+shape = { box = { center = [1.5, 0.5], size = [0.4, 0.4] } }
+[expect]
+bodies = [
+    { body = "near", moved = [0.09, 0.11], moved_x = [0.0, 0.2], moved_y = [-0.01, 0.01], pieces = [1, 1], distortion = [0.0, 1e-6] },
+    { body = "far", moved_x = [-0.21, -0.19], left = [0.4, 0.6], plastic_strain = [0.2, 0.4], center = [1.2, 0.5], tolerance = 0.01 },
+]
+order = [{ quantity = "moved_x", bodies = ["near", "far"] }, { quantity = "moved", bodies = ["near", "far"] }]
+"#;
+
+    /// `near` has moved by 0.1 along x, `far` by -0.2; the right half of it is gone.
+    fn ending(scene: &Scene) -> Snapshot {
+        let sample = |(index, seed): (usize, Seed)| ParticleSample {
+            index: index as u32,
+            position: [(seed.position[0] + [0.1, -0.2][seed.body as usize]) as f32, seed.position[1] as f32, 0.0],
+            velocity: [0.0; 3],
+            vorticity: [0.0; 3],
+            mass: (seed.volume * seed.density) as f32,
+            kinetic_energy: 0.0,
+            volume0: seed.volume as f32,
+            ghost_pressure: 0.0,
+            plastic_strain: 0.3,
+            deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            body: seed.body,
+            material: 0,
+        };
+        let particles = scene.seed_particles().into_iter().enumerate().map(sample);
+        Snapshot {
+            time: 1.0,
+            step: 1,
+            grid: Grid { dimension: 2, cells: [20, 10, 1], origin: [0.0; 3], spacing: 0.1 },
+            gamma: 1.4,
+            kind: Vec::new(),
+            density: Vec::new(),
+            velocity: Vec::new(),
+            pressure: Vec::new(),
+            energy: Vec::new(),
+            particles: particles.filter(|particle| particle.position[0] < 1.3).collect(),
+        }
+    }
+
+    #[test]
+    fn bodies_are_judged_by_what_happened_to_them() {
+        let scene = Scene::parse(SCENE, "test.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+        let mut checks = Checks(Vec::new());
+        checks.bodies(&scene, &ending(&scene));
+        let failed: Vec<&str> =
+            checks.0.iter().filter(|check| !check.passed).map(|check| check.name.as_str()).collect();
+        // what is left of `far` has its centre 0.1 further to the left: 0.3 in all
+        assert_eq!(failed, ["bodies.far.moved_x", "order.moved.near"], "{:?}", checks.0);
+        assert_eq!(checks.0.len(), 11);
+        assert!(checks.0.iter().any(|check| check.name == "bodies.far.center" && check.passed));
     }
 
     fn turn_in_plane(x: DVec3) -> DVec3 {
