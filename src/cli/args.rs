@@ -31,7 +31,7 @@ pub enum Command {
     /// Watch a scene in a live window; without a verb, the gallery of all scenes
     View(ViewOptions),
     /// Check a scene and print cells, particles, memory and every default
-    Check(SceneOptions),
+    Check(CheckOptions),
     /// Measure a scene: a table of stages, then totals per second
     Bench(BenchOptions),
     /// Compare the method with numbers from elsewhere: a table, a page with plots, an exit code
@@ -55,9 +55,15 @@ pub enum Command {
 pub struct SceneOptions {
     /// Scene file, or name of a shipped scene (see `brisance list`)
     pub scene: String,
+    /// Variant of the scene, one of those that `brisance check` lists; may be repeated
+    #[arg(long = "variant", value_name = "NAME")]
+    pub variant: Vec<String>,
     /// Change a key of the scene, for example gas.ambient.density=2; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// Read mesh files outside of the scene's folder, too
+    #[arg(long)]
+    pub allow_outside: bool,
     /// Cells along the longest axis
     #[arg(long, value_name = "CELLS")]
     pub resolution: Option<u32>,
@@ -72,6 +78,17 @@ pub struct ViewOptions {
     /// Run as fast as the device can; otherwise the whole run takes 12 seconds at least
     #[arg(long)]
     pub full_speed: bool,
+}
+
+/// Options of `check`.
+#[derive(Debug, Args)]
+pub struct CheckOptions {
+    /// What to check.
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// Draw the start, as `run` does, and write it here as PNG
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
 }
 
 /// Options of `run`.

@@ -46,7 +46,8 @@ pub(super) fn scenes(as_json: bool) -> Result<()> {
             .iter()
             .map(|(shipped, scene)| {
                 json!({ "name": shipped.name, "path": shipped.path, "title": scene.title,
-                        "dimension": scene.domain.dimension, "cells": scene.domain.cells })
+                        "dimension": scene.domain.dimension, "cells": scene.domain.cells,
+                        "variants": scene.variants.keys().collect::<Vec<_>>() })
             })
             .collect();
         say!("{}", json!({ "scenes": list }));
@@ -54,8 +55,10 @@ pub(super) fn scenes(as_json: bool) -> Result<()> {
     }
     let width = shipped.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
     for (shipped, scene) in &list {
-        say!("{:width$}  {}D  {}", shipped.name, scene.domain.dimension, scene.title);
+        let variants: Vec<&str> = scene.variants.keys().map(String::as_str).collect();
+        let variants = if variants.is_empty() { String::new() } else { format!(" [{}]", variants.join(", ")) };
+        say!("{:width$}  {}D  {}{variants}", shipped.name, scene.domain.dimension, scene.title);
     }
-    say!("\nbrisance run NAME runs one of them.");
+    say!("\nbrisance run NAME runs one of them, --variant one of the variants in brackets.");
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::args::{Cli, RunOptions};
+use super::check::overlap_text;
 use super::interrupt::{self, Wish};
 use super::progress::{Progress, clock};
 use super::writer::{FrameToWrite, Message, Writer, Written};
@@ -85,6 +86,9 @@ impl<'a> Run<'a> {
         let writer = Writer::start(&folder, &scene, formats)?;
         if !options.quiet {
             let cells = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join(" x ");
+            for overlap in scene.overlaps() {
+                eprintln!("warning: {}", overlap_text(&overlap));
+            }
             eprintln!("{}: {cells} cells, {} particles, on {}", scene.title, plan.particles, gpu.info.name);
         }
         let simulation = Simulation::new(gpu, &scene)?;

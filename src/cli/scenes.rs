@@ -4,12 +4,14 @@ use super::args::SceneOptions;
 use crate::Result;
 use crate::scene::Scene;
 
-/// Reads the scene that the options name, with `further` overrides, at the resolution asked for.
+/// Reads the scene that the options name, in the variants asked for, with `further` overrides, at the resolution asked for.
 ///
 /// # Errors
 /// [`crate::Error::Scene`] if there is none of that name or it is wrong.
 pub(super) fn load(options: &SceneOptions, further: &[String]) -> Result<Scene> {
-    let overrides: Vec<String> = options.set.iter().chain(further).cloned().collect();
+    let variants = options.variant.iter().map(|name| format!("variant={name}"));
+    let outside = options.allow_outside.then(|| "allow_outside=true".to_owned());
+    let overrides: Vec<String> = variants.chain(outside).chain(options.set.iter().chain(further).cloned()).collect();
     let scene = Scene::find(&options.scene, &overrides)?;
     match options.resolution {
         Some(cells) => scene.with_resolution(cells),

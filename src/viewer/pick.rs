@@ -51,6 +51,7 @@ mod tests {
 
     fn particle(position: [f32; 3]) -> ParticleSample {
         ParticleSample {
+            index: 0,
             position,
             velocity: [0.0; 3],
             vorticity: [0.0; 3],
