@@ -1,24 +1,30 @@
-//! Embeds the shipped scenes, so that `brisance run sod` works wherever the binary lies. Adding a scene is adding one file.
+//! Embeds the shipped scenes and models, so that `brisance run sod` works wherever the binary lies. Adding one is adding one file.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 fn main() {
-    println!("cargo::rerun-if-changed=scenes");
-    let root = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it")).join("scenes");
+    let mut text = table("scenes", "EMBEDDED", "/// Path below `scenes/` and text of every shipped scene.");
+    text += &table("assets/models", "MODELS", "/// Path below `assets/models/` and text of every shipped shape.");
+    let target = PathBuf::from(std::env::var("OUT_DIR").expect("cargo sets it")).join("scenes.rs");
+    std::fs::write(target, text).expect("cargo's output folder can be written");
+}
+
+/// A constant with path and text of every TOML file below a folder.
+fn table(folder: &str, constant: &str, head: &str) -> String {
+    println!("cargo::rerun-if-changed={folder}");
+    let root = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it")).join(folder);
     let mut files = Vec::new();
     collect(&root, &mut files);
     files.sort();
-    let mut table = String::from("/// Path below `scenes/` and text of every shipped scene.\n");
-    table.push_str("pub(crate) const EMBEDDED: &[(&str, &str)] = &[\n");
+    let mut table = format!("{head}\npub(crate) const {constant}: &[(&str, &str)] = &[\n");
     for file in &files {
         let name = file.strip_prefix(&root).expect("collected below it").to_string_lossy().replace('\\', "/");
         // Writing to a String cannot fail.
         let _ = writeln!(table, "    ({name:?}, include_str!({:?})),", file.display().to_string());
     }
     table.push_str("];\n");
-    let target = PathBuf::from(std::env::var("OUT_DIR").expect("cargo sets it")).join("scenes.rs");
-    std::fs::write(target, table).expect("cargo's output folder can be written");
+    table
 }
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {

@@ -9,6 +9,8 @@
 #include "shared/matrix.wgsl"
 #include "shared/material.wgsl"
 #include "shared/driven.wgsl"
+#include "shared/motion.wgsl"
+#include "shared/trial.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read_write> position: array<vec4f>;
@@ -20,6 +22,8 @@
 @group(0) @binding(8) var<storage, read> ghost: array<f32>;     // vertex change of the ghost pressure in this step
 @group(0) @binding(9) var<storage, read> order: array<u32>;
 @group(0) @binding(10) var<storage, read> cell_start: array<u32>;
+
+fn grid_vector(slot: u32) -> vec3f { return node[slot].xyz; }
 
 // Distance that a particle keeps from a wall side, in cells.
 const WALL_GAP = 1e-3;
@@ -58,71 +62,9 @@ fn keep_inside(x: ptr<function, vec3f>) -> bool {
     return true;
 }
 
-// Velocities of the nodes around a cell: rows of three along x; y is faster than z.
-var<private> rows: array<mat3x3f, 9>;
-
-fn row_at(slot: u32) -> mat3x3f { return mat3x3f(node[slot - 1u].xyz, node[slot].xyz, node[slot + 1u].xyz); }
-
-fn read_rows(slot: u32) {
-    rows[4] = row_at(slot);
-    if DIM > 1u {
-        rows[3] = row_at(slot - params.stride.x);
-        rows[5] = row_at(slot + params.stride.x);
-    }
-    if DIM > 2u {
-        let layer = params.stride.x * params.stride.y;
-        rows[0] = row_at(slot - layer - params.stride.x);
-        rows[1] = row_at(slot - layer);
-        rows[2] = row_at(slot - layer + params.stride.x);
-        rows[6] = row_at(slot + layer - params.stride.x);
-        rows[7] = row_at(slot + layer);
-        rows[8] = row_at(slot + layer + params.stride.x);
-    }
-}
-
-// Sums over nodes: of velocity times weight, and the same with the slope or the moment of one axis in place of its weight.
-struct Motion { velocity: vec3f, gradient: mat3x3f, moment: mat3x3f }
-
-fn layer_motion(low: mat3x3f, middle: mat3x3f, high: mat3x3f, at: Place) -> Motion {
-    var motion: Motion;
-    if DIM == 1u {
-        motion.velocity = middle * at.weight[0];
-        motion.gradient[0] = middle * at.slope[0];
-        motion.moment[0] = middle * at.moment[0];
-        return motion;
-    }
-    let values = mat3x3f(low * at.weight[0], middle * at.weight[0], high * at.weight[0]);
-    motion.velocity = values * at.weight[1];
-    motion.gradient[0] = mat3x3f(low * at.slope[0], middle * at.slope[0], high * at.slope[0]) * at.weight[1];
-    motion.gradient[1] = values * at.slope[1];
-    motion.moment[0] = mat3x3f(low * at.moment[0], middle * at.moment[0], high * at.moment[0]) * at.weight[1];
-    motion.moment[1] = values * at.moment[1];
-    return motion;
-}
-
-fn motion_at(at: Place) -> Motion {
-    let middle = layer_motion(rows[3], rows[4], rows[5], at);
-    if DIM < 3u { return middle; }
-    let low = layer_motion(rows[0], rows[1], rows[2], at);
-    let high = layer_motion(rows[6], rows[7], rows[8], at);
-    let values = mat3x3f(low.velocity, middle.velocity, high.velocity);
-    let w = at.weight[2];
-    var motion: Motion;
-    motion.velocity = values * w;
-    motion.gradient = w.x * low.gradient + w.y * middle.gradient + w.z * high.gradient;
-    motion.gradient[2] = values * at.slope[2];
-    motion.moment = w.x * low.moment + w.y * middle.moment + w.z * high.moment;
-    motion.moment[2] = values * at.moment[2];
-    return motion;
-}
-
 // C = 4 / h^2 sum w v (x_node - x_p)^T. [Jiang et al. 2015]
 fn affine_of(motion: Motion, at: Place) -> mat3x3f {
     return (4.0 / params.spacing) * (motion.moment - outer_product(motion.velocity, at.center));
-}
-
-fn deformation_of(p: u32) -> mat3x3f {
-    return mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
 }
 
 fn store_deformation(p: u32, f: mat3x3f) {
@@ -139,18 +81,6 @@ fn put_at(p: u32, place: vec3f) {
         deformation[3u * p + 1u].w = 0.0;
     }
     position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
-}
-
-// Whether the law of a particle counts: a part that is held bears the stress of the rest at its edge.
-fn strains(p: u32) -> bool { return !is_driven(p) || support_of(p).clamped == 1u; }
-
-// Deformation gradient before plastic flow. What is driven turns with its motion, and strains where the nodes around it do not follow.
-fn trial_deformation(p: u32, gradient: mat3x3f, time: f32) -> mat3x3f {
-    let f = deformation_of(p);
-    if !is_driven(p) { return f + time * gradient * f; }
-    let s = support_of(p);
-    let trial = f + time * (gradient - turning(s.spin)) * f;
-    return mat3x3f(turned(s, trial[0], time), turned(s, trial[1], time), turned(s, trial[2], time));
 }
 
 // Moves a driven particle.

@@ -14,6 +14,7 @@
 @group(0) @binding(4) var<storage, read_write> node: array<vec4f>;
 // Elastic acceleration before the solve, what else accelerates after it; second half, with a shared volume: velocity of the particles.
 @group(0) @binding(5) var<storage, read_write> elastic: array<vec4f>;
+@group(0) @binding(6) var<storage, read> inertia: array<f32>;
 
 // Nodes without mass, and those that are driven, have no forces.
 fn is_free(slot: u32) -> bool { return node[slot].w > 0.0 && !(DRIVEN && has(cells[slot], NODE_DRIVEN)); }
@@ -25,8 +26,8 @@ fn elastic_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     if slot >= params.slots { return; }
     let mass = node[slot].w;
     // A predictor takes the masses of the solve, a step the true ones.
-    let inertia = max(mass, select(0.0, params.mass_floor, SHARED_VOLUME));
-    elastic[slot] = vec4f(select(vec3f(0.0), work[params.slots + slot].xyz / inertia, mass > 0.0), 0.0);
+    let weight = select(mass, inertia[slot], SHARED_VOLUME);
+    elastic[slot] = vec4f(select(vec3f(0.0), work[params.slots + slot].xyz / weight, mass > 0.0), 0.0);
 }
 
 @compute @workgroup_size(WORKGROUP)

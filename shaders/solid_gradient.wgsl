@@ -12,7 +12,7 @@
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
 @group(0) @binding(3) var<storage, read> pressure: array<f32>;
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
-@group(0) @binding(5) var<storage, read> node: array<vec4f>;
+@group(0) @binding(5) var<storage, read> inertia: array<f32>;
 
 // Mean pressure of a face of cell c across axis n.
 fn face_mean(c: vec3i, solid: bool, n: u32, up: bool) -> f32 {
@@ -51,6 +51,6 @@ fn solid_gradient(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let solid = kind_of(cells[slot]) == SOLID;
     var difference = vec3f(0.0);
     for (var n = 0u; n < DIM; n++) { difference[n] = face_mean(c, solid, n, true) - face_mean(c, solid, n, false); }
-    let inverse = select(1.0 / max(node[slot].w, params.mass_floor), 0.0, DRIVEN && has(cells[slot], NODE_DRIVEN));
+    let inverse = select(1.0 / inertia[slot], 0.0, DRIVEN && has(cells[slot], NODE_DRIVEN));
     work[params.slots + slot] = vec4f(difference * face_area() * solid_share(c) * inverse, inverse);
 }

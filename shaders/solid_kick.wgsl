@@ -12,6 +12,7 @@
 @group(0) @binding(4) var<storage, read> pressure: array<f32>;
 @group(0) @binding(5) var<storage, read_write> work: array<vec4f>;  // second half: M^-1 (G Q + H h), then what light nodes leave
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
+@group(0) @binding(8) var<storage, read> inertia: array<f32>;
 @group(0) @binding(7) var<storage, read_write> ghost: array<f32>;   // Q* before, Q - Q* after
 
 @compute @workgroup_size(WORKGROUP)

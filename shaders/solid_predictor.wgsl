@@ -16,6 +16,7 @@
 @group(0) @binding(5) var<storage, read_write> node: array<vec4f>;
 @group(0) @binding(6) var<storage, read_write> work: array<vec4f>;  // first part: film pressure at vertices of walls, per axis across; second: what light nodes leave
 @group(0) @binding(7) var<storage, read> extra: array<u32>;
+@group(0) @binding(9) var<storage, read> inertia: array<f32>;
 
 // How far along the wall the film looks for gas, in cells.
 const FILM_REACH = 16;
@@ -128,7 +129,7 @@ fn film_force(c: vec3i, count: u32) -> vec3f {
 // Velocity that the film gives to a node.
 fn film_kick(slot: u32) -> vec3f {
     let count = select(0u, block_size(), has(cells[slot], NODE_FILM));
-    return -control.dt * film_force(cell_of(slot), count) / max(node[slot].w, params.mass_floor);
+    return -control.dt * film_force(cell_of(slot), count) / inertia[slot];
 }
 
 @compute @workgroup_size(WORKGROUP)

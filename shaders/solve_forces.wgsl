@@ -11,7 +11,7 @@
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
 @group(0) @binding(3) var<storage, read> x: array<f32>;
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
-@group(0) @binding(5) var<storage, read> node: array<vec4f>;
+@group(0) @binding(5) var<storage, read> inertia: array<f32>;
 
 // B2B1 where only gas, or only solid, and the sides of the domain are around: a product of one-dimensional stencils, line by line.
 fn wide_force(slot: u32, c: vec3i, solid: bool) -> vec3f {
@@ -183,6 +183,6 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     work[slot] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass);
     if !SOLIDS || !has(word, NODE_SOLID) { return; }
     for (var turn = 0u; turn < u32(deep); turn++) { forces.solid = wide_force(slot, c, true); }
-    let inverse = select(1.0 / max(node[slot].w, params.mass_floor), 0.0, DRIVEN && has(word, NODE_DRIVEN));
+    let inverse = select(1.0 / inertia[slot], 0.0, DRIVEN && has(word, NODE_DRIVEN));
     work[params.slots + slot] = vec4f(forces.solid * face_area() * inverse, inverse);
 }

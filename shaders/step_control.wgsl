@@ -3,9 +3,7 @@
 #include "shared/params.wgsl"
 #include "shared/control.wgsl"
 #include "shared/extents.wgsl"
-
-struct PcgResult { rho: f32, alpha: f32, beta: f32, reference: f32, tolerance: f32, iterations: u32, max_iterations: u32, outcome: u32,
-    length: u32, listed_wide: u32, listed_high: u32, frontier_wide: u32, frontier_high: u32 }
+#include "shared/pcg_result.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read_write> pcg: PcgResult;
@@ -51,7 +49,7 @@ fn control_solved() {
     if !done { return; }
     control.iterations = select(0u, control.iterations, control.stage > 0u) + pcg.iterations;
     control.residual = select(0.0, sqrt(max(pcg.rho, 0.0) / pcg.reference), pcg.reference > 0.0);
-    control.phase = select(PHASE_SUBSTEP, PHASE_BETWEEN, ARS && control.stage == 0u);
+    control.phase = select(select(PHASE_SUBSTEP, PHASE_ELASTIC, IMPLICIT), PHASE_BETWEEN, ARS && control.stage == 0u);
 }
 
 // After the first of two solves and its updates: opens the second advection and solve.

@@ -136,6 +136,7 @@ mod tests {
 
     fn snapshot(particles: &[(u32, [f32; 3])]) -> Snapshot {
         let sample = |&(body, position): &(u32, [f32; 3])| ParticleSample {
+            index: 0,
             position,
             velocity: [1.0, 0.0, 0.0],
             vorticity: [0.0, 0.0, 4.0],

@@ -49,7 +49,7 @@ pub struct StepRecord {
     pub ghost_energy: f32,
     /// Heat of plastic flow since the start, in the particles that are still there \[J\].
     pub plastic_heat: f32,
-    /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start. What clamped and driven
+    /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start, and the energy of blasts. What clamped and driven
     /// parts give is not in it. Mass is 0.
     pub given: Total,
     /// Conjugate gradient iterations.
@@ -58,6 +58,12 @@ pub struct StepRecord {
     pub residual: f32,
     /// Elastic sub-steps.
     pub substeps: u32,
+    /// Rounds of Newton's method in the implicit elastic step; the last one finds balance.
+    pub rounds: u32,
+    /// Conjugate gradient iterations of all rounds.
+    pub elastic_iterations: u32,
+    /// The same of the longest round.
+    pub longest_round: u32,
     /// Vertices with P, h and Q apart.
     pub extra: u32,
     /// Smallest and largest gas density \[kg m^-3\].
@@ -112,6 +118,9 @@ impl StepRecord {
             plastic_heat: solid_heat[3],
             given: total([0.0, given[0], given[1], given[2]], given[3]),
             solid_speed: solid_speed[0].max(0.0),
+            rounds: solid_speed[1].to_bits(),
+            elastic_iterations: solid_speed[2].to_bits(),
+            longest_round: solid_speed[3].to_bits(),
             ..Self::default()
         }
     }

@@ -1,5 +1,7 @@
 //! What a run conserved, and whether it did what its scene expects: the `[expect]` table against measured values.
 
+mod bodies;
+
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -109,6 +111,8 @@ pub struct Summary {
     pub max_speed: f64,
     /// Cells where the energy floor acted, summed over steps.
     pub floored: u64,
+    /// Largest pressure that each probe has seen in gas \[Pa\].
+    pub probe_pressure: Vec<f64>,
     /// The last step.
     pub last: Option<StepRecord>,
 }
@@ -125,6 +129,7 @@ impl Default for Summary {
             min_pressure: f64::INFINITY,
             max_speed: 0.0,
             floored: 0,
+            probe_pressure: Vec::new(),
             last: None,
         }
     }
@@ -143,6 +148,10 @@ impl Summary {
             self.min_pressure = self.min_pressure.min(record.pressure[0].into());
             self.max_speed = self.max_speed.max(record.gas_speed.max(record.solid_speed).into());
             self.floored += u64::from(record.floored);
+            self.probe_pressure.resize(record.probes.len(), 0.0);
+            for (most, probe) in self.probe_pressure.iter_mut().zip(&record.probes) {
+                *most = most.max(if probe.kind == kind::GAS { probe.pressure.into() } else { 0.0 });
+            }
         }
         if let Some(last) = records.last() {
             self.last = Some(last.clone());
@@ -202,14 +211,19 @@ pub fn evaluate(scene: &Scene, ending: &Ending<'_>) -> Vec<Check> {
     if let Some(limit) = expect.density_l1 {
         checks.at_most("density_l1", density_error(scene, ending.snapshot).unwrap_or(f64::NAN), Some(limit));
     }
-    if let Some([low, high]) = expect.peak_density {
+    if let Some(range) = expect.peak_density {
         let peak = summary.last.as_ref().map_or(f64::NAN, |last| last.density[1].into());
-        checks.add("peak_density", peak, format!("{low} to {high}"), (low..=high).contains(&peak));
+        checks.within("peak_density", peak, range);
     }
     checks.above("min_density", summary.min_density, expect.min_density);
     checks.above("min_pressure", summary.min_pressure, expect.min_pressure);
     checks.at_most("max_iterations", summary.max_iterations.into(), expect.max_iterations.map(f64::from));
     checks.at_most("max_steps", summary.steps as f64, expect.max_steps.map(f64::from));
+    for expected in &expect.probes {
+        let index = scene.probes.iter().position(|probe| probe.name == expected.probe);
+        let seen = index.and_then(|index| summary.probe_pressure.get(index).copied()).unwrap_or(f64::NAN);
+        checks.within(&format!("probes.{}.pressure", expected.probe), seen, expected.pressure);
+    }
     checks.bodies(scene, ending.snapshot);
     checks.0
 }
@@ -248,25 +262,8 @@ impl Checks {
         }
     }
 
-    fn bodies(&mut self, scene: &Scene, snapshot: &Snapshot) {
-        let expect = &scene.expect;
-        if expect.pieces.is_none() && expect.bodies.is_empty() {
-            return;
-        }
-        let bodies = snapshot.bodies(scene.bodies.len());
-        if let Some(fewest) = expect.pieces {
-            let pieces: u32 = bodies.iter().map(|body| body.pieces).sum();
-            self.add("pieces", pieces.into(), format!("at least {fewest}"), pieces >= fewest);
-        }
-        for expected in &expect.bodies {
-            let found = scene.bodies.iter().position(|body| body.name == expected.body);
-            let distance = found.map_or(f64::NAN, |index| {
-                let parts = bodies[index].centroid.iter().zip(&expected.center).map(|(at, goal)| (at - goal).powi(2));
-                parts.sum::<f64>().sqrt()
-            });
-            let name = format!("bodies.{}.center", expected.body);
-            self.at_most(&name, distance, Some(expected.tolerance));
-        }
+    fn within(&mut self, name: &str, measured: f64, [low, high]: [f64; 2]) {
+        self.add(name, measured, format!("{low} to {high}"), (low..=high).contains(&measured));
     }
 }
 

@@ -1,16 +1,22 @@
 //! The step: the whole method on one page, and the run around it.
 
+mod live;
+mod recorded;
+
 use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
 use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, ElasticOrder, FluidUpdate, G2p, GasAdvection, InterfaceStage,
-    IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticOrder, ElasticSolve, FluidUpdate, G2p, GasAdvection,
+    InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals,
+    Transfer,
 };
 use crate::state::constants::{self, NO_FAULT, STAGES};
 use crate::state::{Control, HISTORY, State};
+pub use live::Blast;
+use recorded::Recorded;
 
 /// A running simulation: buffers, stages, clock.
 #[derive(Debug)]
@@ -27,27 +33,26 @@ pub struct Simulation {
     gas_advection: GasAdvection,
     intermediate_pressure: IntermediatePressure,
     elastic_order: Option<ElasticOrder>,
+    elastic_solve: Option<ElasticSolve>,
     coupled_solve: CoupledSolve,
     fluid_update: FluidUpdate,
     mpm_grid_update: Option<MpmGridUpdate>,
     g2p: Option<G2p>,
     odd_even: Option<OddEven>,
     totals: Totals,
+    detonate: Option<Detonate>,
     gamma: f64,
-    /// Momentum and energy that bodies were given from outside since the start.
+    /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
     given: [f64; 4],
     /// Pressure solves per step.
     solves: u32,
     time: f64,
     step: u64,
-    /// Iterations and sub-steps that are recorded per step; a step that needs more goes on in the next recording.
-    recorded: (u32, u32),
+    recorded: Recorded,
 }
 
-/// Iterations recorded in the first steps, before the solver's habit is known.
-const FIRST_ITERATIONS: u32 = 12;
-/// Steps recorded into one submission at most.
-const BATCH: u32 = 16;
+/// Steps per submission at most.
+pub const BATCH: u32 = 16;
 
 impl Simulation {
     /// Builds buffers and kernels for a scene.
@@ -75,18 +80,20 @@ impl Simulation {
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
             elastic_order: ElasticOrder::new(parts, scene)?,
+            elastic_solve: ElasticSolve::new(parts, scene, transfer)?,
             coupled_solve,
             fluid_update: FluidUpdate::new(parts)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
             g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
             odd_even: (scene.numerics.filter > 0.0).then(|| OddEven::new(parts, scene.numerics.filter)).transpose()?,
             totals: Totals::new(parts)?,
+            detonate: None,
             gamma: scene.gas.gamma,
             given: [0.0; 4],
             solves: scene.solves(),
             time: 0.0,
             step: 0,
-            recorded: (FIRST_ITERATIONS, 1),
+            recorded: Recorded::FIRST,
             gpu: gpu.clone(),
             state,
         };
@@ -135,9 +142,7 @@ impl Simulation {
         if let Some(elastic_order) = &self.elastic_order {
             elastic_order.record_after(pass, state);
         }
-        for substep in 0..self.recorded.1 {
-            self.record_substep(pass, substep);
-        }
+        self.record_elastic(pass); // (6) elasticity, walls; (7) grid to particles
         self.time_step.record_finish(pass);
         if let Some(odd_even) = &self.odd_even {
             odd_even.record(pass, state);
@@ -162,7 +167,7 @@ impl Simulation {
             elastic_order.record_before(pass, state, phase);
         }
         self.coupled_solve.record_setup(pass, state, phase);
-        self.coupled_solve.record_iterations(pass, self.recorded.0); // (5) eq. 37
+        self.coupled_solve.record_iterations(pass, self.recorded.iterations); // (5) eq. 37
         self.time_step.record_solved(pass);
         self.coupled_solve.record_solution(pass, state);
         self.fluid_update.record(pass, state, &self.carrier); // eqs. 14 and 3, local gradients
@@ -172,6 +177,22 @@ impl Simulation {
     fn record_held(&self, pass: &mut Pass, phase: &str) {
         if let Some(supports) = &self.supports {
             supports.record_nodes(pass, &self.state, phase);
+        }
+    }
+
+    /// Elasticity: one implicit step, or explicit sub-steps.
+    fn record_elastic(&self, pass: &mut Pass) {
+        if let (Some(elastic_solve), Some(g2p)) = (&self.elastic_solve, &self.g2p) {
+            for _ in 0..self.recorded.rounds {
+                elastic_solve.record_round(pass, &self.state, self.recorded.round_iterations);
+            }
+            self.time_step.record_substep(pass);
+            elastic_solve.record_finish(pass, &self.state);
+            g2p.record(pass, &self.state);
+            return;
+        }
+        for substep in 0..self.recorded.substeps {
+            self.record_substep(pass, substep);
         }
     }
 
@@ -194,9 +215,9 @@ impl Simulation {
             elastic_order.record_substep(pass, state);
         }
         if elastic_order.is_none_or(ElasticOrder::has_substeps) {
-            mpm_grid_update.record(pass, state); // (6) elasticity, walls
+            mpm_grid_update.record(pass, state);
         }
-        g2p.record(pass, state); // (7) grid to particles
+        g2p.record(pass, state);
     }
 
     /// Advances to a time and returns the records of all steps on the way.
@@ -228,8 +249,16 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_batch(&mut self, records: &mut Vec<StepRecord>) -> Result<bool> {
+        self.advance_batch_of(records, BATCH)
+    }
+
+    /// The same with at most `steps` steps, 1 to 16.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    pub fn advance_batch_of(&mut self, records: &mut Vec<StepRecord>, steps: u32) -> Result<bool> {
         let mut pass = Pass::new(&self.gpu, "steps");
-        for _ in 0..BATCH {
+        for _ in 0..steps.clamp(1, BATCH) {
             self.record_step(&mut pass);
             self.totals.record(&mut pass, &self.state);
         }
@@ -265,13 +294,7 @@ impl Simulation {
         if control.fault != NO_FAULT {
             return Err(self.fault(&control));
         }
-        let most = newest.iter().map(|record| (record.iterations, record.substeps));
-        let (iterations, substeps) = most.fold((1, 1), |a, b| (a.0.max(b.0), a.1.max(b.1)));
-        let unfinished = if control.phase == 0 { (0, 0) } else { (self.recorded.0 * 2, self.recorded.1 * 2) };
-        let iterations =
-            (iterations.div_ceil(self.solves) + 2).max(unfinished.0).min(self.state.params.max_iterations + 1);
-        let substeps = substeps.max(unfinished.1).min(self.state.params.max_substeps.max(1));
-        self.recorded = (iterations, if self.state.has_solids() { substeps } else { 1 });
+        self.recorded = self.recorded.next(newest, control.phase != 0, self.solves, &self.state);
         Ok(control.remaining <= 0.0 && control.phase == 0)
     }
 
@@ -331,7 +354,7 @@ impl Simulation {
         std::array::from_fn(|axis| at[axis] as i32 - padding[axis] as i32)
     }
 
-    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies since the start.
+    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies, and blasts to gas, since the start.
     #[must_use]
     pub fn given(&self) -> [f64; 4] {
         self.given

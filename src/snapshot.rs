@@ -48,6 +48,8 @@ pub struct Snapshot {
 /// One particle of a solid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParticleSample {
+    /// Number among the particles of the start, [`crate::scene::Scene::seed_particles`].
+    pub index: u32,
     /// Position \[m\].
     pub position: [f32; 3],
     /// Velocity \[m s^-1\].
@@ -120,6 +122,7 @@ fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
     let axes = state.grid.dimension as usize;
     let xyz = |v: [f32; 4]| [v[0], v[1], v[2]];
     let sample = |p: usize| ParticleSample {
+        index: p as u32,
         position: xyz(position[p]),
         velocity: xyz(velocity[p]),
         vorticity: {

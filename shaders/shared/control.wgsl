@@ -5,7 +5,7 @@ struct Control {
     duration: f32,              // [s] current step: dt, or with ARS the span of both its solves
     dt_previous: f32,           // [s] the step before
     remaining: f32,             // [s] to the time the host asked for
-    phase: u32,                 // PHASE_IDLE, PHASE_SOLVE, PHASE_BETWEEN, PHASE_SUBSTEP
+    phase: u32,                 // PHASE_IDLE, PHASE_SOLVE, PHASE_BETWEEN, PHASE_SUBSTEP, PHASE_ELASTIC
     substeps: u32,              // elastic sub-steps of this step
     substep: u32,               // next one to run
     stage: u32,                 // solves of this step that are done
@@ -23,6 +23,13 @@ struct Control {
     frontier: u32,              // INTERIOR slots whose nodes listed vertices rest on
     time: f32,                  // [s] at the start of the step
     time_error: f32,            // [s] what rounding has taken from it so far
+    rounds: u32,                // of Newton's method in the elastic solve, this step
+    round_open: u32,            // 1 while the linear system of a round is being solved
+    newly_held: atomic<u32>,    // nodes that a wall has begun to stop in this round
+    elastic_iterations: u32,    // of all rounds, this step
+    longest_round: u32,         // iterations of the longest one
+    imbalance: f32,             // r . D^-1 r at the start of this round
+    imbalance_before: f32,      // and of the one before
 }
 
 // True for NaN and infinities; comparisons alone do not find a NaN on every driver.

@@ -3,7 +3,7 @@
 
 fn stops_at(side: u32) -> bool { return ((params.wall_sides >> side) & 1u) == 1u; }
 
-fn velocity_at_wall(c: vec3i, v: vec3f) -> vec3f {
+fn stopped_at_wall(c: vec3i, v: vec3f) -> vec3f {
     var out = v;
     let slot = slot_of(c);
     let here = kind_of(cells[slot]) == WALL;
@@ -18,8 +18,21 @@ fn velocity_at_wall(c: vec3i, v: vec3f) -> vec3f {
             if kind_of(cells[slot - step_of(a)]) == WALL { out[a] = max(out[a], 0.0); }
         }
     }
-    if FRICTION && kind_of(cells[slot]) == WALL { return rubbed(v, out, friction_of(cells[slot])); }
     return out;
+}
+
+fn velocity_at_wall(c: vec3i, v: vec3f) -> vec3f {
+    let out = stopped_at_wall(c, v);
+    let word = cells[slot_of(c)];
+    if FRICTION && kind_of(word) == WALL { return rubbed(v, out, friction_of(word)); }
+    return out;
+}
+
+// Components of a velocity that a wall stops; all of them where a body sticks.
+fn held_at_wall(c: vec3i, v: vec3f) -> vec3<bool> {
+    let word = cells[slot_of(c)];
+    if FRICTION && kind_of(word) == WALL && friction_of(word) >= 0.5 * STICK { return vec3<bool>(true); }
+    return stopped_at_wall(c, v) != v;
 }
 
 // `v` before and `stopped` after the wall. [Coulomb]

@@ -1,5 +1,5 @@
 // Solid nodes lighter than the mass floor of the solve take less momentum than they are given. What is left goes to the nodes around
-// them, by mass, so that momentum is kept. Needs `node`.
+// them, by mass, so that momentum is kept. Needs the bindings node and inertia.
 #include "shared/index.wgsl"
 
 // Whether the arrays hold a node: those of the domain and of its ring.
@@ -7,7 +7,7 @@ fn is_stored(c: vec3i) -> bool { return all(c >= -reach()) && all(c < vec3i(para
 
 // Mass that a node lacks, over that of the nodes around it with its own.
 fn share_left(slot: u32) -> f32 {
-    let missing = params.mass_floor - node[slot].w;
+    let missing = inertia[slot] - node[slot].w;
     var mass = 0.0;
     for (var k = 0u; k < select(0u, block_size(), missing > 0.0); k++) {
         let near = cell_of(slot) + block_offset(k);

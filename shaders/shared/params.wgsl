@@ -9,11 +9,11 @@ override CONSISTENT: bool;      // gas is carried by what the solve sees of its 
 override CUT: bool;             // obstacles cut cells; gas only, B1B0
 override ARS: bool;             // two solves per step, ARS(2,2,2)
 override LIMITER: bool;         // conservative flux limiter for positivity
-override BLENDING: bool;        // blocked fraction of partly filled cells
 override LEDGER: bool;          // gas of covered cells is kept and given back
 override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed
 override FRICTION: bool;        // some body does not slip
 override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity
+override IMPLICIT: bool;        // one elastic step by backward Euler instead of explicit sub-steps
 override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's volumetric part, which the law then lacks
 override PERIODIC: u32;          // axes whose ends meet, as bits
 override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
@@ -36,7 +36,7 @@ struct Params {
     fixed_step: f32,            // [s] 0 = from the bounds
     elastic_cfl: f32,
     solid_threshold: f32,       // share of a cell that makes it solid
-    mass_floor: f32,            // [kg] least node mass that the pressure solve sees
+    mass_floor: f32,            // [kg] least node mass that the pressure solve sees, of the heaviest body
     tolerance: f32,             // of the solve, relative
     extra_capacity: u32,        // vertices that may carry P, h and Q apart
     max_iterations: u32,
@@ -48,6 +48,7 @@ struct Params {
     groups: u32,                // groups that leave partial results
     march: u32,                 // slots that one thread of a marching kernel takes, along the last axis
     wall_sides: u32,            // sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
+    blending: u32,              // 1: faces of partly filled cells are blocked by their share
     scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 

@@ -8,13 +8,13 @@ use crate::gpu::Detail;
 
 /// Compressible gas, shock waves and the solids they bend, tear and shatter.
 #[derive(Debug, Parser)]
-#[command(name = "brisance", version, arg_required_else_help = true, subcommand_required = true)]
+#[command(name = "brisance", version)]
 #[command(after_help = "Exit codes: 0 done, 1 internal, 2 usage, 3 scene, 4 no device, 5 does not fit, 7 diverged, \
                         8 expectation or gate failed, 9 disk, 75 device lost, 130 interrupted")]
 pub struct Cli {
-    /// What to do.
+    /// What to do; without a verb the gallery of scenes opens.
     #[command(subcommand)]
-    pub command: Command,
+    pub command: Option<Command>,
     /// Print one JSON object on standard output
     #[arg(long, global = true)]
     pub json: bool,
@@ -28,8 +28,10 @@ pub struct Cli {
 pub enum Command {
     /// Run a scene: pictures, tables and a report
     Run(RunOptions),
+    /// Watch a scene in a live window; without a verb, the gallery of all scenes
+    View(ViewOptions),
     /// Check a scene and print cells, particles, memory and every default
-    Check(SceneOptions),
+    Check(CheckOptions),
     /// Measure a scene: a table of stages, then totals per second
     Bench(BenchOptions),
     /// Compare the method with numbers from elsewhere: a table, a page with plots, an exit code
@@ -53,12 +55,40 @@ pub enum Command {
 pub struct SceneOptions {
     /// Scene file, or name of a shipped scene (see `brisance list`)
     pub scene: String,
+    /// Variant of the scene, one of those that `brisance check` lists; may be repeated
+    #[arg(long = "variant", value_name = "NAME")]
+    pub variant: Vec<String>,
     /// Change a key of the scene, for example gas.ambient.density=2; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// Read mesh files outside of the scene's folder, too
+    #[arg(long)]
+    pub allow_outside: bool,
     /// Cells along the longest axis
     #[arg(long, value_name = "CELLS")]
     pub resolution: Option<u32>,
+}
+
+/// Options of `view`.
+#[derive(Debug, Args)]
+pub struct ViewOptions {
+    /// What to watch.
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// Run as fast as the device can; otherwise the whole run takes 12 seconds at least
+    #[arg(long)]
+    pub full_speed: bool,
+}
+
+/// Options of `check`.
+#[derive(Debug, Args)]
+pub struct CheckOptions {
+    /// What to check.
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// Draw the start, as `run` does, and write it here as PNG
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
 }
 
 /// Options of `run`.

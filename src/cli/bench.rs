@@ -6,13 +6,14 @@ use serde::Serialize;
 
 use super::args::{BenchOptions, Cli};
 use super::check::size;
-use super::{interrupt, open_device, plan_for, scenes};
+use super::{interrupt, open_device, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::Summary;
 use crate::gpu::Detail;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::stage::traffic::{self, Load};
+use crate::state::MemoryPlan;
 use crate::state::memory::resolutions;
 use crate::{Error, Result};
 
@@ -65,7 +66,7 @@ pub(super) fn bench(options: &BenchOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let scene = load(options)?;
     let gpu = open_device(cli)?;
-    let plan = plan_for(&scene, &gpu)?;
+    let plan = MemoryPlan::fitting(&scene, &gpu)?;
     let mut simulation = Simulation::new(&gpu, &scene)?;
     simulation.set_target(NEVER)?;
     run_steps(&mut simulation, options.warmup)?;

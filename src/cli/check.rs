@@ -1,9 +1,16 @@
 //! `check`: what a scene is and needs, without running it.
 
+use std::path::Path;
+
 use serde_json::json;
 
-use super::args::{Cli, SceneOptions};
-use super::{check_fit, open_device, scenes};
+use super::args::{CheckOptions, Cli};
+use super::{open_device, scenes};
+use crate::export::png;
+use crate::gpu::Gpu;
+use crate::render::{Renderer, SceneBuffers};
+use crate::scene::{Overlap, Scene};
+use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
 
@@ -12,28 +19,40 @@ use crate::{Error, Result};
 ///
 /// # Errors
 /// [`Error::Scene`] with every mistake, [`Error::DoesNotFit`].
-pub(super) fn check(options: &SceneOptions, cli: &Cli) -> Result<()> {
-    let scene = scenes::load(options, &[])?;
+pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
+    let scene = scenes::load(&options.scene, &[])?;
     let plan = MemoryPlan::new(&scene, scene.particle_count());
-    if cli.device.is_some() {
-        check_fit(&plan, &scene, &open_device(cli)?)?;
+    if cli.device.is_some() || options.picture.is_some() {
+        let gpu = open_device(cli)?;
+        plan.check_device(&scene, &gpu)?;
+        if let Some(path) = &options.picture {
+            draw_start(&gpu, &scene, path)?;
+        }
     }
+    let overlaps = scene.overlaps();
     if cli.json {
         let groups: serde_json::Map<_, _> =
             plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes.into())).collect();
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "scene": scene });
+            "memory": memory, "overlaps": overlaps, "scene": scene });
         say!("{object}");
         return Ok(());
     }
-    let resolved = toml::to_string(&scene).map_err(|error| Error::Scene(format!("{}: {error}", options.scene)))?;
+    let resolved =
+        toml::to_string(&scene).map_err(|error| Error::Scene(format!("{}: {error}", options.scene.scene)))?;
     let domain = &scene.domain;
     let cells = domain.cells.map(|n| n.to_string())[..domain.axes()].join(" x ");
     say!("# {}\n#", scene.title);
     say!("# cells      {cells} = {} of edge {} m", plan.cells, domain.spacing());
     say!("# particles  {}", plan.particles);
+    for overlap in &overlaps {
+        say!("# overlap    {}", overlap_text(overlap));
+    }
+    if !scene.variants.is_empty() {
+        say!("# variants   {}", scene.variants.keys().cloned().collect::<Vec<_>>().join(", "));
+    }
     say!("# memory     {}", size(plan.bytes(None)));
     for (group, bytes) in plan.groups() {
         say!("#   {group:10} {}", size(bytes));
@@ -44,6 +63,22 @@ pub(super) fn check(options: &SceneOptions, cli: &Cli) -> Result<()> {
     }
     say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
     Ok(())
+}
+
+/// An overlap for people.
+pub(super) fn overlap_text(overlap: &Overlap) -> String {
+    let Overlap { body, by, share } = overlap;
+    format!("`{body}` gives {:.2} % of its shape to `{by}`, which comes first", 100.0 * share)
+}
+
+/// Writes the picture that a run would begin with.
+fn draw_start(gpu: &Gpu, scene: &Scene, path: &Path) -> Result<()> {
+    let simulation = Simulation::new(gpu, scene)?;
+    let mut renderer = Renderer::new(gpu, scene, &SceneBuffers::of(&simulation.state))?;
+    match renderer.render(0.0)?.first() {
+        Some(picture) => png::write(path, &picture.frame, &[("Title", scene.title.clone())]),
+        None => Ok(()),
+    }
 }
 
 /// Bytes for people.

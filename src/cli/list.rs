@@ -2,9 +2,8 @@
 
 use serde_json::json;
 
-use super::scenes;
 use crate::gpu::Gpu;
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 use crate::{Error, Result};
 
 /// Prints the devices, best first.
@@ -36,7 +35,7 @@ pub(super) fn devices(as_json: bool) -> Result<()> {
 /// # Errors
 /// [`Error::Scene`] if one of them is wrong.
 pub(super) fn scenes(as_json: bool) -> Result<()> {
-    let shipped = scenes::shipped();
+    let shipped = scene::shipped();
     let mut list = Vec::new();
     for scene in &shipped {
         let read = Scene::parse(&scene.text, &scene.path, &[]).map_err(|error| Error::Scene(error.to_string()))?;
@@ -47,7 +46,8 @@ pub(super) fn scenes(as_json: bool) -> Result<()> {
             .iter()
             .map(|(shipped, scene)| {
                 json!({ "name": shipped.name, "path": shipped.path, "title": scene.title,
-                        "dimension": scene.domain.dimension, "cells": scene.domain.cells })
+                        "dimension": scene.domain.dimension, "cells": scene.domain.cells,
+                        "variants": scene.variants.keys().collect::<Vec<_>>() })
             })
             .collect();
         say!("{}", json!({ "scenes": list }));
@@ -55,8 +55,10 @@ pub(super) fn scenes(as_json: bool) -> Result<()> {
     }
     let width = shipped.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
     for (shipped, scene) in &list {
-        say!("{:width$}  {}D  {}", shipped.name, scene.domain.dimension, scene.title);
+        let variants: Vec<&str> = scene.variants.keys().map(String::as_str).collect();
+        let variants = if variants.is_empty() { String::new() } else { format!(" [{}]", variants.join(", ")) };
+        say!("{:width$}  {}D  {}{variants}", shipped.name, scene.domain.dimension, scene.title);
     }
-    say!("\nbrisance run NAME runs one of them.");
+    say!("\nbrisance run NAME runs one of them, --variant one of the variants in brackets.");
     Ok(())
 }

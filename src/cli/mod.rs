@@ -20,6 +20,7 @@ mod run;
 mod scenes;
 mod tables;
 mod verify;
+mod view;
 mod writer;
 
 pub use args::{Cli, Command};
@@ -97,7 +98,9 @@ fn kind(error: &Error) -> &'static str {
 }
 
 fn execute(cli: &Cli) -> Result<()> {
-    match &cli.command {
+    let Some(command) = &cli.command else { return gallery(cli) };
+    match command {
+        Command::View(options) => view::view(Some(options), cli),
         Command::Run(options) => run::run(options, cli),
         Command::Check(options) => check::check(options, cli),
         Command::Bench(options) => bench::bench(options, cli),
@@ -117,6 +120,15 @@ fn execute(cli: &Cli) -> Result<()> {
     }
 }
 
+/// Without a verb: the gallery, or the help where there is no window.
+fn gallery(cli: &Cli) -> Result<()> {
+    view::view(None, cli).inspect_err(|error| {
+        if matches!(error, Error::Usage(_)) && !cli.json {
+            eprintln!("{}", Cli::command().render_help());
+        }
+    })
+}
+
 /// Opens the device that the command line names; a processor in the role of a GPU is announced.
 fn open_device(cli: &Cli) -> Result<Gpu> {
     let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })?;
@@ -127,27 +139,4 @@ fn open_device(cli: &Cli) -> Result<Gpu> {
         );
     }
     Ok(gpu)
-}
-
-/// Bytes of main memory that are free, where the system says so; a software device takes its memory there.
-fn free_memory() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kibibytes: u64 = line.trim().trim_end_matches("kB").trim().parse().ok()?;
-    Some(1024 * kibibytes)
-}
-
-/// Compares a plan with the device, before anything is allocated.
-fn check_fit(plan: &crate::state::MemoryPlan, scene: &crate::scene::Scene, gpu: &Gpu) -> Result<()> {
-    let per_buffer = gpu.limits.max_storage_buffer_binding_size.min(gpu.limits.max_buffer_size);
-    let together = if gpu.is_software() { free_memory() } else { None };
-    plan.check(scene, &gpu.info.name, per_buffer, together)
-}
-
-/// Counts particles and plans memory; the gas alone is checked first, because seeding a hopeless scene takes memory too.
-fn plan_for(scene: &crate::scene::Scene, gpu: &Gpu) -> Result<crate::state::MemoryPlan> {
-    check_fit(&crate::state::MemoryPlan::new(scene, 0), scene, gpu)?;
-    let plan = crate::state::MemoryPlan::new(scene, scene.particle_count());
-    check_fit(&plan, scene, gpu)?;
-    Ok(plan)
 }

@@ -5,16 +5,17 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::args::{Cli, RunOptions};
+use super::check::overlap_text;
 use super::interrupt::{self, Wish};
 use super::progress::{Progress, clock};
 use super::writer::{FrameToWrite, Message, Writer, Written};
-use super::{folder, open_device, plan_for, scenes};
+use super::{folder, open_device, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Check, Ending, Summary};
 use crate::export::report::{self, DeviceReport, Report};
 use crate::gpu::Gpu;
 use crate::render::{Renderer, SceneBuffers};
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 use crate::simulation::Simulation;
 use crate::snapshot::Snapshot;
 use crate::state::MemoryPlan;
@@ -29,8 +30,8 @@ pub(super) fn run(options: &RunOptions, cli: &Cli) -> Result<()> {
     let start = Instant::now();
     let scene = scenes::load(&options.scene, &overrides(options))?;
     let gpu = open_device(cli)?;
-    let plan = plan_for(&scene, &gpu)?;
-    let folder = options.out.clone().unwrap_or_else(|| Path::new("out").join(scenes::stem(&options.scene.scene)));
+    let plan = MemoryPlan::fitting(&scene, &gpu)?;
+    let folder = options.out.clone().unwrap_or_else(|| Path::new("out").join(scene::stem(&options.scene.scene)));
     let mut run = Run::prepare(options, scene, &gpu, &plan, folder, start)?;
     let outcome = run.frames();
     run.finish(outcome, cli.json)
@@ -85,6 +86,9 @@ impl<'a> Run<'a> {
         let writer = Writer::start(&folder, &scene, formats)?;
         if !options.quiet {
             let cells = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join(" x ");
+            for overlap in scene.overlaps() {
+                eprintln!("warning: {}", overlap_text(&overlap));
+            }
             eprintln!("{}: {cells} cells, {} particles, on {}", scene.title, plan.particles, gpu.info.name);
         }
         let simulation = Simulation::new(gpu, &scene)?;

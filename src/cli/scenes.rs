@@ -1,89 +1,20 @@
-//! Finding scenes: files, and the shipped ones by name.
-
-use std::path::Path;
+//! The scene that the command line names.
 
 use super::args::SceneOptions;
-use crate::scene::{self, Scene};
-use crate::{Error, Result};
+use crate::Result;
+use crate::scene::Scene;
 
-/// A shipped scene.
-#[derive(Clone, Debug)]
-pub(super) struct Shipped {
-    /// Name without folder and extension.
-    pub(super) name: String,
-    /// Path below `scenes/`.
-    pub(super) path: String,
-    /// Its text.
-    pub(super) text: String,
-}
-
-impl Shipped {
-    fn new(path: &str, text: &str) -> Self {
-        Self { name: stem(path), path: path.to_owned(), text: text.to_owned() }
-    }
-
-    /// Whether a user means this one: `sod`, `gas/sod` or `scenes/gas/sod.toml`.
-    fn is_called(&self, name: &str) -> bool {
-        let name = name.strip_prefix("scenes/").unwrap_or(name);
-        name == self.name || name == self.path || Some(name) == self.path.strip_suffix(".toml")
-    }
-}
-
-/// File name without folder and extension.
-pub(super) fn stem(path: &str) -> String {
-    Path::new(path).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
-}
-
-/// The shipped scenes: those in the folder `scenes` where there is one, otherwise those that the program carries.
-pub(super) fn shipped() -> Vec<Shipped> {
-    let mut found = Vec::new();
-    collect(Path::new("scenes"), &mut found);
-    if found.is_empty() {
-        found = scene::EMBEDDED.iter().map(|(path, text)| Shipped::new(path, text)).collect();
-    }
-    found.sort_by(|a, b| a.path.cmp(&b.path));
-    found
-}
-
-fn collect(folder: &Path, found: &mut Vec<Shipped>) {
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        if path.is_dir() {
-            collect(&path, found);
-        } else if let (true, Ok(text)) =
-            (path.extension().is_some_and(|end| end == "toml"), std::fs::read_to_string(&path))
-        {
-            let below = path.strip_prefix("scenes").unwrap_or(&path);
-            found.push(Shipped::new(&below.to_string_lossy().replace('\\', "/"), &text));
-        }
-    }
-}
-
-/// Reads the scene that the options name, with `further` overrides, at the resolution asked for.
+/// Reads the scene that the options name, in the variants asked for, with `further` overrides, at the resolution asked for.
 ///
 /// # Errors
-/// [`Error::Scene`] if there is none of that name or it is wrong.
+/// [`crate::Error::Scene`] if there is none of that name or it is wrong.
 pub(super) fn load(options: &SceneOptions, further: &[String]) -> Result<Scene> {
-    let overrides: Vec<String> = options.set.iter().chain(further).cloned().collect();
-    let scene = read(&options.scene, &overrides)?;
+    let variants = options.variant.iter().map(|name| format!("variant={name}"));
+    let outside = options.allow_outside.then(|| "allow_outside=true".to_owned());
+    let overrides: Vec<String> = variants.chain(outside).chain(options.set.iter().chain(further).cloned()).collect();
+    let scene = Scene::find(&options.scene, &overrides)?;
     match options.resolution {
         Some(cells) => scene.with_resolution(cells),
         None => Ok(scene),
     }
-}
-
-fn read(name: &str, overrides: &[String]) -> Result<Scene> {
-    if Path::new(name).is_file() {
-        return Scene::load(name, overrides);
-    }
-    let shipped = shipped();
-    match shipped.iter().find(|scene| scene.is_called(name)) {
-        Some(scene) => Scene::parse(&scene.text, &format!("scenes/{}", scene.path), overrides),
-        None => Err(unknown(name, &shipped)),
-    }
-}
-
-fn unknown(name: &str, shipped: &[Shipped]) -> Error {
-    let names: Vec<&str> = shipped.iter().map(|scene| scene.name.as_str()).collect();
-    Error::Scene(format!("no file `{name}` and no shipped scene of that name; there are: {}", names.join(", ")))
 }

@@ -112,6 +112,12 @@ pub enum Width {
 }
 
 impl Pcg {
+    /// Changes the relative tolerance, from the next solve on.
+    pub fn set_tolerance(&self, gpu: &Gpu, tolerance: f32) {
+        let place = std::mem::offset_of!(PcgControl, tolerance) as u64;
+        gpu.queue.write_buffer(self.control.raw(), place, &tolerance.to_ne_bytes());
+    }
+
     /// Prepares a system of `length` unknowns whose operator runs one thread per slot of `slots`, with
     /// `groups` groups in the kernels that leave partial sums.
     ///

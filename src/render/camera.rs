@@ -1,6 +1,6 @@
 //! Where the eye is: cameras, and the rays through pixels.
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use crate::scene::Camera;
 use crate::state::Grid;
@@ -40,16 +40,18 @@ impl Eye {
         Self { position, forward, up: right.cross(forward), parallel: camera.height.is_some(), half_height }
     }
 
-    /// Straight onto a plane domain, all of it in the picture.
-    pub(super) fn onto_plane(grid: &Grid) -> Self {
+    /// Straight onto a plane domain: all of it in the picture, or what a camera shows of it around its target.
+    pub(super) fn onto_plane(grid: &Grid, camera: Option<&Camera>) -> Self {
         let extent = Vec3::from(grid.extent());
-        Self {
-            position: middle_of(grid) - extent.max_element() * Vec3::NEG_Z,
-            forward: Vec3::NEG_Z,
-            up: Vec3::Y,
-            parallel: true,
-            half_height: 0.5 * extent.y,
+        let (mut middle, mut half_height) = (middle_of(grid), 0.5 * extent.y);
+        if let Some(camera) = camera {
+            let distance = DVec3::from(camera.eye).distance(camera.target.into());
+            let seen = distance * (0.5 * camera.fov_degrees).to_radians().tan();
+            half_height = camera.height.map_or(seen, |height| 0.5 * height) as f32;
+            (middle.x, middle.y) = (camera.target[0] as f32, camera.target[1] as f32);
         }
+        let position = middle - extent.max_element() * Vec3::NEG_Z;
+        Self { position, forward: Vec3::NEG_Z, up: Vec3::Y, parallel: true, half_height }
     }
 
     /// The ray through a place of a picture of `size` pixels, in pixels from the top left corner.
@@ -114,26 +116,36 @@ mod tests {
             Camera { eye: [2.0, -3.0, 1.5], target: [0.5; 3], up: [0.0, 0.0, 1.0], fov_degrees: 30.0, height: None };
         let (eye, size) = (Eye::of_camera(&camera), Vec2::new(640.0, 360.0));
         let middle = eye.ray(size, 0.5 * size);
-        let towards = glam::DVec3::from(camera.target) - glam::DVec3::from(camera.eye);
-        assert!(glam::DVec3::from(middle.direction).distance(towards.normalize()) < 1e-6, "{middle:?}");
+        let towards = DVec3::from(camera.target) - DVec3::from(camera.eye);
+        assert!(DVec3::from(middle.direction).distance(towards.normalize()) < 1e-6, "{middle:?}");
         // the upper edge of the picture is half the opening angle away from the middle
         let top = eye.ray(size, Vec2::new(320.0, 0.0));
-        let angle = glam::DVec3::from(top.direction).angle_between(middle.direction.into()).to_degrees();
+        let angle = DVec3::from(top.direction).angle_between(middle.direction.into()).to_degrees();
         assert!((angle - 15.0).abs() < 1e-4 && top.direction[2] > middle.direction[2], "{angle} {top:?}");
         // parallel rays: one direction, and the edge is half the height away
         camera.height = Some(2.0);
         let eye = Eye::of_camera(&camera);
         let (middle, top) = (eye.ray(size, 0.5 * size), eye.ray(size, Vec2::new(320.0, 0.0)));
         assert_eq!(middle.direction, top.direction);
-        let apart = glam::DVec3::from(middle.origin).distance(top.origin.into());
+        let apart = DVec3::from(middle.origin).distance(top.origin.into());
         assert!((apart - 1.0).abs() < 1e-6, "{apart}");
     }
 
     #[test]
     fn the_plane_fills_its_picture() {
         let grid = Grid { dimension: 2, cells: [8, 4, 1], origin: [1.0, 2.0, 0.0], spacing: 0.5 };
-        let corner = Eye::onto_plane(&grid).ray(Vec2::new(80.0, 40.0), Vec2::ZERO);
+        let corner = Eye::onto_plane(&grid, None).ray(Vec2::new(80.0, 40.0), Vec2::ZERO);
         assert_eq!(corner.origin[..2], [1.0, 4.0]);
         assert_eq!(corner.direction, [0.0, 0.0, -1.0]);
+        // 90 degrees from one quarter of a metre away: half a metre of height around the target
+        let camera = Camera {
+            eye: [2.0, 3.5, 0.25],
+            target: [2.0, 3.5, 0.0],
+            up: [0.0, 1.0, 0.0],
+            fov_degrees: 90.0,
+            height: None,
+        };
+        let corner = Eye::onto_plane(&grid, Some(&camera)).ray(Vec2::new(80.0, 40.0), Vec2::ZERO);
+        assert!((corner.origin[0] - 1.5).abs() < 1e-6 && (corner.origin[1] - 3.75).abs() < 1e-6, "{corner:?}");
     }
 }

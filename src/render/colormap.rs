@@ -40,6 +40,13 @@ pub(crate) fn table(colormap: Colormap, field: Field, dimension: u32) -> Vec<Vec
         .collect()
 }
 
+/// Colours of a map from its low to its high end, sRGB, `count` of them, for menus and editors.
+#[must_use]
+pub fn colors(colormap: Colormap, count: usize) -> Vec<[u8; 3]> {
+    let table = table(colormap, Field::Density, 3);
+    (0..count).map(|index| lookup(&table, (index as f32 + 0.5) / count as f32)).collect()
+}
+
 /// The colour at `fraction` of a table, rounded to 8 bits.
 pub(crate) fn lookup(table: &[Vec3], fraction: f32) -> [u8; 3] {
     let last = (table.len() - 1) as f32;

@@ -26,6 +26,7 @@ mod view;
 
 pub use buffers::{ParticleBuffers, SceneBuffers};
 pub use camera::Ray;
+pub use colormap::colors;
 pub use frame::{Frame, Picture};
 pub use kernels::constants as shader_constants;
 pub use quantity::{caption, particle_caption};
@@ -173,7 +174,11 @@ impl Renderer {
 
     fn eye(&self, look: &RenderSettings) -> Eye {
         let grid = &self.sources.grid;
-        if grid.dimension == 3 { Eye::of_camera(&self.camera(look)) } else { Eye::onto_plane(grid) }
+        if grid.dimension == 3 {
+            Eye::of_camera(&self.camera(look))
+        } else {
+            Eye::onto_plane(grid, look.camera.as_ref())
+        }
     }
 
     /// Everything about a picture but what depends on the field.

@@ -136,6 +136,7 @@ impl View {
     /// Grid, camera, light and places of a picture of `size` pixels; what depends on field and range is set later.
     pub(super) fn new(scene: &Scene, grid: &Grid, eye: &Eye, look: &RenderSettings, size: [u32; 2]) -> Self {
         let supersampling = look.supersampling.clamp(1, 4);
+        let magnified = if eye.parallel { 0.5 * grid.extent()[1] / eye.half_height } else { 1.0 };
         let mut view = Self {
             cells: grid.cells,
             dimension: grid.dimension,
@@ -153,7 +154,7 @@ impl View {
             samples: if supersampling > 1 { 1 } else { 2 },
             supersampling,
             // Interpolation would hide the cells of a coarse grid and invent detail.
-            squares: u32::from(size[0] >= 4 * grid.cells[0]),
+            squares: u32::from(size[0] as f32 * magnified >= 4.0 * grid.cells[0] as f32),
             low: 0.0,
             high: 1.0,
             contrast: 1.0,

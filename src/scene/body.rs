@@ -29,6 +29,9 @@ pub struct Body {
     /// Particles per cell along each axis, 1 to 8; 4 in 1D and 2 otherwise when left out.
     #[serde(default, deserialize_with = "particle_count")]
     pub particles_per_cell: u32,
+    /// Where particles lie within the lattice.
+    #[serde(default)]
+    pub sampling: Sampling,
     /// What holds it back along walls and obstacles.
     #[serde(default)]
     pub friction: Friction,
@@ -46,6 +49,17 @@ fn particle_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::
         0 => Err(serde::de::Error::custom("particles_per_cell is 0; it counts particles along one axis, 1 to 8")),
         count => Ok(count),
     }
+}
+
+/// Where the particles of a body lie at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Sampling {
+    /// On the points of a regular lattice.
+    #[default]
+    Regular,
+    /// At random, up to a quarter of the lattice's spacing beside its points.
+    Jittered,
 }
 
 /// What walls and obstacles do to a body that touches them.

@@ -215,16 +215,8 @@ impl Check<'_> {
 
     fn geometry(&mut self) {
         let scene = self.scene;
-        let regions =
-            scene.gas.regions.iter().enumerate().map(|(i, region)| (format!("gas.regions[{i}].shape"), &region.shape));
-        let bodies = scene.bodies.iter().enumerate().map(|(i, body)| (format!("bodies[{i}].shape"), &body.shape));
-        let waves = scene.gas.waves.iter().enumerate();
-        let waves = waves.filter_map(|(i, wave)| Some((format!("gas.waves[{i}].shape"), wave.shape.as_ref()?)));
-        let obstacles =
-            scene.obstacles.iter().enumerate().map(|(i, obstacle)| (format!("obstacles[{i}].shape"), &obstacle.shape));
-        let clamped = scene.bodies.iter().enumerate();
-        let clamped = clamped.filter_map(|(i, body)| Some((format!("bodies[{i}].clamped"), body.clamped.as_ref()?)));
-        for (path, shape) in regions.chain(waves).chain(bodies).chain(clamped).chain(obstacles) {
+        let own = scene.shapes.iter().map(|(name, shape)| (format!("shapes.{name}"), shape));
+        for (path, shape) in scene.placed_shapes().into_iter().chain(own) {
             check_shape::sizes(&path, shape, &mut self.findings);
         }
         for (index, probe) in scene.probes.iter().enumerate() {
@@ -279,6 +271,7 @@ impl Check<'_> {
         if self.scene.solves() == 2 {
             self.ars222();
         }
+        self.fraction("numerics.elastic_tolerance", numerics.elastic_tolerance, 0.5);
         self.count("numerics.max_substeps", numerics.max_substeps, 1, 10_000);
         self.findings.extend(super::coupling::findings(self.scene));
     }
@@ -307,17 +300,43 @@ impl Check<'_> {
             let key = if expect.gas_mass_drift.is_some() { "gas_mass_drift" } else { "energy_drift" };
             self.add(format!("expect.{key}"), "the domain is open", "remove the key, or make every side a \"wall\"");
         }
+        self.expected_bodies();
+    }
+
+    fn expected_bodies(&mut self) {
+        let scene = self.scene;
+        let expect = &scene.expect;
+        let known = |name: &String| scene.bodies.iter().any(|body| body.name == *name);
+        let mut unknown = |path: String, kind: &str, name: &str| {
+            let help = format!("name an entry of {}", if kind == "body" { "bodies" } else { "probes" });
+            self.findings.push(Finding::new(path, format!("unknown {kind} `{name}`"), help));
+        };
+        for (index, order) in expect.order.iter().enumerate() {
+            for name in order.bodies.iter().filter(|name| !known(name)) {
+                unknown(format!("expect.order[{index}].bodies"), "body", name);
+            }
+        }
+        for (index, expected) in expect.probes.iter().enumerate() {
+            if scene.probes.iter().all(|probe| probe.name != expected.probe) {
+                unknown(format!("expect.probes[{index}].probe"), "probe", &expected.probe);
+            }
+        }
         for (index, expected) in expect.bodies.iter().enumerate() {
             let path = format!("expect.bodies[{index}]");
-            if self.scene.bodies.iter().all(|body| body.name != expected.body) {
-                self.add(
-                    format!("{path}.body"),
-                    format!("unknown body `{}`", expected.body),
-                    "name an entry of bodies",
-                );
+            if !known(&expected.body) {
+                unknown(format!("{path}.body"), "body", &expected.body);
             }
-            self.positive(format!("{path}.tolerance"), expected.tolerance, "[m]");
-            self.planar(format!("{path}.center"), expected.center);
+        }
+        for (index, expected) in expect.bodies.iter().enumerate() {
+            let path = format!("expect.bodies[{index}]");
+            if let Some(center) = expected.center {
+                self.positive(format!("{path}.tolerance"), expected.tolerance.unwrap_or(0.0), "[m]");
+                self.planar(format!("{path}.center"), center);
+            }
+            for (quantity, [low, high]) in expected.ranges().filter(|(_, [low, high])| low > high) {
+                let help = "give the lower value first";
+                self.add(format!("{path}.{}", quantity.name()), format!("[{low}, {high}] is empty"), help);
+            }
         }
     }
 }

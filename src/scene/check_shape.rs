@@ -5,6 +5,8 @@ use super::{Body, Domain, Scene, Shape};
 
 /// Sample points per axis when looking for parts of a body outside the domain.
 const SAMPLES: f64 = 64.0;
+/// Copies that one key may make.
+const MAX_COPIES: u32 = 10_000;
 
 /// Sizes that are not positive, directions without length, empty lists.
 pub(super) fn sizes(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
@@ -74,38 +76,67 @@ fn combined(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
             ));
         }
     };
+    let copies = |key: &str, count: u32, findings: &mut Vec<Finding>| {
+        if !(1..=MAX_COPIES).contains(&count) {
+            let help = format!("give a whole number from 1 to {MAX_COPIES}");
+            findings.push(Finding::new(format!("{path}.{key}"), format!("{count} copies"), help));
+        }
+    };
     match shape {
-        Shape::Translate { shape, .. } => sizes(&format!("{path}.translate.shape"), shape, findings),
-        Shape::Rotate { axis, shape, .. } => {
-            direction(path, "rotate.axis", *axis, findings);
-            sizes(&format!("{path}.rotate.shape"), shape, findings);
+        Shape::Rotate { axis, .. } => direction(path, "rotate.axis", *axis, findings),
+        Shape::Scale { factor, .. } => positive("scale.factor", *factor, findings),
+        Shape::Shell { thickness, .. } => positive("shell.thickness", *thickness, findings),
+        Shape::SmoothUnion { radius, .. } => positive("smooth_union.radius", *radius, findings),
+        Shape::Mirror { normal, .. } => direction(path, "mirror.normal", *normal, findings),
+        Shape::Repeat { count, .. } => copies("repeat.count", *count, findings),
+        Shape::Around { count, axis, .. } => {
+            copies("around.count", *count, findings);
+            direction(path, "around.axis", *axis, findings);
         }
-        Shape::Scale { factor, shape, .. } => {
-            positive("scale.factor", *factor, findings);
-            sizes(&format!("{path}.scale.shape"), shape, findings);
+        Shape::Chain { points, radii } => {
+            radii.iter().for_each(|radius| positive("chain.radii", *radius, findings));
+            if points.len() < 2 || !(radii.len() == 1 || radii.len() == points.len()) {
+                let message = format!("{} points and {} radii", points.len(), radii.len());
+                let help = "give at least 2 points, and one radius for all or one for each";
+                findings.push(Finding::new(format!("{path}.chain.points"), message, help));
+            }
         }
-        Shape::Shell { thickness, shape } => {
-            positive("shell.thickness", *thickness, findings);
-            sizes(&format!("{path}.shell.shape"), shape, findings);
+        Shape::Revolve { axis, points, .. } => {
+            direction(path, "revolve.axis", *axis, findings);
+            if points.len() < 3 || points.iter().any(|[radius, _]| *radius < 0.0) {
+                let help = "give at least 3 corners, none of them beyond the axis: [distance of at least 0, height]";
+                findings.push(Finding::new(format!("{path}.revolve.points"), "no outline", help));
+            }
         }
-        Shape::SmoothUnion { radius, shapes } => {
-            positive("smooth_union.radius", *radius, findings);
-            list(&format!("{path}.smooth_union.shapes"), shapes, findings);
+        Shape::Use(named) => {
+            positive("use.scale", named.scale, findings);
+            direction(path, "use.axis", named.axis, findings);
         }
-        Shape::Union(shapes) => list(&format!("{path}.union"), shapes, findings),
-        Shape::Intersection(shapes) => list(&format!("{path}.intersection"), shapes, findings),
-        Shape::Difference(shapes) => list(&format!("{path}.difference"), shapes, findings),
+        Shape::Mesh(mesh) => {
+            positive("mesh.scale", mesh.scale, findings);
+            direction(path, "mesh.axis", mesh.axis, findings);
+        }
         // single shapes are checked by `sizes`
         _ => {}
     }
+    parts(path, shape, findings);
 }
 
-fn list(path: &str, shapes: &[Shape], findings: &mut Vec<Finding>) {
-    if shapes.is_empty() {
-        findings.push(Finding::new(path, "the list is empty", "give at least one shape"));
+/// The shapes below a shape.
+fn parts(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
+    let parts = shape.parts();
+    let empty = match shape {
+        Shape::Union(_) => Some("union"),
+        Shape::Intersection(_) => Some("intersection"),
+        Shape::Difference(_) => Some("difference"),
+        Shape::SmoothUnion { .. } => Some("smooth_union.shapes"),
+        _ => None,
+    };
+    if let Some(key) = empty.filter(|_| parts.is_empty()) {
+        findings.push(Finding::new(format!("{path}.{key}"), "the list is empty", "give at least one shape"));
     }
-    for (index, shape) in shapes.iter().enumerate() {
-        sizes(&format!("{path}[{index}]"), shape, findings);
+    for (key, part) in parts {
+        sizes(&format!("{path}.{key}"), part, findings);
     }
 }
 

@@ -70,6 +70,18 @@ pub enum Ghost {
     SharedVolume,
 }
 
+/// How the elastic part of a step is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Elasticity {
+    /// Sub-steps as short as elastic waves demand, without loss.
+    #[default]
+    Explicit,
+    /// One step by backward Euler, whatever the stiffness: Newton's method and conjugate gradients on the grid. Damps waves shorter
+    /// than the step. For bodies so stiff that explicit sub-steps would be many hundreds.
+    Implicit,
+}
+
 impl Scene {
     /// The pressure unknowns of this scene, never [`InterfacePressure::Auto`].
     #[must_use]
@@ -97,7 +109,7 @@ impl Scene {
         match (self.numerics.ghost, self.numerics.coupling) {
             (Ghost::SharedVolume, _) => 2,
             (_, Coupling::Last) => 1,
-            _ => 0,
+            _ => usize::from(self.numerics.elasticity == Elasticity::Implicit),
         }
     }
 
@@ -123,6 +135,11 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     if numerics.ghost == Ghost::SharedVolume && numerics.coupling == Coupling::Last {
         let message = "\"last\" with numerics.ghost = \"shared_volume\", which has an order of its own";
         findings.push(Finding::new("numerics.coupling", message, "give \"first\", or numerics.ghost = \"absorbs\""));
+    }
+    let plain = numerics.ghost == Ghost::Absorbs && numerics.coupling == Coupling::First;
+    if numerics.elasticity == Elasticity::Implicit && !plain {
+        let message = "\"implicit\" with numerics.ghost = \"shared_volume\" or numerics.coupling = \"last\", which have elastic steps of their own";
+        findings.push(Finding::new("numerics.elasticity", message, "give \"explicit\", or leave out the other key"));
     }
     findings
 }

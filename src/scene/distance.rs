@@ -50,8 +50,7 @@ pub(super) fn cuboid(point: Vector, size: Vector, round: f64) -> f64 {
 
 /// Exact distance to an ellipsoid around the origin; infinite radii drop their axis.
 ///
-/// The nearest surface point is x_i = r_i^2 y_i / (t + r_i^2) with sum (x_i / r_i)^2 = 1. The sum falls with t, so bisection
-/// finds the largest root. [Eberly, Distance from a Point to an Ellipsoid, 2013]
+/// The nearest surface point is x_i = r_i^2 y_i / (t + r_i^2) with sum (x_i / r_i)^2 = 1. The sum falls with t; the largest root counts. [Eberly, Distance from a Point to an Ellipsoid, 2013]
 pub(super) fn ellipsoid(point: Vector, radii: Vector) -> f64 {
     let axes = || (0..3).filter(|&d| radii[d].is_finite());
     let smallest = axes().map(|d| radii[d]).fold(f64::INFINITY, f64::min);
@@ -60,17 +59,21 @@ pub(super) fn ellipsoid(point: Vector, radii: Vector) -> f64 {
     let y: Vector = std::array::from_fn(|d| point[d].abs().max(nudge));
     // s = t + smallest^2 keeps its digits where t + r_i^2 would lose them
     let excess: Vector = radii.map(|r| (r - smallest) * (r + smallest));
-    let sum = |s: f64| axes().map(|d| (radii[d] * y[d] / (s + excess[d])).powi(2)).sum::<f64>();
-    let mut low = axes().filter(|&d| excess[d] == 0.0).map(|d| radii[d] * y[d]).fold(0.0, f64::max);
-    let mut high = axes().map(|d| (radii[d] * y[d]).powi(2)).sum::<f64>().sqrt();
+    // the sum is convex: Newton's iteration from the left of the root rises to it
+    let mut s = axes().filter(|&d| excess[d] == 0.0).map(|d| radii[d] * y[d]).fold(0.0, f64::max);
     for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
+        let (mut sum, mut slope) = (-1.0, 0.0);
+        for d in axes() {
+            let term = (radii[d] * y[d] / (s + excess[d])).powi(2);
+            sum += term;
+            slope += 2.0 * term / (s + excess[d]);
+        }
+        let next = s + sum / slope;
+        if next <= s * (1.0 + 1e-15) {
             break;
         }
-        if sum(middle) > 1.0 { low = middle } else { high = middle }
+        s = next;
     }
-    let s = 0.5 * (low + high);
     let gap = axes().map(|d| (y[d] - radii[d] * radii[d] * y[d] / (s + excess[d])).powi(2)).sum::<f64>().sqrt();
     let level = axes().map(|d| (y[d] / radii[d]).powi(2)).sum::<f64>();
     if level < 1.0 { -gap } else { gap }
@@ -82,6 +85,62 @@ pub(super) fn segment(point: Vector, from: Vector, to: Vector) -> f64 {
     let square = dot(along, along);
     let t = if square > 0.0 { (dot(minus(point, from), along) / square).clamp(0.0, 1.0) } else { 0.0 };
     length(minus(minus(point, from), along.map(|x| x * t)))
+}
+
+/// Pieces from point to point whose radius changes evenly between them. The slope of a piece is bounded by scaling, so that the
+/// distance is never steeper than 1.
+pub(super) fn chain(point: Vector, points: &[Vector], radii: &[f64]) -> f64 {
+    let radius = |k: usize| radii.get(k).or(radii.last()).copied().unwrap_or(0.0);
+    let piece = |k: usize| {
+        let (from, along) = (points[k], minus(points[k + 1], points[k]));
+        let (reach, change) = (length(along), radius(k + 1) - radius(k));
+        let sine = if reach > 0.0 { change / reach } else { 1.0 };
+        if sine.abs() >= 1.0 {
+            // one end holds the other
+            let whole = if change > 0.0 { k + 1 } else { k };
+            return length(minus(point, points[whole])) - radius(whole);
+        }
+        let arm = minus(point, from);
+        let height = dot(arm, along) / reach;
+        let across = (dot(arm, arm) - height * height).max(0.0).sqrt();
+        // the nearest point of the cone's mantle lies on a line that leans by its slope
+        let t = ((height + across * sine / (1.0 - sine * sine).sqrt()) / reach).clamp(0.0, 1.0);
+        across.hypot(height - t * reach) - (radius(k) + t * change)
+    };
+    (0..points.len().saturating_sub(1)).map(piece).fold(f64::INFINITY, f64::min)
+}
+
+/// Bounds of a chain.
+pub(super) fn chain_bounds(points: &[Vector], radii: &[f64]) -> Bounds {
+    let radius = |k: usize| radii.get(k).or(radii.last()).copied().unwrap_or(0.0);
+    let balls = points.iter().enumerate().map(|(k, point)| around(*point, [radius(k); 3]));
+    balls.fold(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]), join)
+}
+
+/// The mirror image of a point.
+pub(super) fn mirrored(point: Vector, origin: Vector, normal: Vector) -> Vector {
+    let normal = unit(normal);
+    let height = dot(minus(point, origin), normal);
+    minus(point, normal.map(|x| 2.0 * height * x))
+}
+
+/// Bounds of the mirror images of the eight corners; a box without end has none in its mirror image.
+pub(super) fn mirrored_bounds(bounds: Bounds, origin: Vector, normal: Vector) -> Bounds {
+    let (low, high) = bounds;
+    if low.iter().chain(&high).any(|x| !x.is_finite()) {
+        return ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
+    }
+    let corner = |k: usize| std::array::from_fn(|d| if k >> d & 1 == 1 { high[d] } else { low[d] });
+    let image = |k: usize| mirrored(corner(k), origin, normal);
+    (0..8).map(|k| (image(k), image(k))).fold(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]), join)
+}
+
+/// Bounds of a polygon that is turned about an axis.
+pub(super) fn revolved_bounds(center: Vector, axis: Vector, points: &[[f64; 2]]) -> Bounds {
+    let direction = unit(axis);
+    let place = |height: f64| plus(center, direction.map(|x| x * height));
+    let discs = points.iter().map(|[radius, height]| around_disc(place(*height), axis, radius.abs(), 0.0));
+    discs.fold(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]), join)
 }
 
 /// A frustum: `point` holds distance from the axis and height above the base.

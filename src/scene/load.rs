@@ -6,13 +6,18 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
+use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
-use super::{Material, Scene, check};
+use super::{Material, Scene, check, variants};
 use crate::{Error, Result};
+
+/// The override that lets mesh files lie outside of the scene's folder.
+const OUTSIDE: &str = "allow_outside";
 
 impl Scene {
     /// Reads a scene file and applies overrides of the form `key=value`, such as `gas.ambient.density=2` or
-    /// `bodies[0].material=rubber`. Values are TOML; what is no TOML value is taken as a string.
+    /// `bodies[0].material=rubber`. Values are TOML; what is no TOML value is taken as a string. `variant=NAME` makes the changes of
+    /// one of the scene's variants; `allow_outside=true` lets mesh files lie outside of the scene's folder. Overrides apply in their order.
     ///
     /// # Errors
     /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with every mistake, its file, line, key and what is allowed.
@@ -100,10 +105,20 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
     let mut root = root.into_inner();
     let documents = override_documents(source)?;
     let mut findings = Vec::new();
+    let mut outside = false;
     for (index, (key, texts)) in documents.iter().enumerate() {
-        let applied = parse_value(texts).and_then(|value| source::set(&mut root, key, value));
+        let applied = parse_value(texts).and_then(|value| match value.get_ref().as_str() {
+            Some(name) if key == variants::KEY => variants::apply(&mut root, name, &text),
+            _ if key == OUTSIDE => value
+                .get_ref()
+                .as_bool()
+                .map(|allowed| outside = allowed)
+                .ok_or_else(|| format!("{key} is true or false")),
+            _ => source::set(&mut root, key, value),
+        });
         if let Err(message) = applied {
-            let help = "name an existing key or entry, for example gas.ambient.density=2 or bodies[0].density=3";
+            let help = "name an existing key or entry, for example gas.ambient.density=2 or bodies[0].density=3, or one of the \
+                        scene's variants";
             findings.push(Finding {
                 span: Some(source.override_place(index)),
                 ..Finding::new("", format!("--set {message}"), help)
@@ -119,7 +134,11 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
         }
         Ok(mut scene) => {
             scene.resolve();
-            findings.extend(check::findings(&scene));
+            let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
+            findings.extend(scene.resolve_shapes(MeshFolder { folder, outside }));
+            if findings.is_empty() {
+                findings.extend(check::findings(&scene));
+            }
             if findings.is_empty() { Ok(scene) } else { Err(findings) }
         }
     }

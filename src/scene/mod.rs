@@ -15,16 +15,23 @@ mod check_shape;
 mod coupling;
 mod cut;
 mod distance;
+mod expectation;
+mod extent;
 mod fill;
 mod integrator;
 mod load;
+mod mesh;
+mod named;
 mod polyhedron;
 mod render;
+mod sample;
 mod settings;
 mod shape;
+mod shipped;
 mod source;
 #[cfg(test)]
 mod tests;
+mod variants;
 mod vector;
 mod vortex;
 mod wave;
@@ -38,24 +45,28 @@ include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
-pub use body::{Body, Contact, Friction, Motion, MotionAt};
+pub use body::{Body, Contact, Friction, Motion, MotionAt, Sampling};
 pub use boundary::{
     AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
     TimedState,
 };
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
-pub use coupling::{Coupling, Ghost, InterfacePressure, Power, SolidUpdate};
+pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
-pub use fill::Seed;
+pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
 pub use integrator::{FaceVelocity, Integrator};
+pub use mesh::Mesh;
+pub use named::Named;
 pub use polyhedron::Part;
 pub use render::{
     Camera, Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice,
     Surface, ToneMap,
 };
-pub use settings::{Expect, ExpectedBody, Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
+pub use sample::{Overlap, Seed};
+pub use settings::{Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
 pub use shape::Shape;
+pub use shipped::{Shipped, shipped, stem};
 pub use vortex::Vortex;
 pub use wave::Wave;
 
@@ -78,6 +89,9 @@ pub struct Scene {
     /// Materials of the bodies, by name.
     #[serde(default)]
     pub materials: BTreeMap<String, Material>,
+    /// Shapes by name, for `use` in other shapes.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub shapes: BTreeMap<String, Shape>,
     /// Deformable solids, moved by the material point method.
     #[serde(default)]
     pub bodies: Vec<Body>,
@@ -105,6 +119,10 @@ pub struct Scene {
     /// What the result must satisfy; checked by the tests and reported by `run`.
     #[serde(default)]
     pub expect: Expect,
+    /// Named sets of changes to the keys above, chosen by `--variant`: what the scene is otherwise.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(with = "BTreeMap<String, BTreeMap<String, serde_json::Value>>")]
+    pub variants: BTreeMap<String, toml::Table>,
 }
 
 /// The grid: cubes of edge `size / cells`. Axes beyond `dimension` have one cell and unit thickness.

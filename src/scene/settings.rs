@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Coupling, FaceVelocity, Field, Ghost, Integrator, InterfacePressure, Power, SolidUpdate, vector};
+use super::{Coupling, Elasticity, FaceVelocity, Field, Ghost, Integrator, InterfacePressure, Power, SolidUpdate};
 
 /// How long, and how finely in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -83,6 +83,10 @@ pub struct Numerics {
     pub blending: bool,
     /// Fraction of a cell that elastic waves cross in one sub-step, above 0 and at most 1.
     pub elastic_cfl: f64,
+    /// How the elastic part of a step is taken.
+    pub elasticity: Elasticity,
+    /// Relative tolerance of the implicit elastic step, above 0 and below 1.
+    pub elastic_tolerance: f64,
     /// Elastic sub-steps per step at most; the step is shortened to fit. With `numerics.coupling = "last"` there is one.
     pub max_substeps: u32,
     /// How particles give their momentum to the grid.
@@ -110,6 +114,8 @@ impl Default for Numerics {
             limiter: true,
             blending: true,
             elastic_cfl: 0.4,
+            elasticity: Elasticity::default(),
+            elastic_tolerance: 1e-4,
             max_substeps: 64,
             transfer: Transfer::default(),
         }
@@ -179,58 +185,4 @@ impl Default for Output {
     fn default() -> Self {
         Output { fields: vec![Field::Density], vtk: false }
     }
-}
-
-/// What the result must satisfy at the end of the run, at the scene's own resolution. Every entry is optional.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-#[serde(rename_all = "snake_case")]
-pub struct Expect {
-    /// Largest relative change of the gas mass, ledger included; for closed domains.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gas_mass_drift: Option<f64>,
-    /// Largest relative change of the energy of gas and solids together; for closed domains.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub energy_drift: Option<f64>,
-    /// Largest speed of gas or particles, in units of the ambient speed of sound; for scenes at rest.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_speed: Option<f64>,
-    /// Largest L1 error of the density against the exact Riemann solution along x `[kg m^-2]`, in 1D.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub density_l1: Option<f64>,
-    /// Lowest and highest value allowed for the largest density `[kg m^-3]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_density: Option<[f64; 2]>,
-    /// The density stays above this `[kg m^-3]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub min_density: Option<f64>,
-    /// The pressure stays above this `[Pa]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub min_pressure: Option<f64>,
-    /// Most iterations of any pressure solve.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_iterations: Option<u32>,
-    /// Most steps of the run.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_steps: Option<u32>,
-    /// Fewest separate pieces that the bodies have broken into.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pieces: Option<u32>,
-    /// Where bodies must be.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub bodies: Vec<ExpectedBody>,
-}
-
-/// Where a body must be at the end.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ExpectedBody {
-    /// Name of the body.
-    pub body: String,
-    /// Its centre of mass `[m]`.
-    #[serde(deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
-    pub center: [f64; 3],
-    /// Distance allowed `[m]`.
-    pub tolerance: f64,
 }

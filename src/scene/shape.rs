@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{distance, vector};
+use super::{Mesh, Named, vector};
 
 /// A set of points, given by its signed distance `[m]`: negative inside, and never steeper than 1.
 ///
@@ -75,6 +75,13 @@ pub enum Shape {
         /// Radius `[m]`.
         radius: f64,
     },
+    /// Straight pieces from point to point, round and as thick as the radii at their ends: limbs, ears, stems.
+    Chain {
+        /// The points `[m]`, at least two.
+        points: Vec<[f64; 3]>,
+        /// Radius at each point `[m]`, or one for all.
+        radii: Vec<f64>,
+    },
     /// A circular cone, or a frustum if `top_radius` is given.
     Cone {
         /// Middle of the base `[m]`.
@@ -130,6 +137,62 @@ pub enum Shape {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         height: Option<f64>,
     },
+    /// A polygon that is turned about an axis: pots, wheels, barrels.
+    Revolve {
+        /// The point of the axis at height 0 `[m]`.
+        #[serde(deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        center: [f64; 3],
+        /// Direction of the axis, of any length; z when left out.
+        #[serde(default = "along_z", deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        axis: [f64; 3],
+        /// Corners: distance from the axis, height along it `[m]`.
+        points: Vec<[f64; 2]>,
+    },
+    /// A shape and its mirror image.
+    Mirror {
+        /// A point of the mirror `[m]`; the origin when left out.
+        #[serde(default, deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        point: [f64; 3],
+        /// Direction across the mirror, of any length.
+        #[serde(deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        normal: [f64; 3],
+        /// What.
+        shape: Box<Shape>,
+    },
+    /// Copies of a shape, each moved by the same offset from the one before.
+    Repeat {
+        /// How many.
+        count: u32,
+        /// From one to the next `[m]`.
+        #[serde(deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        offset: [f64; 3],
+        /// What.
+        shape: Box<Shape>,
+    },
+    /// Copies of a shape around an axis, evenly over the circle.
+    Around {
+        /// How many.
+        count: u32,
+        /// Direction of the axis, of any length; z when left out.
+        #[serde(default = "along_z", deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        axis: [f64; 3],
+        /// A point of the axis `[m]`; the origin when left out.
+        #[serde(default, deserialize_with = "vector::point")]
+        #[schemars(with = "Vec<f64>")]
+        about: [f64; 3],
+        /// What.
+        shape: Box<Shape>,
+    },
+    /// A shape by its name, placed.
+    Use(Named),
+    /// What a mesh file encloses, placed.
+    Mesh(Mesh),
     /// A shape, moved.
     Translate {
         /// By how much `[m]`.
@@ -187,124 +250,6 @@ pub enum Shape {
     },
 }
 
-fn along_z() -> [f64; 3] {
+pub(super) fn along_z() -> [f64; 3] {
     [0.0, 0.0, 1.0]
-}
-
-impl Shape {
-    /// Signed distance of a point `[m]`: negative inside. Exact for single shapes; after set operations a bound from below of the
-    /// true distance's magnitude, never steeper than 1.
-    #[must_use]
-    pub fn distance(&self, point: [f64; 3]) -> f64 {
-        let each = |shapes: &[Shape]| shapes.iter().map(|shape| shape.distance(point)).collect::<Vec<_>>();
-        match self {
-            Shape::Box { center, size, round } => distance::cuboid(distance::minus(point, *center), *size, *round),
-            Shape::Sphere { center, radius } => distance::length(distance::minus(point, *center)) - radius,
-            Shape::Ellipsoid { center, radii } => distance::ellipsoid(distance::minus(point, *center), *radii),
-            Shape::Cylinder { center, axis, radius, height } => {
-                let (along, across) = distance::cylindrical(distance::minus(point, *center), *axis);
-                distance::corner(across - radius, height.map_or(f64::NEG_INFINITY, |height| along.abs() - 0.5 * height))
-            }
-            Shape::Capsule { from, to, radius } => distance::segment(point, *from, *to) - radius,
-            Shape::Cone { center, axis, radius, top_radius, height } => {
-                let (along, across) = distance::cylindrical(distance::minus(point, *center), *axis);
-                distance::frustum([across, along], *radius, *top_radius, *height)
-            }
-            Shape::Torus { center, axis, major, minor } => {
-                let (along, across) = distance::cylindrical(distance::minus(point, *center), *axis);
-                (across - major).hypot(along) - minor
-            }
-            Shape::HalfSpace { point: origin, normal } => {
-                distance::dot(distance::minus(point, *origin), distance::unit(*normal))
-            }
-            Shape::Polygon { points, base, height } => {
-                let faces =
-                    height.map_or(f64::NEG_INFINITY, |height| (point[2] - base - 0.5 * height).abs() - 0.5 * height);
-                distance::corner(distance::polygon([point[0], point[1]], points), faces)
-            }
-            Shape::Translate { offset, shape } => shape.distance(distance::minus(point, *offset)),
-            Shape::Rotate { axis, degrees, about, shape } => {
-                shape.distance(distance::turn(point, *about, *axis, -degrees))
-            }
-            Shape::Scale { factor, about, shape } => {
-                let inner = std::array::from_fn(|d| about[d] + (point[d] - about[d]) / factor);
-                shape.distance(inner) * factor
-            }
-            Shape::Union(shapes) => each(shapes).into_iter().fold(f64::INFINITY, f64::min),
-            Shape::Intersection(shapes) => each(shapes).into_iter().fold(f64::NEG_INFINITY, f64::max),
-            Shape::Difference(shapes) => {
-                let mut distances = each(shapes).into_iter();
-                let first = distances.next().unwrap_or(f64::INFINITY);
-                distances.fold(first, |rest, cut| rest.max(-cut))
-            }
-            Shape::SmoothUnion { radius, shapes } => {
-                each(shapes).into_iter().fold(f64::INFINITY, |a, b| distance::smooth_minimum(a, b, *radius))
-            }
-            Shape::Shell { thickness, shape } => {
-                let distance = shape.distance(point);
-                distance.max(-distance - thickness)
-            }
-        }
-    }
-
-    /// Corners of a box along the axes that holds the shape `[m]`; infinite where the shape has no end.
-    #[must_use]
-    pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
-        match self {
-            Shape::Box { center, size, .. } => distance::around(*center, size.map(|edge| 0.5 * edge)),
-            Shape::Sphere { center, radius } => distance::around(*center, [*radius; 3]),
-            Shape::Ellipsoid { center, radii } => distance::around(*center, *radii),
-            Shape::Cylinder { center, axis, radius, height } => {
-                let half = 0.5 * height.unwrap_or(f64::INFINITY);
-                distance::around_disc(*center, *axis, *radius, half)
-            }
-            Shape::Capsule { from, to, radius } => {
-                distance::join(distance::around(*from, [*radius; 3]), distance::around(*to, [*radius; 3]))
-            }
-            Shape::Cone { center, axis, radius, top_radius, height } => {
-                let direction = distance::unit(*axis);
-                let top = std::array::from_fn(|d| center[d] + height * direction[d]);
-                distance::join(
-                    distance::around_disc(*center, *axis, *radius, 0.0),
-                    distance::around_disc(top, *axis, *top_radius, 0.0),
-                )
-            }
-            Shape::Torus { center, axis, major, minor } => {
-                let (low, high) = distance::around_disc(*center, *axis, *major, 0.0);
-                (low.map(|x| x - minor), high.map(|x| x + minor))
-            }
-            Shape::HalfSpace { point, normal } => distance::half_space_bounds(*point, *normal),
-            Shape::Polygon { points, base, height } => distance::polygon_bounds(points, *base, *height),
-            Shape::Translate { offset, shape } => {
-                let (low, high) = shape.bounds();
-                (distance::plus(low, *offset), distance::plus(high, *offset))
-            }
-            Shape::Rotate { axis, degrees, about, shape } => {
-                distance::turned_bounds(shape.bounds(), *about, *axis, *degrees)
-            }
-            Shape::Scale { factor, about, shape } => {
-                let (low, high) = shape.bounds();
-                let scaled = |corner: [f64; 3]| std::array::from_fn(|d| about[d] + (corner[d] - about[d]) * factor);
-                (scaled(low), scaled(high))
-            }
-            Shape::Union(shapes) => join_all(shapes),
-            Shape::Intersection(shapes) => {
-                let everywhere = ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
-                shapes.iter().map(Shape::bounds).fold(everywhere, distance::overlap)
-            }
-            Shape::Difference(shapes) => join_all(&shapes[..shapes.len().min(1)]),
-            Shape::SmoothUnion { radius, shapes } => {
-                // every blend lowers the distance by at most a quarter of the radius
-                let (low, high) = join_all(shapes);
-                let grow = 0.25 * radius * shapes.len() as f64;
-                (low.map(|x| x - grow), high.map(|x| x + grow))
-            }
-            Shape::Shell { shape, .. } => shape.bounds(),
-        }
-    }
-}
-
-fn join_all(shapes: &[Shape]) -> ([f64; 3], [f64; 3]) {
-    let nowhere = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    shapes.iter().map(Shape::bounds).fold(nowhere, distance::join)
 }

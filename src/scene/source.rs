@@ -62,6 +62,11 @@ impl Source {
         &self.buffer[self.parts[0].clone()]
     }
 
+    /// Name of the scene file.
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// Number of overrides.
     pub(super) fn override_count(&self) -> usize {
         self.parts.len() - 1
@@ -79,7 +84,7 @@ impl Source {
         // "v=" takes two places in front of the value; the key and its "=" leave at least that many
         let padded = |value: &str| format!("{:width$}v={value}", "", width = start - 2);
         let quoted = format!("\"{}\"", value.trim().replace('\\', "\\\\").replace('"', "\\\""));
-        let key = key.trim().replace('[', ".").replace(']', "");
+        let key = key_path(key);
         if key.is_empty() || key.split('.').any(str::is_empty) {
             let help = "name keys as in gas.ambient.density or bodies[0].density";
             return Err(Finding { span: Some(range), ..Finding::new("", format!("--set {line} names no key"), help) });
@@ -150,6 +155,11 @@ impl Source {
         text.push_str(&format!("{}: {} in this scene", self.name, count(findings.len())));
         text
     }
+}
+
+/// A key as people write it, `bodies[0].density`, as [`set`] takes it: `bodies.0.density`.
+pub(super) fn key_path(key: &str) -> String {
+    key.trim().replace('[', ".").replace(']', "")
 }
 
 fn count(findings: usize) -> String {

@@ -26,6 +26,11 @@ pub(super) fn point<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 
     filled(deserializer, 0.0)
 }
 
+/// The same for a key that may be left out.
+pub(super) fn optional_point<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 3]>, D::Error> {
+    point(deserializer).map(Some)
+}
+
 /// Reads one to three sizes; along the missing axes the thing has no end.
 pub(super) fn extent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
     filled(deserializer, f64::INFINITY)

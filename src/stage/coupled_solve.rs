@@ -80,7 +80,11 @@ impl CoupledSolve {
         };
         Ok(Self {
             pcg,
-            film: solid("solid_predictor.wgsl", &["film_pressure", "film_left"])?,
+            film: [
+                solid("solid_inertia.wgsl", &["solid_inertia"])?,
+                solid("solid_predictor.wgsl", &["film_pressure", "film_left"])?,
+            ]
+            .concat(),
             predictor: solid("solid_predictor.wgsl", &["solid_predictor"])?,
             masses: setup("solve_masses")?,
             open: state.bind(gpu, "solve_open.wgsl", "solve_open", &[], &[("LISTED", 1.0)])?,

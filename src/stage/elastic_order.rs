@@ -11,6 +11,7 @@ use crate::state::State;
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct ElasticOrder {
+    inertia: Bound,
     start: Bound,
     before: Bound,
     /// With a shared volume: what the solve gives is spread over the sub-steps.
@@ -31,6 +32,7 @@ impl ElasticOrder {
         }
         let bind = |entry: &str| state.bind(gpu, "solid_elastic.wgsl", entry, &[], &[]);
         Ok(Some(Self {
+            inertia: state.bind(gpu, "solid_inertia.wgsl", "solid_inertia", &[], &[])?,
             start: bind("elastic_start")?,
             before: bind("elastic_before")?,
             after: if shared { Some(bind("elastic_after")?) } else { None },
@@ -46,6 +48,7 @@ impl ElasticOrder {
 
     /// Keeps the elastic force that `p2g` has left.
     pub fn record_start(&self, pass: &mut Pass, state: &State) {
+        pass.dispatch(&self.inertia, &slots(state, "BEGIN"));
         pass.dispatch(&self.start, &slots(state, "BEGIN"));
     }
 

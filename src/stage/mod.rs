@@ -13,6 +13,7 @@
 //! | `elastic_order` | what does the solve know of elasticity? |
 //! | `coupled_solve` | which pressure and velocity satisfy both sides? |
 //! | `fluid_update` | what does that pressure do to the gas? |
+//! | `elastic_solve` | which node velocities balance the elastic force at the end of the step? |
 //! | `mpm_grid_update` | how do the nodes move? |
 //! | `g2p` | how do the particles move and deform? |
 //!
@@ -21,7 +22,9 @@
 
 mod carrier;
 mod coupled_solve;
+mod detonate;
 mod elastic_order;
+mod elastic_solve;
 mod fluid_update;
 mod g2p;
 mod gas_advection;
@@ -38,7 +41,9 @@ pub mod traffic;
 
 pub use carrier::{Carried, CarrierVelocity};
 pub use coupled_solve::CoupledSolve;
+pub use detonate::Detonate;
 pub use elastic_order::ElasticOrder;
+pub use elastic_solve::{ElasticSolve, MAX_ITERATIONS as MAX_ELASTIC_ITERATIONS};
 pub use fluid_update::FluidUpdate;
 pub use g2p::G2p;
 pub use gas_advection::GasAdvection;

@@ -40,8 +40,30 @@ enum Kernels {
 #[derive(Debug)]
 pub struct P2g {
     mass: Kernels,
-    force: Kernels,
+    force: Force,
     both: Vec<Kernels>,
+}
+
+/// The transfer of a stress alone.
+#[derive(Clone, Debug)]
+pub(super) struct Force(Kernels);
+
+impl Force {
+    /// Binds: the force of `stress`, six components times the volume at rest in two vec4 per particle.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub(super) fn new(parts: Parts<'_>, transfer: Transfer, stress: &wgpu::Buffer) -> Result<Self> {
+        Ok(Self(match transfer {
+            Transfer::Gather => Kernels::gather(parts, true, stress)?,
+            Transfer::Scatter => Kernels::scatter(parts, Carry::Force, stress)?,
+        }))
+    }
+
+    /// The force, in a phase.
+    pub(super) fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
+        self.0.record(pass, state, phase);
+    }
 }
 
 fn flag(on: bool) -> f64 {
@@ -49,7 +71,7 @@ fn flag(on: bool) -> f64 {
 }
 
 impl Kernels {
-    fn gather(parts: Parts<'_>, force: bool) -> Result<Self> {
+    fn gather(parts: Parts<'_>, force: bool, stress: &wgpu::Buffer) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let switches = [("WITH_FORCE", flag(force))];
         let bind = |entry: &str| state.bind(gpu, "p2g.wgsl", entry, &[], &switches);
@@ -61,17 +83,17 @@ impl Kernels {
             for x in 0..wide(1) {
                 let color = Buffer::uniform(gpu, "color", 4)?;
                 color.write(gpu, 0, &[x, y, 0, 0]);
-                colors.push(state.bind_kernel(gpu, &kernel, &[("color", color.raw())])?);
+                colors.push(state.bind_kernel(gpu, &kernel, &[("color", color.raw()), ("stress", stress)])?);
             }
         }
         let finish = if force { None } else { Some(bind("p2g_finish")?) };
         Ok(Self::Gather { clear: bind("p2g_clear")?, colors, finish })
     }
 
-    fn scatter(parts: Parts<'_>, carry: Carry) -> Result<Self> {
+    fn scatter(parts: Parts<'_>, carry: Carry, stress: &wgpu::Buffer) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let switches = [("WITH_MASS", flag(carry != Carry::Force)), ("WITH_FORCE", flag(carry != Carry::Mass))];
-        let renamed = [("sums", state.gas.work.raw()), ("bounds", state.partials.raw())];
+        let renamed = [("sums", state.gas.work.raw()), ("bounds", state.partials.raw()), ("stress", stress)];
         let bind = |entry: &str| state.bind(gpu, "p2g_scatter.wgsl", entry, &renamed, &switches);
         Ok(Self::Scatter([
             bind("scatter_bounds")?,
@@ -113,18 +135,18 @@ impl P2g {
     /// # Errors
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>, transfer: Transfer) -> Result<Self> {
-        match transfer {
+        let stress = parts.state.particles.stress.raw();
+        let force = Force::new(parts, transfer, stress)?;
+        let (mass, both) = match transfer {
             Transfer::Gather => {
-                let (mass, force) = (Kernels::gather(parts, false)?, Kernels::gather(parts, true)?);
-                let both = vec![mass.clone(), force.clone()];
-                Ok(Self { mass, force, both })
+                let mass = Kernels::gather(parts, false, stress)?;
+                (mass.clone(), vec![mass, force.0.clone()])
             }
-            Transfer::Scatter => Ok(Self {
-                mass: Kernels::scatter(parts, Carry::Mass)?,
-                force: Kernels::scatter(parts, Carry::Force)?,
-                both: vec![Kernels::scatter(parts, Carry::Both)?],
-            }),
-        }
+            Transfer::Scatter => {
+                (Kernels::scatter(parts, Carry::Mass, stress)?, vec![Kernels::scatter(parts, Carry::Both, stress)?])
+            }
+        };
+        Ok(Self { mass, force, both })
     }
 
     /// Mass and velocity at the start of a step.

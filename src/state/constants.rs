@@ -19,7 +19,7 @@ pub const RULES: [&str; 7] = ["FIXED", "SUBSONIC", "TOTAL", "FREE", "PRESSURE", 
 pub const RULE_SHIFT: u32 = 16;
 
 /// Stage names in the order of a step; the position is the stage number in a fault.
-pub const STAGES: [&str; 10] = [
+pub const STAGES: [&str; 11] = [
     "time_step",
     "particle_sort",
     "p2g",
@@ -28,6 +28,7 @@ pub const STAGES: [&str; 10] = [
     "intermediate_pressure",
     "coupled_solve",
     "fluid_update",
+    "elastic_solve",
     "mpm_grid_update",
     "g2p",
 ];
@@ -40,6 +41,8 @@ pub const HISTORY_WIDTH: u32 = 12;
 pub const BLOCKS: u32 = 10;
 /// The block of what walls, films and gravity give to bodies.
 pub const BLOCK_GIVEN: u32 = 9;
+/// Rounds of Newton's method at most in a step: what is left then is kept, and shows in diagnostics.csv.
+pub const MAX_ROUNDS: u32 = 20;
 /// Fault word of a healthy run.
 pub const NO_FAULT: u32 = u32::MAX;
 /// Dispatches of the longest prefix sum that a step runs.
@@ -47,7 +50,8 @@ pub const SCAN_DISPATCHES: usize = 6;
 /// Entries of a phase in the table of extents.
 pub const PHASE_WIDTH: usize = 8 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
-pub const PHASES: [&str; 8] = ["BEGIN", "LIMIT", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END"];
+pub const PHASES: [&str; 10] =
+    ["BEGIN", "LIMIT", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END", "ROUND", "ITERATION"];
 
 /// Entries of a phase in the table of extents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,7 +116,7 @@ const FLAGS: [&str; 12] = [
 const COUNTED: [(&str, &[&str]); 4] = [
     ("RULE", &RULES),
     ("INTERFACE", &["RESOLVED", "H", "SINGLE"]),
-    ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP"]),
+    ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP", "ELASTIC"]),
     ("EXTENT", &["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "COLOR", "SCAN"]),
 ];
 
@@ -156,11 +160,13 @@ pub fn source() -> String {
         ("BLOCKS", BLOCKS),
         ("BLOCK_GIVEN", BLOCK_GIVEN),
         ("NO_FAULT", NO_FAULT),
+        ("MAX_ROUNDS", MAX_ROUNDS),
         ("NO_EXTRA", u32::MAX),
     ];
     for (name, value) in numbers {
         put(name, value);
     }
+    let _ = writeln!(text, "const LIGHTEST_NODE = {:?};", super::params::LIGHTEST_NODE);
     let _ = writeln!(text, "const STICK = {:?};", super::supports::STICK);
     text.push_str(crate::numerics::pcg::source());
     text
@@ -180,4 +186,5 @@ pub fn source_for(shader: &str) -> String {
 }
 
 /// Shaders that include `shared/material.wgsl`.
-const MATERIAL_SHADERS: [&str; 4] = ["interface.wgsl", "g2p.wgsl", "diagnostics.wgsl", "time_step.wgsl"];
+const MATERIAL_SHADERS: [&str; 5] =
+    ["interface.wgsl", "g2p.wgsl", "diagnostics.wgsl", "time_step.wgsl", "elastic_solve.wgsl"];

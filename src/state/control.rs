@@ -14,7 +14,7 @@ pub struct Control {
     pub dt_previous: f32,
     /// Time left to the target \[s\].
     pub remaining: f32,
-    /// 0 idle, 1 solving, 2 between two solves, 3 sub-stepping.
+    /// 0 idle, 1 solving, 2 between two solves, 3 sub-stepping, 4 in the elastic solve.
     pub phase: u32,
     /// Elastic sub-steps of this step.
     pub substeps: u32,
@@ -50,4 +50,18 @@ pub struct Control {
     pub time: f32,
     /// What rounding has taken from it so far \[s\].
     pub time_error: f32,
+    /// Rounds of Newton's method in the elastic solve, this step.
+    pub rounds: u32,
+    /// 1 while the linear system of a round is being solved.
+    pub round_open: u32,
+    /// Nodes that a wall has begun to stop in this round.
+    pub newly_held: u32,
+    /// Iterations of all rounds, this step.
+    pub elastic_iterations: u32,
+    /// Iterations of the longest one.
+    pub longest_round: u32,
+    /// Norm of the imbalance at the start of this round, squared.
+    pub imbalance: f32,
+    /// The same of the round before.
+    pub imbalance_before: f32,
 }

@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::{
     HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, constants, control::Control,
-    extra_capacity,
+    elastic_solve, extra_capacity,
 };
 use crate::error::{Error, Result};
+use crate::gpu::Gpu;
 use crate::numerics::{PcgControl, Scan};
 use crate::scene::{MAX_BODIES, Scene};
 
@@ -77,10 +78,21 @@ impl MemoryPlan {
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);
         plan.add(
             "nodes",
-            &[("node", if scene.consistent() { slots } else { solid }, 16), ("cell_start", solid + 1, 4)],
+            &[
+                ("node", if scene.consistent() { slots } else { solid }, 16),
+                ("cell_start", solid + 1, 4),
+                ("inertia", solid, 4),
+            ],
         );
         let elastic = if particles == 0 { 0 } else { scene.elastic_vectors() as u64 * slots };
         plan.add("nodes", &[("elastic", elastic, 16)]);
+        if elastic_solve::wanted(scene, particles) {
+            let length = elastic_solve::WIDTH as u64 * slots;
+            plan.add("nodes", &["solution", "residual", "direction", "product"].map(|name| (name, length, 4)));
+            plan.add("nodes", &[("inverse_diagonal", length, 4)]);
+            plan.add("particles", &[("stress change", 2 * count, 16)]);
+            plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 20, 4)]);
+        }
         let scan = Scan::planned_bytes(slots as u32 + 1);
         plan.add("interface", &[("list scan", scan, 1)]);
         if particles > 0 {
@@ -180,6 +192,28 @@ impl MemoryPlan {
         Err(Error::DoesNotFit(format!("{problem}; {advice}")))
     }
 
+    /// Counts particles, plans memory and compares the plan with the device before anything is allocated; the gas alone is checked
+    /// first, because seeding a hopeless scene takes memory too.
+    ///
+    /// # Errors
+    /// As [`MemoryPlan::check`].
+    pub fn fitting(scene: &Scene, gpu: &Gpu) -> Result<Self> {
+        Self::new(scene, 0).check_device(scene, gpu)?;
+        let plan = Self::new(scene, scene.particle_count());
+        plan.check_device(scene, gpu)?;
+        Ok(plan)
+    }
+
+    /// Compares the plan with a device.
+    ///
+    /// # Errors
+    /// As [`MemoryPlan::check`].
+    pub fn check_device(&self, scene: &Scene, gpu: &Gpu) -> Result<()> {
+        let per_buffer = gpu.limits.max_storage_buffer_binding_size.min(gpu.limits.max_buffer_size);
+        let together = if gpu.is_software() { free_memory() } else { None };
+        self.check(scene, &gpu.info.name, per_buffer, together)
+    }
+
     /// The plan at another number of cells along the longest axis, with particles in proportion.
     fn at(&self, scene: &Scene, cells: u32) -> Self {
         let longest = scene.domain.cells.iter().copied().max().unwrap_or(1);
@@ -193,6 +227,14 @@ impl MemoryPlan {
         let cut = self.cut_cells as f64 * ratio.powi(scene.domain.dimension as i32 - 1);
         Self::with_cut_cells(&scaled, particles.ceil() as usize, cut.ceil() as u64)
     }
+}
+
+/// Bytes of main memory that are free, where the system says so; a software device takes its memory there.
+fn free_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: u64 = line.trim().trim_end_matches("kB").trim().parse().ok()?;
+    Some(1024 * kibibytes)
 }
 
 /// Cells of the largest domain whose cut cells are counted.

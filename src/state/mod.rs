@@ -3,6 +3,7 @@
 pub mod constants;
 pub mod control;
 pub mod cut;
+mod elastic_solve;
 pub mod gas;
 pub mod grid;
 pub mod interface;
@@ -13,6 +14,7 @@ pub mod particles;
 pub mod supports;
 
 pub use control::Control;
+pub use elastic_solve::ElasticBuffers;
 pub use gas::GasState;
 pub use grid::Grid;
 pub use interface::Interface;
@@ -66,6 +68,8 @@ pub struct State {
     pub stiffness: Buffer<f32>,
     /// Vectors of the conjugate gradient method.
     pub pcg: PcgVectors,
+    /// What the implicit elastic step needs, in scenes that want it.
+    pub elastic_solve: Option<ElasticBuffers>,
     /// Partial results of reductions: [`constants::BLOCKS`] blocks of one vec4 per group.
     pub partials: Buffer<[f32; 4]>,
     /// Records of the latest steps.
@@ -109,8 +113,7 @@ impl State {
         let capacity = extra_capacity(slots, start.len(), domain.dimension);
         let params = Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity));
         let unknowns = slots + 2 * capacity;
-        let openings = Openings::new(scene);
-        let supports = Supports::new(scene);
+        let (openings, supports) = (Openings::new(scene), Supports::new(scene));
         let geometry = scene.cut_geometry();
         let table = cut::table(&grid, &geometry);
         let mut overrides = params::overrides(scene, !start.is_empty());
@@ -134,6 +137,7 @@ impl State {
             pressure: Buffer::new(gpu, "pressure", unknowns)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
             pcg: PcgVectors::new(gpu, unknowns)?,
+            elastic_solve: ElasticBuffers::new(gpu, scene, slots, start.len())?,
             partials: Buffer::new(gpu, "partials", (constants::BLOCKS * constants::PARTIALS) as usize)?,
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
@@ -271,6 +275,7 @@ impl State {
             ("order", self.particles.order.raw()),
             ("cell_start", self.particles.cell_start.raw()),
             ("node", self.particles.node.raw()),
+            ("inertia", self.particles.inertia.raw()),
             ("elastic", self.particles.elastic.raw()),
             ("pressure", self.pressure.raw()),
             ("stiffness", self.stiffness.raw()),

@@ -67,6 +67,10 @@ pub struct Params {
     pub march: u32,
     /// Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+.
     pub wall_sides: u32,
+    /// 1 if faces of partly filled cells are blocked by their share.
+    pub blending: u32,
+    /// Fills the last 16 bytes.
+    pub unused: [u32; 3],
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -83,7 +87,7 @@ pub struct SolidLimits {
 }
 
 /// Smallest share of a full node's mass that the solve sees: lighter nodes would rule its conditioning.
-const MASS_FLOOR: f64 = 0.01;
+pub(crate) const LIGHTEST_NODE: f64 = 0.01;
 /// Crowding, relative to bodies at rest, that the scatter form of p2g has room for.
 const CROWDING: f64 = 16.0;
 /// Steps that the history ring holds; the host reads it before it wraps.
@@ -139,7 +143,7 @@ impl Params {
             fixed_step: time.fixed_step.unwrap_or(0.0) as f32,
             elastic_cfl: numerics.elastic_cfl as f32,
             solid_threshold: numerics.solid_threshold as f32,
-            mass_floor: (MASS_FLOOR * solids.max_density * cell_volume) as f32,
+            mass_floor: (LIGHTEST_NODE * solids.max_density * cell_volume) as f32,
             tolerance: numerics.tolerance as f32,
             extra_capacity: limits.extra_capacity,
             max_iterations: numerics.max_iterations,
@@ -151,6 +155,8 @@ impl Params {
             groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, limits.groups),
             march: limits.march,
             wall_sides: wall_sides(scene),
+            blending: u32::from(numerics.blending),
+            unused: [0; 3],
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
@@ -177,9 +183,9 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("CONSISTENT", flag(scene.consistent())),
         ("ARS", flag(scene.solves() == 2)),
         ("LIMITER", flag(numerics.limiter)),
-        ("BLENDING", flag(numerics.blending)),
         ("LEDGER", flag(numerics.ledger)),
         ("MIDPOINT_POWER", flag(scene.midpoint_power())),
+        ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
         ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),

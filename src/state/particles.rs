@@ -25,6 +25,8 @@ pub struct Particles {
     pub cell_start: Buffer<u32>,
     /// Velocity and mass of the grid nodes, padded slots.
     pub node: Buffer<[f32; 4]>,
+    /// Mass that the pressure solve gives to the nodes \[kg\].
+    pub inertia: Buffer<f32>,
     /// What the pressure solve is told of elasticity, see `shaders/solid_elastic.wgsl`; in scenes that want it.
     pub elastic: Buffer<[f32; 4]>,
 }
@@ -93,6 +95,7 @@ impl Particles {
             order: Buffer::new(gpu, "order", count)?,
             cell_start: Buffer::new(gpu, "cell_start", solid_slots + 1)?,
             node: Buffer::new(gpu, "node", if carrier { slots } else { solid_slots })?,
+            inertia: Buffer::new(gpu, "inertia", solid_slots)?,
             elastic: Buffer::new(gpu, "elastic", if count == 0 { 0 } else { elastic * slots })?,
         };
         Ok(particles)

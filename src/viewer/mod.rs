@@ -1,1 +1,61 @@
-//! Placeholder: see ARCHITECTURE.
+//! The live window: a gallery of scenes, and any of them at work.
+//!
+//! A worker thread owns device, simulation and renderer ([`worker`]); the window has a small device of its own that draws the user
+//! interface and nothing else. So the window answers however long a step takes, and outlives a lost device. It shows the bytes of
+//! [`crate::render::Picture`]s: what is seen is what `run` writes.
+//!
+//! What can be tested without a window knows none: [`session`], [`camera`], [`pick`], [`budget`], [`keys`].
+
+mod app;
+mod bars;
+pub mod budget;
+pub mod camera;
+mod clipboard;
+mod desk;
+mod gallery;
+mod help;
+mod history;
+pub mod keys;
+pub mod model;
+mod panel;
+pub mod pick;
+pub mod record;
+pub mod session;
+mod theme;
+mod ui;
+mod view;
+mod watch;
+mod window;
+pub mod worker;
+
+use winit::event_loop::EventLoop;
+
+use crate::gpu::GpuOptions;
+use crate::{Error, Result};
+use app::{App, Wake};
+use model::{Pace, Request};
+use ui::Ui;
+use worker::Worker;
+
+/// Opens the window, on the gallery or on a scene, and returns when it is closed: steps that the last scene ran, and the seconds that
+/// they took. Without a `pace` a scene takes its time.
+///
+/// # Errors
+/// [`Error::Usage`] if there is no display; [`Error::NoAdapter`] and [`Error::Gpu`] if nothing can draw to the window.
+pub fn run(options: GpuOptions, request: Option<Request>, pace: Option<Pace>) -> Result<(u64, f64)> {
+    let no_window = |error: &dyn std::fmt::Display| {
+        Error::Usage(format!("no window can be opened: {error}; `brisance run SCENE` works without one"))
+    };
+    let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|error| no_window(&error))?;
+    let proxy = event_loop.create_proxy();
+    let worker = Worker::start(options, move || {
+        // The loop has ended: nobody looks any more.
+        let _ = proxy.send_event(Wake);
+    });
+    let display = event_loop.owned_display_handle();
+    let mut app = App::new(Ui::new(worker, request, pace), display);
+    let ended = event_loop.run_app(&mut app);
+    let ran = app.outcome()?;
+    ended.map_err(|error| no_window(&error))?;
+    Ok(ran)
+}

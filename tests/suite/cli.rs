@@ -118,6 +118,45 @@ fn check_prints_what_a_run_would_use() {
 }
 
 #[test]
+fn variants_are_listed_and_chosen() {
+    let list = succeeds(&["list"]);
+    assert!(
+        list.lines().any(|line| line.starts_with("fig04_trucks ") && line.ends_with("[small, strong, weak]")),
+        "{list}"
+    );
+    let check = |options: &[&str]| {
+        let arguments = [&["check", "fig04_trucks", "--json"], options].concat();
+        serde_json::from_str::<serde_json::Value>(&succeeds(&arguments)).unwrap()
+    };
+    let small = check(&["--variant", "small", "--variant", "weak", "--set", "time.frames=3"]);
+    assert_eq!(small["cells"], 65536);
+    assert_eq!(small["scene"]["materials"]["truck"]["von_mises"]["yield_stress"], 5.2e5);
+    assert_eq!(small["scene"]["time"]["frames"], 3);
+    let text = fails(3, &["check", "fig04_trucks", "--variant", "medium"]);
+    assert!(text.contains("no variant `medium`") && text.contains("`strong`"), "{text}");
+}
+
+#[test]
+fn check_draws_the_start_and_names_overlaps() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("start.png");
+    let overlap = "bodies[2].shape={ sphere = { center = [1.0, 0.4], radius = 0.1 } }";
+    let arguments = ["check", "supernova_2d", "--set", overlap, "--picture", picture.to_str().unwrap()];
+    let output = run(&arguments);
+    assert!(
+        out(&output).contains("# overlap    `outer` gives ") && out(&output).contains("to `middle`"),
+        "{}",
+        out(&output)
+    );
+    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&picture).unwrap()));
+    let info = decoder.read_info().unwrap();
+    assert_eq!((info.info().width, info.info().height), (1200, 520));
+}
+
+#[test]
 fn mistakes_in_scenes_are_named() {
     let text = fails(3, &["run", "nowhere.toml"]);
     assert!(text.starts_with("error: no file `nowhere.toml`") && text.contains("sod"), "{text}");

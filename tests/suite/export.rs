@@ -14,6 +14,7 @@ fn snapshot(dimension: u32) -> Snapshot {
     let mut kinds = vec![kind::GAS; count];
     kinds[1] = kind::SOLID;
     let particle = |index: usize| ParticleSample {
+        index: index as u32,
         position: [number(index), 0.5, 0.25],
         velocity: [1.0, number(index), 3.0],
         vorticity: [0.0; 3],

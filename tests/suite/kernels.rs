@@ -228,6 +228,30 @@ fn ball_that_shares_its_volume() {
     body(3, &[&AT_THE_SIDES[..], &["numerics.ghost=shared_volume"]].concat());
 }
 
+/// A step of several elastic Courant numbers.
+#[test]
+fn stiff_ball_by_backward_euler() {
+    let implicit = ["numerics.elasticity=implicit", "numerics.elastic_tolerance=1e-6"];
+    let stiff = "materials.rubber.neo_hookean.young_modulus=1000.0";
+    body(3, &[&implicit[..], &[stiff]].concat());
+    body(2, &[&implicit[..], &[stiff, "numerics.transfer=scatter"]].concat());
+    body(2, &["numerics.elasticity=implicit", "numerics.elastic_tolerance=1e-7", SOFT_METAL]);
+}
+
+#[test]
+fn ball_on_the_floor_by_backward_euler() {
+    let implicit = ["numerics.elasticity=implicit", "numerics.elastic_tolerance=1e-6"];
+    body(3, &[&implicit[..], &AT_THE_SIDES[..5], &["materials.rubber.neo_hookean.young_modulus=1000.0"]].concat());
+}
+
+/// Bodies of very different density: the lightest nodes of each are as heavy as its own material makes them.
+#[test]
+fn a_light_ball_beside_a_heavy_one() {
+    let heavy = r#"bodies=[{ name = "ball", shape = { sphere = { center = [0.3, 0.55], radius = 0.15 } }, material = "rubber",
+        density = 0.5 }, { name = "heavy", shape = { sphere = { center = [0.7, 0.55], radius = 0.15 } }, material = "rubber", density = 100.0 }]"#;
+    body(3, &[heavy]);
+}
+
 /// A block that fills a corner of the box: whole rows of the pressure system with nothing but the body and the sides around.
 #[test]
 fn block_in_a_corner_in_space() {

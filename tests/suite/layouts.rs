@@ -66,6 +66,7 @@ fn params() {
             groups,
             march,
             wall_sides,
+            blending,
             scan,
         ]
     );
@@ -100,6 +101,13 @@ fn control() {
             frontier,
             time,
             time_error,
+            rounds,
+            round_open,
+            newly_held,
+            elastic_iterations,
+            longest_round,
+            imbalance,
+            imbalance_before,
         ]
     );
 }

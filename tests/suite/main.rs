@@ -12,6 +12,7 @@ mod images;
 mod kernels;
 mod layering;
 mod layouts;
+mod live;
 mod materials;
 mod numerics;
 mod quiet;
@@ -28,3 +29,5 @@ mod supports;
 mod synthetic;
 mod twins;
 mod verify;
+#[cfg(feature = "viewer")]
+mod viewer;

@@ -1,7 +1,9 @@
 //! A simulation on the device and its CPU twin: same start, same steps, compared field by field.
 
 use brisance::gpu::{Buffer, Detail, Gpu, readback};
-use brisance::scene::{Boundary, Coupling, Film, Ghost, Integrator, InterfacePressure, Pair, Scene, SolidUpdate};
+use brisance::scene::{
+    Boundary, Coupling, Elasticity, Film, Ghost, Integrator, InterfacePressure, Pair, Scene, SolidUpdate,
+};
 use brisance::simulation::Simulation;
 use glam::{DMat3, DVec3};
 
@@ -65,6 +67,7 @@ fn problem_of(scene: &Scene) -> Problem {
     problem.numerics.gradients = scene.numerics.solid_update == SolidUpdate::Gradients;
     problem.numerics.coupling_last = scene.numerics.coupling == Coupling::Last;
     problem.numerics.shared_volume = scene.numerics.ghost == Ghost::SharedVolume;
+    problem.numerics.implicit = scene.numerics.elasticity == Elasticity::Implicit;
     problem.numerics.max_substeps = scene.max_substeps() as usize;
     problem.numerics.blending = scene.numerics.blending;
     problem.numerics.predictor = scene.integrator() != Integrator::Paper;

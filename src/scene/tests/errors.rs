@@ -33,6 +33,16 @@ fn unknown_key_inside_a_region() {
 }
 
 #[test]
+fn variants_that_are_wrong() {
+    let text = with("[variants.small]\n\"domain.cels\" = [10, 5]\n[variants.long]\n\"probes[0].name\" = \"a\"\n");
+    expect(&text, &["variant=large"], &["no variant `large`", "`long`", "`small`"]);
+    expect(&text, &["variant=small"], &["test.toml:14:1", "unknown field `cels`", "`cells`"]);
+    expect(BASE, &["variant=a"], &["no variants"]);
+    let listed = text.replace("title", "probes = []\ntitle");
+    expect(&listed, &["variant=long"], &["variant `long`", "`0` is no entry of a list of 0"]);
+}
+
+#[test]
 fn wrong_type() {
     let text = BASE.replace("until = 1.0", "until = \"soon\"");
     expect(&text, &[], &["test.toml:10:9", "time.until", "expected f64"]);

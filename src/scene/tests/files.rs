@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{BASE, parse};
-use crate::scene::{Scene, schema};
+use crate::scene::{Boundary, Scene, schema};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -33,6 +33,40 @@ fn every_scene_loads() {
             path.display()
         );
     }
+}
+
+#[test]
+fn every_variant_loads() {
+    for path in scene_files(&root().join("scenes")) {
+        let scene = Scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+        for name in scene.variants.keys() {
+            Scene::load(&path, &[format!("variant={name}")]).unwrap_or_else(|error| panic!("{error}"));
+        }
+    }
+}
+
+#[test]
+fn variants_change_keys_in_their_order() {
+    let text = format!(
+        "{BASE}[boundary]\nx_max = {{ outlet_of = 1 }}\n[variants.fine]\n\"domain.cells\" = [40, 20]\ntime.until = 3.0\n[variants.open]\n\
+         boundary.x_max = {{ far_field = {{ density = 2.0, pressure = 1.0 }} }}\n[variants.open.time]\nuntil = 4.0\n"
+    );
+    let text = text.replace("until = 1.0", "until = 1.0\ncfl = 0.25");
+    let state = "far_field = { density = 3.0, velocity = [1.0, 0.0], pressure = 1.0 }";
+    let text = text.replace("outlet_of = 1", state);
+    let plain = parse(&text, &[]);
+    assert_eq!((plain.domain.cells, plain.time.until), ([20, 10, 1], 1.0));
+    let fine = parse(&text, &["variant=fine", "time.frames=3"]);
+    assert_eq!((fine.domain.cells, fine.time.until, fine.time.frames), ([40, 20, 1], 3.0, 3));
+    let both = parse(&text, &["variant=fine", "variant=open"]);
+    assert_eq!((both.domain.cells, both.time.until), ([40, 20, 1], 4.0));
+    // dotted keys and headers lead inside, an inline table replaces
+    assert_eq!((fine.time.cfl, both.time.cfl), (0.25, 0.25));
+    assert!(
+        matches!(both.boundary.x_max, Boundary::FarField(state) if state.density == 2.0 && state.velocity == [0.0; 3])
+    );
+    assert_eq!(parse(&text, &["variant=open", "variant=fine"]).time.until, 3.0);
+    assert_eq!(both.variants.keys().collect::<Vec<_>>(), ["fine", "open"]);
 }
 
 #[test]

@@ -3,6 +3,8 @@
 mod errors;
 mod files;
 mod geometry;
+mod meshes;
+mod sampling;
 
 use super::Scene;
 

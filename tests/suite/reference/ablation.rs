@@ -10,7 +10,7 @@ use super::{GAS, GHOST, Pair, Particle, Problem, SOLID, WALL};
 use glam::DMat3;
 
 /// Acceleration of a node by the gradient of its own cell; None at walls, which keep the forces of the solve.
-pub(crate) fn local_gradient(inputs: &Inputs, pressure: &[Vec<f64>; 3], c: [i32; 3], floor: f64) -> Option<[f64; 3]> {
+pub(crate) fn local_gradient(inputs: &Inputs, pressure: &[Vec<f64>; 3], c: [i32; 3], mass: f64) -> Option<[f64; 3]> {
     let (problem, cells) = (inputs.problem, &inputs.interface.cells);
     let grid = &problem.grid;
     let kind = |at: [i32; 3]| if grid.stored(at) { cells[grid.slot(at)] } else { WALL };
@@ -35,12 +35,11 @@ pub(crate) fn local_gradient(inputs: &Inputs, pressure: &[Vec<f64>; 3], c: [i32;
             push[axis] += sign * mean;
         }
     }
-    let mass = inputs.nodes.mass[grid.slot(c)].max(floor);
     Some(push.map(|difference| -difference * grid.area() * share / mass))
 }
 
 /// Replaces the pressure kick of all nodes that have a local gradient.
-pub(crate) fn by_gradients(inputs: &Inputs, solution: &mut Solution, floor: f64) {
+pub(crate) fn by_gradients(inputs: &Inputs, solution: &mut Solution, inertia: &[f64]) {
     let grid = &inputs.problem.grid;
     for c in grid.all() {
         let slot = grid.slot(c);
@@ -48,7 +47,7 @@ pub(crate) fn by_gradients(inputs: &Inputs, solution: &mut Solution, floor: f64)
         if !touches {
             continue;
         }
-        if let Some(push) = local_gradient(inputs, &solution.pressure, c, floor) {
+        if let Some(push) = local_gradient(inputs, &solution.pressure, c, inertia[slot]) {
             solution.solid_velocity[slot] = [0, 1, 2].map(|d| inputs.nodes.velocity[slot][d] + inputs.dt * push[d]);
         }
     }

@@ -6,7 +6,7 @@ use super::grid::{add, shift, subtract};
 use super::interface::{self, Interface};
 use super::intermediate_pressure::Intermediate;
 use super::p2g::Nodes;
-use super::particle_sort::Bins;
+use super::particle_sort::{self, Bins};
 use super::{GAS, GHOST, Pair, Problem, SOLID, WALL};
 
 /// Gas pressure.
@@ -101,7 +101,7 @@ fn local(offset: [i32; 3]) -> usize {
 fn rows(inputs: &Inputs) -> Vec<Row> {
     let (problem, interface) = (inputs.problem, inputs.interface);
     let grid = &problem.grid;
-    let floor = problem.numerics.mass_floor * inputs.bins.density * grid.volume();
+    let inertia = particle_sort::inertia(problem, inputs.bins, &inputs.nodes.mass);
     let vertices = grid.offsets(-1, 2);
     let mut rows = Vec::new();
     for kind in [GAS, SOLID] {
@@ -131,7 +131,7 @@ fn rows(inputs: &Inputs) -> Vec<Row> {
                 let (mass, velocity) = if kind == GAS {
                     (inputs.intermediate.node_mass[slot], inputs.intermediate.node_velocity[slot][axis])
                 } else {
-                    (inputs.nodes.mass[slot].max(floor), inputs.nodes.velocity[slot][axis])
+                    (inertia[slot], inputs.nodes.velocity[slot][axis])
                 };
                 rows.push(Row { solid: kind == SOLID, axis, node: slot, mass, velocity, entries });
             }

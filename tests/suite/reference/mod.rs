@@ -5,6 +5,7 @@ pub(crate) mod ars222;
 pub(crate) mod boundary;
 pub(crate) mod carrier;
 pub(crate) mod coupled_solve;
+pub(crate) mod elastic_solve;
 pub(crate) mod element;
 pub(crate) mod fluid_update;
 pub(crate) mod g2p;
@@ -108,6 +109,8 @@ pub(crate) struct Numerics {
     pub(crate) max_growth: f64,
     /// Solid node masses are floored in the solve at this part of a full node.
     pub(crate) mass_floor: f64,
+    /// Elasticity by backward Euler.
+    pub(crate) implicit: bool,
 }
 
 impl Default for Numerics {
@@ -135,6 +138,7 @@ impl Default for Numerics {
             max_courant: 2.0,
             max_growth: 2.0,
             mass_floor: 0.01,
+            implicit: false,
         }
     }
 }

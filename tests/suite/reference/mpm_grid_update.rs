@@ -12,16 +12,26 @@ pub(crate) fn add_forces(velocity: &mut [[f64; 3]], mass: &[f64], force: &[[f64;
 }
 
 /// What nodes lighter than the floor of the solve leave of a kick goes to the nodes around them, by mass.
-pub(crate) fn share_left(problem: &Problem, mass: &[f64], floor: f64, kick: &[[f64; 3]], velocity: &mut [[f64; 3]]) {
+pub(crate) fn share_left(
+    problem: &Problem,
+    mass: &[f64],
+    inertia: &[f64],
+    kick: &[[f64; 3]],
+    velocity: &mut [[f64; 3]],
+) {
     let grid = &problem.grid;
     let mut gain = vec![[0.0; 3]; mass.len()];
-    for c in grid.all().into_iter().filter(|c| mass[grid.slot(*c)] < floor && kick[grid.slot(*c)] != [0.0; 3]) {
+    for c in grid
+        .all()
+        .into_iter()
+        .filter(|c| mass[grid.slot(*c)] < inertia[grid.slot(*c)] && kick[grid.slot(*c)] != [0.0; 3])
+    {
         let slot = grid.slot(c);
         let near = grid.offsets(-1, 1).into_iter().map(|o| add(c, o)).filter(|at| grid.stored(*at));
         let near: Vec<usize> = near.map(|at| grid.slot(at)).filter(|at| mass[*at] > 0.0).collect();
         let total: f64 = near.iter().map(|at| mass[*at]).sum();
         for at in near {
-            gain[at] = [0, 1, 2].map(|d| gain[at][d] + kick[slot][d] * (floor - mass[slot]) / total);
+            gain[at] = [0, 1, 2].map(|d| gain[at][d] + kick[slot][d] * (inertia[slot] - mass[slot]) / total);
         }
     }
     for (v, gain) in velocity.iter_mut().zip(gain) {

@@ -18,6 +18,22 @@ pub(crate) struct Bins {
     pub(crate) ghost_weight: Vec<f64>,
     /// Largest mass / vol0.
     pub(crate) density: f64,
+    /// Least mass / vol0 per cell.
+    pub(crate) least_density: Vec<f64>,
+}
+
+/// Mass that the pressure solve gives to each node: at least a share of what a cell full of the lightest particles around it weighs.
+pub(crate) fn inertia(problem: &Problem, bins: &Bins, mass: &[f64]) -> Vec<f64> {
+    let grid = &problem.grid;
+    let most = problem.numerics.mass_floor * grid.volume() * bins.density;
+    let mut inertia: Vec<f64> = mass.iter().map(|mass| mass.max(most)).collect();
+    for c in grid.all().into_iter().filter(|c| mass[grid.slot(*c)] > 0.0) {
+        let near = grid.offsets(-1, 1).into_iter().map(|offset| add(c, offset)).filter(|at| grid.contains(*at));
+        let least = near.map(|at| bins.least_density[grid.slot(at)]).fold(f64::INFINITY, f64::min);
+        let slot = grid.slot(c);
+        inertia[slot] = mass[slot].max(problem.numerics.mass_floor * grid.volume() * least);
+    }
+    inertia
 }
 
 /// Linear weights of a position on the vertices of its cell.
@@ -49,6 +65,7 @@ pub(crate) fn bin(problem: &Problem, particles: &[Particle]) -> Bins {
         ghost_pressure: zeros(),
         ghost_weight: zeros(),
         density: 0.0,
+        least_density: vec![f64::INFINITY; grid.slots()],
     };
     for particle in particles.iter().filter(|particle| particle.active) {
         let slot = grid.slot(grid.cell_of(particle.position.to_array()));
@@ -56,6 +73,7 @@ pub(crate) fn bin(problem: &Problem, particles: &[Particle]) -> Bins {
         bins.volume[slot] += particle.volume0 * particle.deformation.determinant();
         bins.compliance[slot] += problem.materials[particle.material].compliance(particle.ghost_pressure);
         bins.density = bins.density.max(particle.mass / particle.volume0);
+        bins.least_density[slot] = bins.least_density[slot].min(particle.mass / particle.volume0);
         for (vertex, weight) in linear_weights(grid, particle.position) {
             let vertex = grid.slot(vertex);
             bins.ghost_pressure[vertex] += weight * particle.volume0 * particle.ghost_pressure;

@@ -4,8 +4,8 @@ use super::coupled_solve::{Inputs, Solution, coupled_solve};
 use super::p2g::Nodes;
 use super::{Problem, State};
 use super::{
-    ablation, ars222, boundary, fluid_update, g2p, gas_advection, interface, intermediate_pressure, ledger,
-    mpm_grid_update, p2g, particle_sort, time_step,
+    ablation, ars222, boundary, elastic_solve, fluid_update, g2p, gas_advection, interface, intermediate_pressure,
+    ledger, mpm_grid_update, p2g, particle_sort, time_step,
 };
 
 /// What a step did.
@@ -50,26 +50,27 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let intermediate = intermediate_pressure::intermediate(problem, &faces, (&advected, &star), None, &state.open, dt);
 
     let film = interface::film_force(problem, &faces.cells, &bins, &intermediate.vertex_pressure);
-    let floor = problem.numerics.mass_floor * bins.density * problem.grid.volume();
-    let floored: Vec<f64> = nodes.mass.iter().map(|mass| if *mass > 0.0 { mass.max(floor) } else { 0.0 }).collect();
+    let inertia = particle_sort::inertia(problem, &bins, &nodes.mass);
+    let some = |(mass, inertia): (&f64, &f64)| if *mass > 0.0 { *inertia } else { 0.0 };
+    let floored: Vec<f64> = nodes.mass.iter().zip(&inertia).map(some).collect();
     let predicted = ablation::elastic_first(problem, &faces.cells, &mut nodes, &floored, dt);
     mpm_grid_update::add_gravity(problem, &mut nodes, dt);
     mpm_grid_update::add_forces(&mut nodes.velocity, &floored, &film, dt);
-    let kick: Vec<_> = film.iter().zip(&nodes.mass).map(|(f, m)| f.map(|f| dt * f / m.max(floor))).collect();
-    mpm_grid_update::share_left(problem, &nodes.mass, floor, &kick, &mut nodes.velocity);
+    let kick: Vec<_> = film.iter().zip(&inertia).map(|(f, m)| f.map(|f| dt * f / m)).collect();
+    mpm_grid_update::share_left(problem, &nodes.mass, &inertia, &kick, &mut nodes.velocity);
 
     let (interface, inner) = (&faces, &intermediate);
     let inputs = Inputs { problem, interface, bins: &bins, intermediate: inner, nodes: &nodes, dt };
     let mut solution = coupled_solve(&inputs);
     if problem.numerics.gradients {
-        ablation::by_gradients(&inputs, &mut solution, floor);
+        ablation::by_gradients(&inputs, &mut solution, &inertia);
     }
     let kick = differences(&solution.solid_velocity, &nodes.velocity);
     state.gas = fluid_update::fluid_update(problem, &faces, (&star, &intermediate), &solution, &nodes.velocity, dt);
     state.open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
     let touched = fluid_update::energy_floor(problem, &faces.cells, &star, &mut state.gas, &mut state.ledger);
 
-    mpm_grid_update::share_left(problem, &nodes.mass, floor, &kick, &mut solution.solid_velocity);
+    mpm_grid_update::share_left(problem, &nodes.mass, &inertia, &kick, &mut solution.solid_velocity);
     let change = g2p::ghost_change(problem, &faces, &bins, &solution.pressure[2]);
     let push = match predicted {
         None => {
@@ -103,6 +104,11 @@ fn elastic_substeps(
     state: &mut State,
     dt: f64,
 ) -> usize {
+    if problem.numerics.implicit {
+        elastic_solve::elastic_solve(problem, cells, nodes, &state.particles, dt);
+        g2p::g2p(problem, &nodes.velocity, change, 1.0, dt, &mut state.particles);
+        return 1;
+    }
     let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);
     let (share, sub_dt) = (1.0 / substeps as f64, dt / substeps as f64);
     for index in 0..if state.particles.is_empty() { 0 } else { substeps } {

@@ -1,0 +1,50 @@
+// detonate: energy for the gas in a ball, evenly over its volume: pressure rises, density and velocity stay. Cells of a cut cluster
+// share one state, so the centre of their first one decides for all. Reads cells, extra. Writes partials, energy.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/cut.wgsl"
+#include "shared/reduce.wgsl"
+
+// Mirror of Blast in src/stage/detonate.rs.
+struct Blast {
+    center: vec3f,      // in cells from the low corner of the domain
+    radius: f32,        // in cells
+    rise: f32,          // [J m^-3]
+    unused: vec3f,
+}
+
+@group(0) @binding(1) var<uniform> blast: Blast;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> extra: array<u32>;
+@group(0) @binding(4) var<storage, read_write> partials: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;
+
+// Gas of a slot that belongs to the ball, in cells.
+fn share_in_ball(slot: u32) -> f32 {
+    if kind_of(cells[slot]) != GAS || !inside(cell_of(slot)) || is_alias(cell_of(slot)) { return 0.0; }
+    var away = vec3f(cell_of(cluster_first(slot))) + 0.5 - blast.center;
+    for (var a = 0u; a < 3u; a++) {
+        if a >= DIM { away[a] = 0.0; }
+        if periodic_axes()[a] { away[a] -= f32(params.cells[a]) * round(away[a] / f32(params.cells[a])); }
+    }
+    return select(0.0, gas_share(slot), length(away) < blast.radius);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn detonate_volume(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    var sum = 0.0;
+    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+        sum += share_in_ball(slot);
+    }
+    sum = workgroup_sum(lane, sum);
+    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = vec4f(sum, 0.0, 0.0, 0.0); }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn detonate_heat(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    if share_in_ball(slot) > 0.0 { energy[slot] += blast.rise; }
+}

@@ -1,0 +1,18 @@
+// The deformation gradient that a velocity gradient leads to, before plastic flow. Needs the binding deformation.
+#include "shared/driven.wgsl"
+
+fn deformation_of(p: u32) -> mat3x3f {
+    return mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
+}
+
+// Whether the law of a particle counts: a part that is held bears the stress of the rest at its edge.
+fn strains(p: u32) -> bool { return !is_driven(p) || support_of(p).clamped == 1u; }
+
+// Deformation gradient before plastic flow. What is driven turns with its motion, and strains where the nodes around it do not follow.
+fn trial_deformation(p: u32, gradient: mat3x3f, time: f32) -> mat3x3f {
+    let f = deformation_of(p);
+    if !is_driven(p) { return f + time * gradient * f; }
+    let s = support_of(p);
+    let trial = f + time * (gradient - turning(s.spin)) * f;
+    return mat3x3f(turned(s, trial[0], time), turned(s, trial[1], time), turned(s, trial[2], time));
+}

@@ -1,0 +1,122 @@
+//! What may change while a simulation runs: parameters, the gas beyond open sides, and blasts. All of it happens between two steps.
+
+use super::Simulation;
+use crate::diagnostics::StepRecord;
+use crate::error::{Error, Result};
+use crate::scene::{Boundary, Scene};
+use crate::stage::{Detonate, Parts};
+use crate::state::Openings;
+
+/// Energy to be set free in a ball of gas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blast {
+    /// Its middle \[m\].
+    pub center: [f64; 3],
+    /// Its radius \[m\]: cells whose centre lies inside belong to it.
+    pub radius: f64,
+    /// Energy \[J\]; per metre of depth in 2D, per square metre in 1D.
+    pub energy: f64,
+}
+
+impl Simulation {
+    /// Finishes the step that is under way, if any; its record is appended.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    fn settle(&mut self, records: &mut Vec<StepRecord>) -> Result<()> {
+        while self.control()?.phase != 0 {
+            self.advance_batch_of(records, 1)?;
+        }
+        Ok(())
+    }
+
+    /// Goes on with the parameters of `to` instead of those of `from`, the scene as it is now. Gravity, `time.cfl`, `time.max_courant`,
+    /// `time.max_growth`, the tolerance and blending of `numerics`, and the states of open sides may differ.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if something else differs; driver errors.
+    pub fn change(&mut self, from: &Scene, to: &Scene, records: &mut Vec<StepRecord>) -> Result<()> {
+        check(from, to)?;
+        self.settle(records)?;
+        let (openings, state) = (Openings::new(to), &mut self.state);
+        let params = &mut state.params;
+        params.gravity = to.gravity.map(|g| g as f32);
+        params.cfl = to.time.cfl as f32;
+        params.max_courant = to.time.max_courant as f32;
+        params.max_growth = to.time.max_growth as f32;
+        params.tolerance = to.numerics.tolerance as f32;
+        params.blending = u32::from(to.numerics.blending);
+        self.coupled_solve.pcg.set_tolerance(&self.gpu, params.tolerance);
+        state.params_buffer.write(&self.gpu, 0, &[state.params]);
+        state.openings.write(&self.gpu, 0, &openings.padded());
+        state.knots.write(&self.gpu, 0, &openings.knots);
+        self.gpu.check()
+    }
+
+    /// Sets energy free in the gas of a ball, evenly over its volume: pressure rises, density and velocity stay. The books count it among
+    /// what was given from outside. Returns the energy \[J\], rounded to what the device can add.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if the numbers are not positive or there is no gas in the ball; driver errors.
+    pub fn detonate(&mut self, blast: &Blast, records: &mut Vec<StepRecord>) -> Result<f64> {
+        let Blast { center, radius, energy } = *blast;
+        if !(radius > 0.0 && radius.is_finite() && energy > 0.0 && energy.is_finite()) {
+            return Err(Error::Usage(format!(
+                "a blast of {energy} J within {radius} m: both numbers must be positive and finite"
+            )));
+        }
+        self.settle(records)?;
+        if self.detonate.is_none() {
+            self.detonate = Some(Detonate::new(Parts { gpu: &self.gpu, state: &self.state })?);
+        }
+        let Some(kernels) = &self.detonate else { return Ok(0.0) };
+        let energy = kernels.run(&self.gpu, &self.state, center, radius, energy)?;
+        self.given[3] += energy;
+        Ok(energy)
+    }
+}
+
+/// Whether only what may change differs.
+fn check(from: &Scene, to: &Scene) -> Result<()> {
+    let mut same = to.clone();
+    same.gravity = from.gravity;
+    same.time.cfl = from.time.cfl;
+    same.time.max_courant = from.time.max_courant;
+    same.time.max_growth = from.time.max_growth;
+    same.time.until = from.time.until;
+    same.numerics.tolerance = from.numerics.tolerance;
+    same.numerics.blending = from.numerics.blending;
+    same.boundary = from.boundary.clone();
+    same.render = from.render.clone();
+    same.output = from.output.clone();
+    if same != *from {
+        return Err(Error::Usage(
+            "only gravity, time.cfl, time.max_courant, time.max_growth, numerics.tolerance, numerics.blending and the states of \
+             open sides can change while a scene runs; restart it for the rest"
+                .to_owned(),
+        ));
+    }
+    let (before, after) = (Openings::new(from), Openings::new(to));
+    let kinds = |openings: &Openings| openings.table.iter().map(|o| (o.rule, o.first, o.knots)).collect::<Vec<_>>();
+    let sides = from.boundary.sides().into_iter().zip(to.boundary.sides());
+    if kinds(&before) == kinds(&after) && sides.into_iter().all(|(a, b)| same_kind(a, b)) {
+        return Ok(());
+    }
+    Err(Error::Usage(
+        "the state beyond a side can change while a scene runs, its rule and its patches cannot; restart the scene"
+            .to_owned(),
+    ))
+}
+
+/// Whether two sides follow the same rules at the same places.
+fn same_kind(a: &Boundary, b: &Boundary) -> bool {
+    match (a, b) {
+        (Boundary::Patched(a), Boundary::Patched(b)) => {
+            let pairs = a.patches.iter().zip(&b.patches);
+            same_kind(&a.base, &b.base)
+                && a.patches.len() == b.patches.len()
+                && pairs.into_iter().all(|(a, b)| a.shape == b.shape && same_kind(&a.rule, &b.rule))
+        }
+        _ => std::mem::discriminant(a) == std::mem::discriminant(b),
+    }
+}

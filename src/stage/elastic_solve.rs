@@ -1,0 +1,105 @@
+//! `elastic_solve`: which node velocities balance the elastic force at the end of the step? Backward Euler by Newton's method, each of
+//! its linear systems matrix-free by conjugate gradients: `numerics.elasticity = "implicit"`. [Gast et al. 2015]
+
+use super::p2g::Force;
+use super::{Parts, Transfer, extent};
+use crate::error::Result;
+use crate::gpu::{Bound, Extent, Pass};
+use crate::numerics::{Pcg, PcgVectors, Width};
+use crate::scene::{Elasticity, Scene};
+use crate::state::State;
+use crate::state::constants::Entry;
+
+/// Iterations of one linear system at most: a system that needs more is left where it is, and the next round goes on from there.
+pub const MAX_ITERATIONS: u32 = 300;
+
+/// Kernels of the stage.
+#[derive(Debug)]
+pub struct ElasticSolve {
+    pcg: Pcg,
+    round: [Bound; 3],
+    keep: Bound,
+    trial: Bound,
+    force: Force,
+    diagonal: Bound,
+    residual: Bound,
+    strain: Bound,
+    /// Carries the stress change to the nodes.
+    change: Force,
+    operator: Bound,
+    add: Bound,
+    finish: Bound,
+}
+
+impl ElasticSolve {
+    /// Binds, if the scene wants it.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(parts: Parts<'_>, scene: &Scene, transfer: Transfer) -> Result<Option<Self>> {
+        let Parts { gpu, state } = parts;
+        let Some(own) = state.elastic_solve.as_ref().filter(|_| scene.numerics.elasticity == Elasticity::Implicit)
+        else {
+            return Ok(None);
+        };
+        let limits = (scene.numerics.elastic_tolerance as f32, MAX_ITERATIONS);
+        let pcg = Pcg::new(gpu, &own.vectors, &state.partials, state.grid.slots(), state.params.groups, limits)?;
+        let PcgVectors { solution, residual, direction, product, inverse_diagonal } = &own.vectors;
+        let renamed = [
+            ("solution", solution.raw()),
+            ("residual", residual.raw()),
+            ("direction", direction.raw()),
+            ("product", product.raw()),
+            ("inverse_diagonal", inverse_diagonal.raw()),
+            ("change", own.change.raw()),
+            ("pcg", pcg.control.raw()),
+        ];
+        let bind = |shader: &str, entry: &str| state.bind(gpu, shader, entry, &renamed, &[]);
+        let solve = |entry: &str| bind("elastic_solve.wgsl", entry);
+        let operator = |entry: &str| bind("elastic_operator.wgsl", entry);
+        let control = |entry: &str| bind("elastic_control.wgsl", entry);
+        Ok(Some(Self {
+            round: [control("control_round")?, control("control_iteration")?, control("control_balanced")?],
+            keep: solve("elastic_keep")?,
+            trial: solve("elastic_trial")?,
+            force: Force::new(parts, transfer, state.particles.stress.raw())?,
+            diagonal: solve("elastic_diagonal")?,
+            residual: solve("elastic_residual")?,
+            strain: operator("elastic_strain")?,
+            change: Force::new(parts, transfer, own.change.raw())?,
+            operator: operator("elastic_operator")?,
+            add: operator("elastic_add")?,
+            finish: solve("elastic_finish")?,
+            pcg,
+        }))
+    }
+
+    /// One round of Newton's method. A round that needs more than the recorded iterations goes on in the next recording, and so does
+    /// a step that needs more rounds.
+    pub fn record_round(&self, pass: &mut Pass, state: &State, iterations: u32) {
+        pass.stage("elastic_solve");
+        let single = Extent::Groups([1, 1, 1]);
+        let [round, iteration, balanced] = &self.round;
+        pass.dispatch(round, &single);
+        pass.dispatch(&self.keep, &extent(state, "FIRST", Entry::Slots));
+        pass.dispatch(&self.trial, &extent(state, "ROUND", Entry::Particles));
+        self.force.record(pass, state, "ROUND");
+        pass.dispatch(&self.diagonal, &extent(state, "ROUND", Entry::Slots));
+        pass.dispatch(&self.residual, &extent(state, "ROUND", Entry::Slots));
+        self.pcg.begin(pass, &extent(state, "ROUND", Entry::Reduce), &extent(state, "ROUND", Entry::Single));
+        for _ in 0..iterations {
+            pass.dispatch(iteration, &single);
+            pass.dispatch(&self.strain, &extent(state, "ITERATION", Entry::Particles));
+            self.change.record(pass, state, "ITERATION");
+            self.pcg.iterate(pass, &[(&self.operator, Width::Partial)]);
+        }
+        pass.dispatch(balanced, &single);
+        pass.dispatch(&self.add, &extent(state, "ROUND", Entry::Slots));
+    }
+
+    /// Walls and the books, once the velocities are found.
+    pub fn record_finish(&self, pass: &mut Pass, state: &State) {
+        pass.stage("elastic_solve");
+        pass.dispatch(&self.finish, &extent(state, "SUBSTEP", Entry::Reduce));
+    }
+}

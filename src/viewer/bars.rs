@@ -1,0 +1,118 @@
+//! The bars above and below the picture: title and device, transport and clock.
+
+use egui::{Align, Layout, ProgressBar, RichText, Ui};
+
+use super::keys::Action;
+use super::model::{Pace, Phase, Request, Status};
+use super::theme;
+use super::view::View;
+
+/// Choices of the pace: what the whole run takes at least \[s\].
+const PACES: [f64; 5] = [3.0, 6.0, 12.0, 30.0, 120.0];
+
+/// Title, device, help; what was asked for.
+pub(super) fn top(ui: &mut Ui, view: Option<&View>, request: Option<&Request>) -> Vec<Action> {
+    let mut asked = Vec::new();
+    ui.horizontal(|ui| {
+        if ui.button("< Gallery").on_hover_text("Esc").clicked() {
+            asked.push(Action::Back);
+        }
+        let title = view.map_or_else(|| request.map_or("", |request| &request.name), |view| &view.scene.title);
+        ui.label(RichText::new(title).strong());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            for (text, key, action) in [("Help", "H", Action::Help), ("Panel", "P", Action::Panel)] {
+                if ui.button(text).on_hover_text(key).clicked() {
+                    asked.push(action);
+                }
+            }
+            if let Some(view) = view {
+                ui.add(egui::Label::new(RichText::new(about(view)).small().color(theme::FAINT)).truncate());
+            }
+        });
+    });
+    asked
+}
+
+/// Cells, particles, device.
+fn about(view: &View) -> String {
+    let domain = &view.scene.domain;
+    let cells = domain.cells.map(|n| n.to_string())[..domain.axes()].join(" x ");
+    let particles = match view.opened.particles {
+        0 => String::new(),
+        count => format!(", {count} particles"),
+    };
+    let software = if view.opened.software { " (software: slower than a GPU)" } else { "" };
+    format!("{cells} cells{particles} on {}{software}", view.opened.device)
+}
+
+/// Buttons, clock, pace; what was asked for.
+pub(super) fn bottom(ui: &mut Ui, view: Option<&mut View>, status: &Status) -> Vec<Action> {
+    let mut asked = Vec::new();
+    ui.add_space(3.0);
+    ui.horizontal(|ui| {
+        let play = if status.playing { "Pause" } else { "Play" };
+        let record = if status.recorded.is_some() { "Stop" } else { "Record" };
+        let buttons = [
+            (play, "Space", Action::Play),
+            ("Step", "Right", Action::Step(1)),
+            ("Restart", "R", Action::Restart),
+            ("Fit", "F", Action::Fit),
+            ("Save picture", "S", Action::Screenshot),
+            (record, "V", Action::Record),
+        ];
+        let ready = status.phase == Phase::Ready;
+        for (text, key, action) in buttons {
+            let enabled = ready || action == Action::Restart;
+            if ui.add_enabled(enabled, egui::Button::new(text)).on_hover_text(key).clicked() {
+                asked.push(action);
+            }
+        }
+        if let Some(view) = view {
+            pace(ui, view);
+            clock(ui, view, status);
+        }
+    });
+    ui.add_space(1.0);
+    asked
+}
+
+/// How fast simulated time may pass.
+fn pace(ui: &mut Ui, view: &mut View) {
+    let name = |pace: Pace| match pace {
+        Pace::Fastest => "full speed".to_owned(),
+        Pace::Lasting(seconds) => format!("run in {seconds:.3} s").replace(".000 s", " s"),
+    };
+    let before = view.pace;
+    let mut now = before;
+    egui::ComboBox::from_id_salt("pace").selected_text(name(now)).width(104.0).show_ui(ui, |ui| {
+        ui.selectable_value(&mut now, Pace::Fastest, name(Pace::Fastest));
+        for seconds in PACES {
+            ui.selectable_value(&mut now, Pace::Lasting(seconds), name(Pace::Lasting(seconds)));
+        }
+    });
+    if now != before {
+        view.set_pace(now);
+    }
+}
+
+fn clock(ui: &mut Ui, view: &View, status: &Status) {
+    let until = view.scene.time.until;
+    let rate = match status.steps_per_second {
+        rate if rate > 0.0 => format!("{rate:.1} steps/s"),
+        _ if status.phase == Phase::Failed => "stopped".to_owned(),
+        _ if status.finished => "end; Space goes on".to_owned(),
+        _ if status.playing && status.step == 0 => "starting".to_owned(),
+        _ if status.playing => "running".to_owned(),
+        _ => "paused".to_owned(),
+    };
+    let recorded = status.recorded.map_or_else(String::new, |count| format!("   recording: {count} pictures"));
+    let text = format!("t = {:.4e} s   step {}   {rate}{recorded}", status.time, status.step);
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.label(RichText::new(text).monospace());
+        let width = ui.available_width() - 8.0;
+        if width > 40.0 {
+            let share = (status.time / until).clamp(0.0, 1.0) as f32;
+            ui.add(ProgressBar::new(share).desired_width(width).desired_height(8.0).fill(theme::ACCENT));
+        }
+    });
+}

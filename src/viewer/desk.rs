@@ -1,0 +1,398 @@
+//! What the worker does: obeys commands, steps the scene within its budget, draws, and leaves the outcome in the outbox.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use super::budget::{Budget, Rate, paced_steps};
+use super::model::{Command, Look, Note, Opened, Outbox, Pace, Phase, Request, Shown, Status, Strike, Weight};
+use super::record::{self, Recording};
+use super::session::Session;
+use super::worker::lock;
+use crate::diagnostics::StepRecord;
+use crate::gpu::{Gpu, GpuOptions};
+use crate::scene::{Scene, stem};
+use crate::{Error, Result};
+
+/// Time between two measurements of the stages \[s\].
+const MEASURE_PERIOD: f64 = 2.0;
+/// What of a lag behind the pace is caught up \[s\].
+const LONGEST_LAG: f64 = 0.1;
+/// Where screenshots and recordings go, below a folder per scene.
+const OUT: &str = "out";
+
+/// The worker's state.
+pub(super) struct Desk {
+    options: GpuOptions,
+    outbox: Arc<Mutex<Outbox>>,
+    gpu: Option<Gpu>,
+    session: Option<Session>,
+    folder: PathBuf,
+    look: Option<Look>,
+    moving: bool,
+    /// The look has changed since the last picture; then also whether it was drawn with fewer pixels than asked for.
+    stale: bool,
+    coarse: bool,
+    /// Steps since the last picture.
+    news: bool,
+    playing: bool,
+    steps_left: u32,
+    pace: Pace,
+    /// Clock and simulated time when the scene began to run at its pace.
+    paced_from: (f64, f64),
+    budget: Budget,
+    measuring: bool,
+    measured: f64,
+    rate: Rate,
+    /// Steps after the first submission, and seconds that they took with everything beside them.
+    ran: (u64, f64),
+    /// End of the turn before.
+    turned: f64,
+    shown: Option<Shown>,
+    recording: Option<Recording>,
+    records: Vec<StepRecord>,
+    phase: Phase,
+    start: Instant,
+}
+
+impl Desk {
+    pub(super) fn new(options: GpuOptions, outbox: Arc<Mutex<Outbox>>) -> Self {
+        Self {
+            options,
+            outbox,
+            gpu: None,
+            session: None,
+            folder: PathBuf::from(OUT),
+            look: None,
+            moving: false,
+            stale: false,
+            coarse: false,
+            news: false,
+            playing: false,
+            steps_left: 0,
+            pace: Pace::Fastest,
+            paced_from: (0.0, 0.0),
+            budget: Budget::default(),
+            measuring: false,
+            measured: 0.0,
+            rate: Rate::default(),
+            ran: (0, 0.0),
+            turned: 0.0,
+            shown: None,
+            recording: None,
+            records: Vec::new(),
+            phase: Phase::Empty,
+            start: Instant::now(),
+        }
+    }
+
+    fn now(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
+    }
+
+    fn ready(&self) -> bool {
+        self.session.is_some() && self.phase == Phase::Ready
+    }
+
+    /// How long the worker may wait for a command; for ever if there is nothing to do.
+    pub(super) fn patience(&self) -> Option<Duration> {
+        if !self.ready() {
+            return None;
+        }
+        if self.steps_left > 0 || (self.playing && self.due_steps() > 0) {
+            return Some(Duration::ZERO);
+        }
+        let wait = |until: f64| Some(Duration::from_secs_f64((until - self.now()).clamp(0.0, 1.0)));
+        if self.stale || self.news || (self.coarse && !self.moving) {
+            return wait(if self.playing { self.budget.picture_due(self.stale) } else { 0.0 });
+        }
+        // A paced scene waits for its next step.
+        if self.playing { Some(Duration::from_millis(5)) } else { None }
+    }
+
+    /// Does what is asked for.
+    pub(super) fn obey(&mut self, command: Command) {
+        let outcome = match command {
+            Command::Open(request, look) => self.open(&request, look),
+            Command::Close => {
+                self.close();
+                Ok(())
+            }
+            Command::Play(playing) => self.play(playing),
+            Command::Steps(steps) => {
+                self.playing = false;
+                self.steps_left = self.steps_left.saturating_add(steps);
+                self.pass_the_end()
+            }
+            Command::Pace(pace) => {
+                self.pace = pace;
+                self.start_pace();
+                Ok(())
+            }
+            Command::Look { look, moving } => {
+                self.stale |= self.look.as_ref() != Some(&*look);
+                (self.look, self.moving) = (Some(*look), moving);
+                Ok(())
+            }
+            Command::Change(scene) => self.change(*scene),
+            Command::Detonate(strike) => self.strike(&strike),
+            Command::Screenshot => self.screenshot(),
+            Command::Record(on) => self.record(on),
+            Command::Measure(on) => {
+                self.measuring = on;
+                Ok(())
+            }
+        };
+        outcome.unwrap_or_else(|error| self.report(error));
+    }
+
+    /// Steps and draws what is due.
+    pub(super) fn work(&mut self) {
+        if !self.ready() {
+            return;
+        }
+        let (start, step) = (self.now(), self.session.as_ref().map_or(0, Session::step_count));
+        let outcome = self.advance().and_then(|()| self.draw());
+        if self.playing && step > 0 {
+            let steps = self.session.as_ref().map_or(step, Session::step_count) - step;
+            self.ran = (self.ran.0 + steps, self.ran.1 + (self.now() - self.turned.max(start - LONGEST_LAG)));
+        }
+        self.turned = self.now();
+        outcome.unwrap_or_else(|error| self.report(error));
+    }
+
+    fn open(&mut self, request: &Request, look: Option<Box<Look>>) -> Result<()> {
+        self.close();
+        lock(&self.outbox).status.phase = Phase::Opening;
+        let scene = request.load()?;
+        let gpu = match &self.gpu {
+            Some(gpu) => gpu.clone(),
+            None => self.gpu.insert(Gpu::new(&self.options)?).clone(),
+        };
+        let session = Session::open(&gpu, scene)?;
+        let look = look.map_or_else(|| session.look(), |look| *look);
+        self.folder = Path::new(OUT).join(stem(&request.name));
+        lock(&self.outbox).opened = Some(Opened {
+            request: request.clone(),
+            scene: Arc::clone(session.scene()),
+            particles: session.particles(),
+            fitted: session.fitted_camera(&look),
+            look: look.clone(),
+            device: gpu.info.name.clone(),
+            software: gpu.is_software(),
+        });
+        self.look = Some(look);
+        self.session = Some(session);
+        self.phase = Phase::Ready;
+        (self.stale, self.budget, self.rate) = (true, Budget::default(), Rate::default());
+        Ok(())
+    }
+
+    fn close(&mut self) {
+        self.finish_recording();
+        // Buffers go before new ones come.
+        (self.session, self.shown) = (None, None);
+        (self.playing, self.steps_left, self.news, self.coarse) = (false, 0, false, false);
+        self.records.clear();
+        self.phase = Phase::Empty;
+    }
+
+    fn play(&mut self, playing: bool) -> Result<()> {
+        self.playing = playing && self.ready();
+        self.rate = Rate::since(self.now());
+        self.start_pace();
+        if self.playing { self.pass_the_end() } else { Ok(()) }
+    }
+
+    /// Whoever goes on at the end wants to see more.
+    fn pass_the_end(&mut self) -> Result<()> {
+        match &mut self.session {
+            Some(session) if session.finished() => session.go_on(),
+            _ => Ok(()),
+        }
+    }
+
+    fn start_pace(&mut self) {
+        self.paced_from = (self.now(), self.session.as_ref().map_or(0.0, Session::time));
+    }
+
+    /// Steps that budget and pace allow now.
+    fn due_steps(&self) -> u32 {
+        let (Some(session), most) = (&self.session, self.budget.steps()) else { return 0 };
+        match self.pace {
+            Pace::Fastest => most,
+            Pace::Lasting(seconds) => {
+                let speed = session.scene().time.until / seconds;
+                paced_steps(-speed * self.lag(session, speed), session.dt(), most)
+            }
+        }
+    }
+
+    /// How far simulated time is behind its pace \[s of the clock\]; negative if it is ahead.
+    fn lag(&self, session: &Session, speed: f64) -> f64 {
+        self.now() - self.paced_from.0 - (session.time() - self.paced_from.1) / speed
+    }
+
+    /// A long lag is forgotten: after a hitch the scene does not race.
+    fn forget_lag(&mut self) {
+        if let (Pace::Lasting(seconds), Some(session)) = (self.pace, &self.session) {
+            let lag = self.lag(session, session.scene().time.until / seconds);
+            self.paced_from.0 += (lag - LONGEST_LAG).max(0.0);
+        }
+    }
+
+    fn advance(&mut self) -> Result<()> {
+        let single = self.steps_left > 0;
+        let steps = if single { self.steps_left.min(self.budget.steps()) } else { self.due_steps() };
+        if steps == 0 || !(single || self.playing) {
+            return Ok(());
+        }
+        let (start, before) = (self.now(), self.records.len());
+        let measure = self.measuring && start - self.measured > MEASURE_PERIOD;
+        let Some(session) = &mut self.session else { return Ok(()) };
+        if measure {
+            let stages = session.measure(&mut self.records)?;
+            self.measured = start;
+            lock(&self.outbox).stages = Some(stages);
+        } else {
+            let outcome = session.advance(steps, &mut self.records);
+            let done = self.records.len() - before;
+            self.steps_left = self.steps_left.saturating_sub(done as u32);
+            self.news = true;
+            self.budget.stepped(done, self.start.elapsed().as_secs_f64() - start);
+            self.rate.add(done, self.start.elapsed().as_secs_f64());
+            outcome?;
+        }
+        let finished = self.session.as_ref().is_some_and(Session::finished);
+        if finished {
+            (self.playing, self.steps_left) = (false, 0);
+        }
+        self.forget_lag();
+        Ok(())
+    }
+
+    fn draw(&mut self) -> Result<()> {
+        let wanted = self.stale || self.news || (self.coarse && !self.moving);
+        let due = !self.playing || self.now() >= self.budget.picture_due(self.stale || self.recording.is_some());
+        let (Some(session), Some(whole)) = (&mut self.session, &self.look) else { return Ok(()) };
+        if !wanted || !due {
+            return Ok(());
+        }
+        let start = self.start.elapsed().as_secs_f64();
+        let mut look = whole.clone();
+        look.settings.size = self.budget.size(whole.settings.size, self.moving);
+        let picture = Arc::new(session.draw(&look)?);
+        let now = self.start.elapsed().as_secs_f64();
+        let [width, height] = look.settings.size.map(u64::from);
+        self.budget.drew(width * height, now - start, now);
+        self.coarse = look.settings.size != whole.settings.size;
+        let shown = Shown { picture, look, time: session.time(), step: session.step_count() };
+        let recorded = match &mut self.recording {
+            Some(recording) if self.news && !self.coarse => recording.add(&shown),
+            _ => true,
+        };
+        (self.stale, self.news) = (false, false);
+        lock(&self.outbox).shown = Some(shown.clone());
+        self.shown = Some(shown);
+        if !recorded {
+            self.finish_recording();
+        }
+        Ok(())
+    }
+
+    fn change(&mut self, scene: Scene) -> Result<()> {
+        let Some(session) = &mut self.session else { return Ok(()) };
+        session.change(scene, &mut self.records)?;
+        lock(&self.outbox).changed = Some(Arc::clone(session.scene()));
+        Ok(())
+    }
+
+    fn strike(&mut self, strike: &Strike) -> Result<()> {
+        let (Some(session), Some(look)) = (&mut self.session, &self.look) else { return Ok(()) };
+        let blast = session.strike(strike, look, &mut self.records)?;
+        (self.stale, self.news) = (true, true);
+        let place = blast.center.map(|x| format!("{x:.4}"))[..session.scene().domain.axes()].join(", ");
+        self.note(Weight::Fine, format!("{:.3e} J at ({place}) m", blast.energy));
+        Ok(())
+    }
+
+    /// The picture as it stands in the window, in all its pixels.
+    fn screenshot(&mut self) -> Result<()> {
+        if self.coarse || self.stale {
+            (self.moving, self.stale) = (false, true);
+            let playing = std::mem::replace(&mut self.playing, false);
+            let drawn = self.draw();
+            self.playing = playing;
+            drawn?;
+        }
+        let (Some(shown), Some(session)) = (&self.shown, &self.session) else { return Ok(()) };
+        let path = record::save(&self.folder, shown, &session.scene().title)?;
+        self.note(Weight::Fine, format!("saved {}", path.display()));
+        Ok(())
+    }
+
+    fn record(&mut self, on: bool) -> Result<()> {
+        self.finish_recording();
+        if let (true, Some(session)) = (on, &self.session) {
+            self.recording = Some(Recording::start(&self.folder, session.scene().title.as_str().into())?);
+        }
+        Ok(())
+    }
+
+    fn finish_recording(&mut self) {
+        match self.recording.take().map(Recording::finish) {
+            Some(Ok(text)) => self.note(Weight::Fine, text),
+            Some(Err(error)) => self.note(Weight::Wrong, error.to_string()),
+            None => {}
+        }
+    }
+
+    fn note(&self, weight: Weight, text: String) {
+        lock(&self.outbox).notes.push(Note { weight, text });
+    }
+
+    /// Tells the user; what cannot go on stops.
+    fn report(&mut self, error: Error) {
+        match &error {
+            Error::Usage(_) | Error::Io { .. } => {}
+            Error::Gpu(_) => {
+                // Everything on the device is lost with it; the next scene opens another one.
+                self.gpu = None;
+                self.give_up(&format!("{error}\nR starts the scene again."));
+                return;
+            }
+            _ => (self.playing, self.phase) = (false, Phase::Failed),
+        }
+        if self.session.is_none() {
+            self.phase = Phase::Failed;
+        }
+        self.note(Weight::Wrong, error.to_string());
+    }
+
+    /// Lets go of a scene that cannot go on.
+    pub(super) fn give_up(&mut self, reason: &str) {
+        self.close();
+        self.phase = Phase::Failed;
+        self.note(Weight::Wrong, reason.to_owned());
+    }
+
+    /// Leaves the state of things in the outbox.
+    pub(super) fn publish(&mut self) {
+        let session = self.session.as_ref();
+        let status = Status {
+            phase: self.phase.clone(),
+            playing: self.playing,
+            finished: session.is_some_and(Session::finished),
+            time: session.map_or(0.0, Session::time),
+            step: session.map_or(0, Session::step_count),
+            steps_per_second: if self.playing { self.rate.value() } else { 0.0 },
+            ran: self.ran,
+            step_seconds: self.budget.step_seconds(),
+            picture_seconds: self.budget.picture_seconds(),
+            recorded: self.recording.as_ref().map(Recording::count),
+        };
+        let mut outbox = lock(&self.outbox);
+        outbox.status = status;
+        outbox.records.append(&mut self.records);
+    }
+}

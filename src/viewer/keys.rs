@@ -1,0 +1,142 @@
+//! Keys, and what they do: one table for the window, the help overlay and the handbook.
+
+use egui::{Key, Modifiers};
+
+use crate::scene::Field;
+
+/// What a key asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// Run or pause.
+    Play,
+    /// So many single steps.
+    Step(u32),
+    /// The scene from its start.
+    Restart,
+    /// Everything in the picture.
+    Fit,
+    /// Save the picture.
+    Screenshot,
+    /// Start or stop saving every picture.
+    Record,
+    /// Show or hide the help.
+    Help,
+    /// Back: out of help, out of the scene.
+    Back,
+    /// Parallel or perspective view.
+    Orthographic,
+    /// Show a field.
+    Field(Field),
+    /// Simulated time passes faster (2) or slower (1/2).
+    Pace(f64),
+    /// Come nearer by so many notches.
+    Zoom(f64),
+    /// Turn (3D) or shift (2D) the view, in shares of the picture's height.
+    Turn([f64; 2]),
+    /// Show or hide the panel.
+    Panel,
+    /// Ask for the name of a scene file.
+    Open,
+    /// End the program.
+    Quit,
+}
+
+/// What the help shows: key, and what it does.
+pub const HELP: [(&str, &str); 16] = [
+    ("Space", "run or pause"),
+    ("Right", "one step; with Shift 16 steps"),
+    ("Up, Down", "twice as fast, half as fast"),
+    ("R", "restart the scene"),
+    ("1 to 7", "density, pressure, speed, temperature, schlieren, Mach number, vorticity"),
+    ("F", "fit everything into the picture"),
+    ("O", "parallel or perspective view (3D)"),
+    ("A, D, W, X", "turn the view (3D) or shift it (2D)"),
+    ("+, -", "nearer, farther"),
+    ("S", "save the picture as PNG"),
+    ("V", "start or stop recording"),
+    ("P", "show or hide the panel"),
+    ("H", "show or hide this help"),
+    ("Ctrl+O", "open a scene file"),
+    ("Esc", "close this help; back to the gallery"),
+    ("Ctrl+Q", "quit"),
+];
+
+/// What the help says about the mouse.
+pub const MOUSE: [(&str, &str); 6] = [
+    ("Left drag", "turn (3D) or shift (2D)"),
+    ("Right or middle drag", "shift"),
+    ("Wheel", "nearer or farther, towards the pointer"),
+    ("Double click", "fit everything into the picture"),
+    ("Ctrl+click", "detonate: energy and radius stand in the panel"),
+    ("File dropped on the window", "opens it"),
+];
+
+/// How far a key turns or shifts the view, in shares of the picture's height.
+const NUDGE: f64 = 0.05;
+
+/// What a key asks for; nothing for keys without meaning.
+#[must_use]
+pub fn action(key: Key, modifiers: Modifiers) -> Option<Action> {
+    if modifiers.command {
+        return match key {
+            Key::O => Some(Action::Open),
+            Key::Q | Key::W => Some(Action::Quit),
+            _ => None,
+        };
+    }
+    if modifiers.alt {
+        return None;
+    }
+    let numbers = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7];
+    if let Some(number) = numbers.iter().position(|number| *number == key) {
+        return Field::ALL.get(number).copied().map(Action::Field);
+    }
+    Some(match key {
+        Key::Space => Action::Play,
+        Key::ArrowRight => Action::Step(if modifiers.shift { 16 } else { 1 }),
+        Key::ArrowUp => Action::Pace(2.0),
+        Key::ArrowDown => Action::Pace(0.5),
+        Key::R => Action::Restart,
+        Key::F | Key::Home => Action::Fit,
+        Key::S => Action::Screenshot,
+        Key::V => Action::Record,
+        Key::H | Key::F1 | Key::Questionmark => Action::Help,
+        Key::Escape => Action::Back,
+        Key::O => Action::Orthographic,
+        Key::P => Action::Panel,
+        Key::Plus | Key::Equals => Action::Zoom(1.0),
+        Key::Minus => Action::Zoom(-1.0),
+        Key::A => Action::Turn([-NUDGE, 0.0]),
+        Key::D => Action::Turn([NUDGE, 0.0]),
+        Key::W => Action::Turn([0.0, -NUDGE]),
+        Key::X => Action::Turn([0.0, NUDGE]),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_do_what_people_expect() {
+        let plain = |key| action(key, Modifiers::NONE);
+        assert_eq!(plain(Key::Space), Some(Action::Play));
+        assert_eq!(plain(Key::ArrowRight), Some(Action::Step(1)));
+        assert_eq!(action(Key::ArrowRight, Modifiers::SHIFT), Some(Action::Step(16)));
+        assert_eq!(plain(Key::Num1), Some(Action::Field(Field::Density)));
+        assert_eq!(plain(Key::Num7), Some(Action::Field(Field::Vorticity)));
+        assert_eq!(plain(Key::Num9), None);
+        assert_eq!(action(Key::S, Modifiers::COMMAND), None, "Ctrl+S is not a screenshot");
+        assert_eq!(action(Key::Q, Modifiers::COMMAND), Some(Action::Quit));
+    }
+
+    #[test]
+    fn the_handbook_lists_every_key() {
+        let handbook = include_str!("../../docs/viewer.md");
+        for (key, meaning) in HELP.iter().chain(&MOUSE) {
+            let row = format!("| {key} | {meaning} |");
+            assert!(handbook.contains(&row), "docs/viewer.md lacks `{row}`");
+        }
+    }
+}

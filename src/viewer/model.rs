@@ -1,0 +1,216 @@
+//! What window and worker tell each other: commands one way, what came of them the other way.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::Result;
+use crate::diagnostics::StepRecord;
+use crate::render::Picture;
+use crate::scene::{Camera, Field, RenderSettings, Scene};
+
+/// A scene to open: file or name of a shipped one, and what to change about it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Request {
+    /// Path of a scene file, or name of a shipped scene.
+    pub name: String,
+    /// Changes of keys, as `--set` takes them.
+    pub overrides: Vec<String>,
+    /// Cells along the longest axis, if not the scene's own.
+    pub resolution: Option<u32>,
+}
+
+impl Request {
+    /// A scene as it is.
+    #[must_use]
+    pub fn of(name: &str) -> Self {
+        Self { name: name.to_owned(), ..Self::default() }
+    }
+
+    /// Reads the scene.
+    ///
+    /// # Errors
+    /// Those of [`Scene::find`].
+    pub fn load(&self) -> Result<Scene> {
+        let scene = Scene::find(&self.name, &self.overrides)?;
+        match self.resolution {
+            Some(cells) => scene.with_resolution(cells),
+            None => Ok(scene),
+        }
+    }
+
+    /// The file behind the request; none for a scene that the program carries.
+    #[must_use]
+    pub fn file(&self) -> Option<PathBuf> {
+        let below = Path::new("scenes").join(&self.name);
+        [PathBuf::from(&self.name), below].into_iter().find(|path| path.is_file())
+    }
+}
+
+/// What a picture shows and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// Quantity of the gas.
+    pub field: Field,
+    /// Everything else.
+    pub settings: RenderSettings,
+}
+
+/// How fast simulated time may pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// As fast as the device can.
+    Fastest,
+    /// So that the scene's whole run takes at least so many seconds.
+    Lasting(f64),
+}
+
+/// A click that sets energy free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strike {
+    /// Where on the picture, as shares of its width and height from the top left corner.
+    pub at: [f64; 2],
+    /// Energy \[J\]; per metre of depth in 2D.
+    pub energy: f64,
+    /// Radius \[m\].
+    pub radius: f64,
+}
+
+/// What the window asks for.
+#[derive(Debug)]
+pub enum Command {
+    /// Open a scene, also the same one again from its start. `Look` keeps what is set in the window.
+    Open(Request, Option<Box<Look>>),
+    /// Let go of the scene.
+    Close,
+    /// Run or pause.
+    Play(bool),
+    /// So many steps, then pause.
+    Steps(u32),
+    /// How fast simulated time may pass.
+    Pace(Pace),
+    /// What pictures show; `moving` while the user drags: speed before resolution.
+    Look {
+        /// The look.
+        look: Box<Look>,
+        /// Whether it is about to change again.
+        moving: bool,
+    },
+    /// Go on with other parameters.
+    Change(Box<Scene>),
+    /// Set energy free at a point of the picture.
+    Detonate(Strike),
+    /// Save the picture.
+    Screenshot,
+    /// Start or stop saving every picture.
+    Record(bool),
+    /// Measure the stages of a step now and then.
+    Measure(bool),
+}
+
+/// Where the worker stands.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Phase {
+    /// No scene.
+    #[default]
+    Empty,
+    /// Reads, compiles, allocates.
+    Opening,
+    /// A scene is open.
+    Ready,
+    /// The scene cannot go on; the last picture stays.
+    Failed,
+}
+
+/// What is true of the open scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Status {
+    /// Where the worker stands.
+    pub phase: Phase,
+    /// Whether the scene runs.
+    pub playing: bool,
+    /// Whether the end of the scene's run is reached.
+    pub finished: bool,
+    /// Simulated time \[s\].
+    pub time: f64,
+    /// Steps done.
+    pub step: u64,
+    /// Steps per second, lately; 0 while paused.
+    pub steps_per_second: f64,
+    /// Steps that ran, and the seconds that they took with pictures and everything else.
+    pub ran: (u64, f64),
+    /// Time of one step, lately \[s\].
+    pub step_seconds: f64,
+    /// Time of one picture, lately \[s\].
+    pub picture_seconds: f64,
+    /// Pictures of the recording under way.
+    pub recorded: Option<u32>,
+}
+
+/// A scene that has just been opened.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// What was asked for.
+    pub request: Request,
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// Number of particles.
+    pub particles: u64,
+    /// The look to begin with.
+    pub look: Look,
+    /// The camera that shows all of a 3D scene.
+    pub fitted: Option<Camera>,
+    /// Name of the device.
+    pub device: String,
+    /// Whether it is a processor in the role of a GPU.
+    pub software: bool,
+}
+
+/// A picture to show.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The picture.
+    pub picture: Arc<Picture>,
+    /// What it shows.
+    pub look: Look,
+    /// When \[s\].
+    pub time: f64,
+    /// After how many steps.
+    pub step: u64,
+}
+
+/// How serious a note is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weight {
+    /// Something went as asked.
+    Fine,
+    /// Something did not.
+    Wrong,
+}
+
+/// A line for the user.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// How serious it is.
+    pub weight: Weight,
+    /// The text; findings in scene files have several lines.
+    pub text: String,
+}
+
+/// What the worker has for the window since the window last looked.
+#[derive(Debug, Default)]
+pub struct Outbox {
+    /// What is true now.
+    pub status: Status,
+    /// A scene was opened.
+    pub opened: Option<Opened>,
+    /// The newest picture.
+    pub shown: Option<Shown>,
+    /// Steps done.
+    pub records: Vec<StepRecord>,
+    /// Milliseconds of each stage of a step.
+    pub stages: Option<Vec<(String, f64)>>,
+    /// Parameters were changed: the scene as it is now.
+    pub changed: Option<Arc<Scene>>,
+    /// Lines for the user.
+    pub notes: Vec<Note>,
+}

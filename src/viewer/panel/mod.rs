@@ -1,0 +1,232 @@
+//! The panel beside the picture: look, blast, parameters, plots, stages, camera, scene.
+
+mod camera;
+mod curve;
+mod extras;
+mod look;
+mod parameters;
+mod plots;
+
+use egui::{CollapsingHeader, DragValue, Grid, RichText, ScrollArea, Ui};
+
+use super::model::{Command, Status};
+use super::theme;
+use super::view::View;
+use crate::scene::Scene;
+use parameters::Parameters;
+
+/// Energy of the first blast, in energies that the ambient gas of its ball holds.
+const BLAST: f64 = 20.0;
+
+/// What the panel remembers.
+#[derive(Debug)]
+pub(super) struct Panel {
+    /// Whether it can be seen.
+    pub(super) open: bool,
+    /// Whether plain clicks detonate.
+    pub(super) detonates: bool,
+    /// Numbers of the next blast.
+    pub(super) blast: Numbers,
+    parameters: Parameters,
+    range: look::Range,
+    measures: bool,
+}
+
+/// Energy \[J\] and radius \[m\] of a blast.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Numbers {
+    pub(super) energy: f64,
+    pub(super) radius: f64,
+}
+
+impl Numbers {
+    /// A blast that is worth looking at.
+    fn of(scene: &Scene) -> Self {
+        let domain = &scene.domain;
+        let smallest = domain.size[..domain.axes()].iter().copied().fold(f64::INFINITY, f64::min);
+        let radius = (0.06 * smallest).max(1.6 * domain.spacing());
+        let pi = std::f64::consts::PI;
+        let volume = [2.0 * radius, pi * radius * radius, 4.0 / 3.0 * pi * radius.powi(3)][domain.axes() - 1];
+        let energy = BLAST * scene.gas.ambient.pressure / (scene.gas.gamma - 1.0) * volume;
+        // Two digits are enough to begin with.
+        let digit = 10.0_f64.powf(energy.log10().floor() - 1.0);
+        Self { energy: (energy / digit).round() * digit, radius }
+    }
+}
+
+impl Panel {
+    pub(super) fn new(scene: &Scene) -> Self {
+        Self {
+            open: true,
+            detonates: false,
+            blast: Numbers::of(scene),
+            parameters: Parameters::of(scene),
+            range: look::Range::of(&scene.render),
+            measures: false,
+        }
+    }
+
+    /// Takes over what stays when a scene starts again.
+    pub(super) fn keep(&mut self, old: Self) {
+        (self.open, self.measures) = (old.open, old.measures);
+    }
+
+    /// Whether the stages of steps are measured.
+    pub(super) fn measures(&self) -> bool {
+        self.measures
+    }
+}
+
+/// Shows the panel.
+pub(super) fn show(ui: &mut Ui, view: &mut View, status: &Status) {
+    ui.add_space(4.0);
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        section(ui, "Look", true, |ui| look::show(ui, view));
+        if view.dimension() == 3 {
+            section(ui, "Volume", false, |ui| look::volume(ui, view));
+        }
+        if view.opened.particles > 0 && view.dimension() > 1 {
+            section(ui, "Bodies", false, |ui| extras::bodies(ui, view));
+        }
+        if view.dimension() > 1 {
+            section(ui, "Planes and lines", false, |ui| extras::planes_and_lines(ui, view));
+        }
+        if view.dimension() == 3 {
+            section(ui, "Light", false, |ui| extras::light(ui, view));
+        }
+        section(ui, "Detonate", true, |ui| detonate(ui, view));
+        section(ui, "Plots", true, |ui| plots::show(ui, view));
+        section(ui, "Parameters", false, |ui| parameters::show(ui, view));
+        section(ui, "Times", false, |ui| times(ui, view, status));
+        if view.dimension() > 1 {
+            section(ui, "Camera", false, |ui| camera::show(ui, view));
+            section(ui, "Words", false, |ui| extras::overlays(ui, view));
+        }
+        section(ui, "Scene", false, |ui| about(ui, view));
+    });
+}
+
+fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(RichText::new(name).strong()).default_open(open).show_unindented(ui, |ui| {
+        content(ui);
+        ui.add_space(4.0);
+    });
+}
+
+/// A label before a widget, in columns.
+fn rows(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
+    Grid::new(name).num_columns(2).spacing([10.0, 6.0]).min_col_width(78.0).show(ui, content);
+}
+
+/// A positive number of any size.
+fn positive<'a>(value: &'a mut f64, unit: &str) -> DragValue<'a> {
+    let speed = 0.01 * value.abs().max(1e-12);
+    DragValue::new(value).speed(speed).range(1e-30..=1e30).suffix(format!(" {unit}")).custom_formatter(short)
+}
+
+/// A short form of a number.
+fn short(value: f64, _: std::ops::RangeInclusive<usize>) -> String {
+    let exponent = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
+    if (-3.0..5.0).contains(&exponent) {
+        let text = format!("{value:.*}", (3.0 - exponent).max(0.0) as usize);
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+fn detonate(ui: &mut Ui, view: &mut View) {
+    let unit = ["J/m\u{b2}", "J/m", "J"][view.scene.domain.axes() - 1];
+    if view.dimension() == 1 {
+        ui.label(RichText::new("needs a picture of a plane or of space").color(theme::FAINT));
+        return;
+    }
+    let blast = &mut view.panel.blast;
+    rows(ui, "blast", |ui| {
+        ui.label("energy");
+        ui.add(positive(&mut blast.energy, unit));
+        ui.end_row();
+        ui.label("radius");
+        ui.add(positive(&mut blast.radius, "m"));
+        ui.end_row();
+    });
+    ui.checkbox(&mut view.panel.detonates, "a click detonates").on_hover_text("Ctrl+click always does");
+}
+
+fn times(ui: &mut Ui, view: &mut View, status: &Status) {
+    rows(ui, "times", |ui| {
+        for (name, seconds) in [("step", status.step_seconds), ("picture", status.picture_seconds)] {
+            ui.label(name);
+            ui.monospace(format!("{:9.2} ms", 1e3 * seconds));
+            ui.end_row();
+        }
+    });
+    if ui.checkbox(&mut view.panel.measures, "measure the stages now and then").changed() {
+        view.commands.push(Command::Measure(view.panel.measures));
+    }
+    if !view.panel.measures {
+        return;
+    }
+    if view.stages.is_empty() {
+        ui.label(RichText::new("nothing yet: run the scene; some devices have no timestamps").color(theme::FAINT));
+    }
+    let total: f64 = view.stages.iter().map(|(_, time)| time).sum();
+    rows(ui, "stages", |ui| {
+        for (stage, time) in &view.stages {
+            ui.label(RichText::new(stage).small());
+            ui.monospace(format!("{time:9.2} ms {:3.0} %", 100.0 * time / total.max(1e-9)));
+            ui.end_row();
+        }
+    });
+}
+
+fn about(ui: &mut Ui, view: &View) {
+    let scene = &view.scene;
+    ui.label(RichText::new(&scene.title).strong());
+    if !scene.description.is_empty() {
+        ui.label(&scene.description);
+    }
+    let from = view
+        .opened
+        .request
+        .file()
+        .map_or_else(|| "shipped with the program".to_owned(), |file| file.display().to_string());
+    rows(ui, "about", |ui| {
+        let lines = [
+            ("file", from),
+            ("cells", scene.domain.cell_count().to_string()),
+            ("particles", view.opened.particles.to_string()),
+            ("bodies", scene.bodies.len().to_string()),
+            ("end", format!("{} s", scene.time.until)),
+            ("device", view.opened.device.clone()),
+        ];
+        for (name, value) in lines {
+            ui.label(RichText::new(name).color(theme::FAINT));
+            ui.add(egui::Label::new(value).wrap());
+            ui.end_row();
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let short = |value: f64| short(value, 0..=3);
+        assert_eq!((short(0.5), short(1234.5), short(0.0)), ("0.5".into(), "1234".into(), "0".into()));
+        assert_eq!((short(1.5e6), short(2e-5)), ("1.500e6".into(), "2.000e-5".into()));
+        assert_eq!(short(100.0), "100");
+    }
+
+    #[test]
+    fn the_first_blast_suits_every_scene() {
+        for shipped in crate::scene::shipped() {
+            let scene = Scene::find(&shipped.path, &[]).unwrap();
+            let numbers = Numbers::of(&scene);
+            assert!(numbers.energy > 0.0 && numbers.energy.is_finite(), "{}: {numbers:?}", shipped.name);
+            assert!(numbers.radius > scene.domain.spacing(), "{}: {numbers:?}", shipped.name);
+        }
+    }
+}

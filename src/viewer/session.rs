@@ -1,0 +1,169 @@
+//! One open scene: simulation and renderer on one device. No thread and no window: tests drive it as the worker does.
+
+use std::sync::Arc;
+
+use super::model::{Look, Strike};
+use super::pick;
+use crate::diagnostics::StepRecord;
+use crate::gpu::{Detail, Gpu};
+use crate::render::{Picture, Renderer, SceneBuffers};
+use crate::scene::{Camera, Field, Scene};
+use crate::simulation::{Blast, Simulation};
+use crate::state::MemoryPlan;
+use crate::{Error, Result};
+
+/// Time to run towards when the end of the scene's run has been passed \[s\].
+const NEVER: f64 = 1e30;
+
+/// A scene at work.
+#[derive(Debug)]
+pub struct Session {
+    scene: Arc<Scene>,
+    simulation: Simulation,
+    renderer: Renderer,
+    particles: u64,
+    finished: bool,
+    /// Length of the last step \[s\].
+    dt: f64,
+}
+
+impl Session {
+    /// Opens a scene.
+    ///
+    /// # Errors
+    /// If it does not fit, or a shader or the driver fails.
+    pub fn open(gpu: &Gpu, scene: Scene) -> Result<Self> {
+        let plan = MemoryPlan::fitting(&scene, gpu)?;
+        let mut simulation = Simulation::new(gpu, &scene)?;
+        let renderer = Renderer::new(gpu, &scene, &SceneBuffers::of(&simulation.state))?;
+        simulation.set_target(scene.time.until)?;
+        let particles = plan.particles;
+        Ok(Self { scene: Arc::new(scene), simulation, renderer, particles, finished: false, dt: 0.0 })
+    }
+
+    /// The scene as it is now.
+    #[must_use]
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    /// Number of particles at the start.
+    #[must_use]
+    pub fn particles(&self) -> u64 {
+        self.particles
+    }
+
+    /// Simulated time \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// Steps done.
+    #[must_use]
+    pub fn step_count(&self) -> u64 {
+        self.simulation.step_count()
+    }
+
+    /// Length of the last step \[s\]; 0 before the first.
+    #[must_use]
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Whether the end of the scene's run is reached.
+    #[must_use]
+    pub fn finished(&self) -> bool {
+        self.finished
+    }
+
+    /// The look that the scene file asks for.
+    #[must_use]
+    pub fn look(&self) -> Look {
+        let field = self.scene.output.fields.first().copied().unwrap_or(Field::Density);
+        Look { field, settings: self.scene.render.clone() }
+    }
+
+    /// The camera that shows all of a 3D scene in a picture of some size.
+    #[must_use]
+    pub fn fitted_camera(&self, look: &Look) -> Option<Camera> {
+        let settings = crate::scene::RenderSettings { camera: None, ..look.settings.clone() };
+        (self.scene.domain.dimension == 3).then(|| self.renderer.camera(&settings))
+    }
+
+    /// Lets the scene run past the end of its run.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn go_on(&mut self) -> Result<()> {
+        self.finished = false;
+        self.simulation.set_target(NEVER)
+    }
+
+    /// Runs one submission of at most `steps` steps.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`]; driver errors.
+    pub fn advance(&mut self, steps: u32, records: &mut Vec<StepRecord>) -> Result<()> {
+        let outcome = self.simulation.advance_batch_of(records, steps);
+        self.note(records);
+        self.finished = outcome?;
+        Ok(())
+    }
+
+    /// Runs one step with a stopwatch; milliseconds of its stages, none without timestamps.
+    ///
+    /// # Errors
+    /// As [`Session::advance`].
+    pub fn measure(&mut self, records: &mut Vec<StepRecord>) -> Result<Vec<(String, f64)>> {
+        let (finished, times) = self.simulation.advance_timed(records, Detail::Stages)?;
+        self.note(records);
+        self.finished = finished;
+        Ok(times)
+    }
+
+    fn note(&mut self, records: &[StepRecord]) {
+        self.dt = records.last().map_or(self.dt, |record| record.dt.into());
+    }
+
+    /// Draws the state as it is now.
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn draw(&mut self, look: &Look) -> Result<Picture> {
+        let time = self.time();
+        self.renderer.draw(&look.settings, look.field, time)
+    }
+
+    /// Goes on with other parameters, see [`Simulation::change`].
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if something differs that cannot change.
+    pub fn change(&mut self, to: Scene, records: &mut Vec<StepRecord>) -> Result<()> {
+        self.simulation.change(&self.scene, &to, records)?;
+        self.scene = Arc::new(to);
+        Ok(())
+    }
+
+    /// Sets energy free where a click on a picture of this look points; the blast as it was.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if the click misses the domain or its gas.
+    pub fn strike(&mut self, strike: &Strike, look: &Look, records: &mut Vec<StepRecord>) -> Result<Blast> {
+        let [width, height] = look.settings.size.map(f64::from);
+        let ray = self.renderer.ray(&look.settings, [strike.at[0] * width, strike.at[1] * height]);
+        let grid = self.simulation.state.grid;
+        let particles = if grid.dimension == 3 { self.simulation.snapshot()?.particles } else { Vec::new() };
+        let center = pick::point(&ray, &grid, &particles)
+            .ok_or_else(|| Error::Usage("the click is beside the domain; nothing was detonated".to_owned()))?;
+        let mut blast = Blast { center, radius: strike.radius, energy: strike.energy };
+        blast.energy = self.simulation.detonate(&blast, records)?;
+        Ok(blast)
+    }
+
+    /// The simulation.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+}

@@ -1,0 +1,378 @@
+//! The user interface: gallery or scene, the bars around it, messages. Keeps the worker's handle; knows nothing of windows.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use egui::{Align2, Event, Panel as EguiPanel, RichText, Ui as EguiUi};
+
+use super::bars;
+use super::gallery::Gallery;
+use super::help;
+use super::keys::{Action, action};
+use super::model::{Command, Look, Note, Pace, Phase, Request, Status, Weight};
+use super::theme;
+use super::view::View;
+use super::watch::Watch;
+use super::worker::Worker;
+
+/// How long a message about something that went well stays.
+const FADES: Duration = Duration::from_secs(6);
+/// A scene's whole run takes at least so long unless the user is in a hurry \[s\].
+const PACE: f64 = 12.0;
+
+/// Everything the user sees.
+pub(super) struct Ui {
+    worker: Worker,
+    gallery: Gallery,
+    view: Option<View>,
+    /// The scene that is open or being opened, or failed to.
+    request: Option<Request>,
+    watch: Option<Watch>,
+    status: Status,
+    /// Whether to run, asked for and not heard yet.
+    wish: Option<bool>,
+    /// The worker has not answered the last request yet.
+    opening: bool,
+    pace: Pace,
+    play_when_open: bool,
+    notes: Vec<(Instant, Note)>,
+    help: bool,
+    path: Option<String>,
+    quit: bool,
+}
+
+impl Ui {
+    /// The gallery, or a scene.
+    pub(super) fn new(worker: Worker, request: Option<Request>, pace: Option<Pace>) -> Self {
+        let mut ui = Self {
+            worker,
+            gallery: Gallery::new(),
+            view: None,
+            request: None,
+            watch: None,
+            status: Status::default(),
+            wish: None,
+            opening: false,
+            pace: pace.unwrap_or(Pace::Lasting(PACE)),
+            play_when_open: true,
+            notes: Vec::new(),
+            help: false,
+            path: None,
+            quit: false,
+        };
+        if let Some(request) = request {
+            ui.open(request, None);
+        }
+        ui
+    }
+
+    /// Steps that the last scene ran, and the seconds that they took.
+    pub(super) fn ran(&self) -> (u64, f64) {
+        self.status.ran
+    }
+
+    pub(super) fn wants_to_quit(&self) -> bool {
+        self.quit
+    }
+
+    /// Title of the window.
+    pub(super) fn title(&self) -> String {
+        self.view.as_ref().map_or_else(|| "Brisance".to_owned(), |view| format!("{} - Brisance", view.scene.title))
+    }
+
+    pub(super) fn forget_textures(&mut self) {
+        if let Some(view) = &mut self.view {
+            view.forget_texture();
+        }
+    }
+
+    /// A line for the user.
+    pub(super) fn tell(&mut self, text: &str) {
+        self.notes.push((Instant::now(), Note { weight: Weight::Fine, text: text.to_owned() }));
+    }
+
+    /// Takes what the worker has left.
+    pub(super) fn receive(&mut self) {
+        let mut outbox = self.worker.take();
+        self.status = outbox.status.clone();
+        self.keep_wish();
+        for note in outbox.notes.drain(..) {
+            self.notes.push((Instant::now(), note));
+        }
+        if let Some(opened) = outbox.opened.take() {
+            let panel = self.view.take().map(|view| view.panel);
+            let mut view = View::new(opened, self.pace);
+            if let Some(panel) = panel {
+                view.panel.keep(panel);
+            }
+            view.commands.push(Command::Measure(view.panel.measures()));
+            self.view = Some(view);
+        }
+        if self.opening && matches!(self.status.phase, Phase::Ready | Phase::Failed) {
+            self.opening = false;
+            self.worker.send(Command::Pace(self.pace));
+            self.wish = Some(self.play_when_open && self.status.phase == Phase::Ready);
+            self.worker.send(Command::Play(self.wish == Some(true)));
+        }
+        if let Some(view) = &mut self.view {
+            view.receive(outbox);
+        }
+    }
+
+    /// What was asked for counts until the worker has heard it.
+    fn keep_wish(&mut self) {
+        match self.wish {
+            Some(wish) if wish != self.status.playing && !self.status.finished && self.status.phase == Phase::Ready => {
+                self.status.playing = wish;
+            }
+            _ => self.wish = None,
+        }
+    }
+
+    /// Opens a scene; the look stays where the scene does.
+    fn open(&mut self, request: Request, look: Option<Look>) {
+        self.watch = request.file().map(Watch::new);
+        if look.is_none() {
+            self.view = None;
+        }
+        self.notes.clear();
+        self.worker.send(Command::Open(request.clone(), look.map(Box::new)));
+        (self.request, self.opening) = (Some(request), true);
+        self.status = Status { phase: Phase::Opening, ..Status::default() };
+    }
+
+    /// Opens the scene again from its start, with the look that it has in the window.
+    fn restart(&mut self) {
+        let look = self.view.as_ref().map(|view| view.look.clone());
+        if let Some(request) = self.request.clone() {
+            self.play_when_open = self.status.playing || self.view.is_none();
+            self.open(request, look);
+        }
+    }
+
+    /// Reloads a file that was saved; one with mistakes leaves the scene running and shows them.
+    fn reload_if_saved(&mut self) {
+        if !self.watch.as_mut().is_some_and(Watch::saved) {
+            return;
+        }
+        match self.request.as_ref().map(Request::load) {
+            Some(Ok(_)) => {
+                self.restart();
+                self.play_when_open = true;
+                self.tell("reloaded: the file was saved");
+            }
+            Some(Err(error)) => {
+                self.notes.retain(|(_, note)| note.weight == Weight::Fine);
+                self.notes.push((Instant::now(), Note { weight: Weight::Wrong, text: error.to_string() }));
+            }
+            None => {}
+        }
+    }
+
+    fn back(&mut self) {
+        if self.help || self.path.is_some() {
+            (self.help, self.path) = (false, None);
+        } else if self.request.is_some() {
+            self.worker.send(Command::Close);
+            (self.view, self.request, self.watch, self.opening) = (None, None, None, false);
+            self.notes.clear();
+        }
+    }
+
+    /// One frame.
+    pub(super) fn show(&mut self, root: &mut EguiUi) {
+        self.receive();
+        self.reload_if_saved();
+        if self.watch.is_some() {
+            root.ctx().request_repaint_after(Watch::period());
+        }
+        self.dropped(root);
+        if self.request.is_none() {
+            let chosen = egui::CentralPanel::default().show(root, |ui| self.gallery.show(ui)).inner;
+            if let Some(request) = chosen {
+                self.play_when_open = true;
+                self.open(request, None);
+            }
+        } else {
+            self.scene(root);
+        }
+        // After the mouse: what is saved is what was just turned.
+        self.keyboard(root);
+        self.messages(root);
+        self.ask_for_path(root);
+        if self.help {
+            help::show(root.ctx(), &mut self.help);
+        }
+        if let Some(view) = &mut self.view {
+            self.pace = view.pace;
+            for command in view.commands.drain(..) {
+                match command {
+                    Command::Play(wish) => self.wish = Some(wish),
+                    Command::Steps(_) => self.wish = Some(false),
+                    _ => {}
+                }
+                self.worker.send(command);
+            }
+        }
+    }
+
+    fn scene(&mut self, root: &mut EguiUi) {
+        let asked =
+            EguiPanel::top("top").show(root, |ui| bars::top(ui, self.view.as_ref(), self.request.as_ref())).inner;
+        let below =
+            EguiPanel::bottom("bottom").show(root, |ui| bars::bottom(ui, self.view.as_mut(), &self.status)).inner;
+        if let Some(view) = self.view.as_mut().filter(|view| view.panel.open) {
+            let panel = EguiPanel::right("panel").default_size(312.0).size_range(240.0..=520.0);
+            panel.show(root, |ui| super::panel::show(ui, view, &self.status));
+        }
+        let background = egui::Frame::new().fill(theme::BACKGROUND);
+        egui::CentralPanel::no_frame().frame(background).show(root, |ui| match &mut self.view {
+            Some(view) => view.show(ui),
+            None => waiting(ui, self.opening),
+        });
+        if self.opening && self.view.is_some() {
+            let place = egui::Area::new(egui::Id::unique("opening")).anchor(Align2::CENTER_CENTER, [0.0; 2]);
+            place.show(root.ctx(), |ui| egui::Frame::popup(ui.style()).show(ui, |ui| waiting(ui, true)));
+        }
+        for action in asked.into_iter().chain(below) {
+            self.act(action);
+        }
+    }
+
+    fn act(&mut self, action: Action) {
+        match action {
+            Action::Help => self.help = !self.help,
+            Action::Back => self.back(),
+            Action::Restart => self.restart(),
+            Action::Open => self.path = Some(String::new()),
+            Action::Quit => self.quit = true,
+            _ => {
+                if let Some(view) = &mut self.view {
+                    view.act(action, &self.status);
+                }
+            }
+        }
+    }
+
+    fn keyboard(&mut self, root: &EguiUi) {
+        if root.ctx().egui_wants_keyboard_input() {
+            return;
+        }
+        let pressed = root.input(|input| {
+            let keys = input.events.iter().filter_map(|event| match event {
+                Event::Key { key, pressed: true, modifiers, .. } => action(*key, *modifiers),
+                _ => None,
+            });
+            keys.collect::<Vec<_>>()
+        });
+        if !pressed.is_empty() {
+            root.ctx().request_repaint();
+        }
+        for action in pressed {
+            self.act(action);
+        }
+    }
+
+    /// A scene file that was dropped on the window.
+    fn dropped(&mut self, root: &EguiUi) {
+        let (hovers, dropped) = root.input(|input| {
+            let dropped = input.raw.dropped_files.first().map(|file| file.path().to_owned());
+            (!input.raw.hovered_files.is_empty(), dropped)
+        });
+        if hovers {
+            let place = egui::Area::new(egui::Id::unique("drop")).anchor(Align2::CENTER_CENTER, [0.0; 2]);
+            place.show(root.ctx(), |ui| {
+                egui::Frame::popup(ui.style()).show(ui, |ui| ui.label(RichText::new("open this scene").size(20.0)));
+            });
+        }
+        if let Some(path) = dropped {
+            self.open_path(&path);
+        }
+    }
+
+    fn open_path(&mut self, path: &Path) {
+        self.play_when_open = true;
+        self.open(Request::of(&path.to_string_lossy()), None);
+    }
+
+    fn ask_for_path(&mut self, root: &EguiUi) {
+        let Some(path) = &mut self.path else { return };
+        let mut entered = false;
+        let window = egui::Window::new("Open a scene").collapsible(false).resizable(false);
+        window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(root.ctx(), |ui| {
+            let field = ui.add(
+                egui::TextEdit::singleline(path).hint_text("path, or name of a shipped scene").desired_width(380.0),
+            );
+            field.request_focus();
+            let enter = ui.input(|input| input.key_pressed(egui::Key::Enter));
+            entered = ui.button("Open").clicked() || enter;
+            ui.input(|input| input.key_pressed(egui::Key::Escape))
+        });
+        let leave = root.input(|input| input.key_pressed(egui::Key::Escape));
+        if entered && !path.trim().is_empty() {
+            let path = std::mem::take(path);
+            self.path = None;
+            self.open_path(Path::new(path.trim()));
+        } else if leave {
+            self.path = None;
+        }
+    }
+
+    /// Messages over the picture; those about mistakes stay until they are dismissed.
+    fn messages(&mut self, root: &EguiUi) {
+        let now = Instant::now();
+        self.notes.retain(|(since, note)| note.weight == Weight::Wrong || now - *since < FADES);
+        if self.notes.iter().any(|(_, note)| note.weight == Weight::Fine) {
+            root.ctx().request_repaint_after(FADES);
+        }
+        let mut dismissed = None;
+        let area = egui::Area::new(egui::Id::unique("messages")).anchor(Align2::LEFT_TOP, [12.0, 62.0]);
+        area.show(root.ctx(), |ui| {
+            for (index, (_, note)) in self.notes.iter().enumerate() {
+                if message(ui, note) {
+                    dismissed = Some(index);
+                }
+            }
+        });
+        if let Some(index) = dismissed {
+            self.notes.remove(index);
+        }
+    }
+}
+
+/// One message; whether it was dismissed.
+fn message(ui: &mut EguiUi, note: &Note) -> bool {
+    let mut dismissed = false;
+    let wrong = note.weight == Weight::Wrong;
+    let color = if wrong { theme::WRONG } else { theme::FAINT };
+    let frame = egui::Frame::popup(ui.style()).stroke(egui::Stroke::new(1.0, color));
+    frame.show(ui, |ui| {
+        ui.set_max_width(720.0);
+        ui.horizontal_top(|ui| {
+            let text = RichText::new(note.text.trim_end());
+            if wrong {
+                let scroll = egui::ScrollArea::both().min_scrolled_height(320.0).max_height(320.0).max_width(660.0);
+                scroll.show(ui, |ui| {
+                    let label =
+                        egui::Label::new(text.monospace()).selectable(true).wrap_mode(egui::TextWrapMode::Extend);
+                    ui.add(label);
+                });
+                dismissed = ui.button("x").clicked();
+            } else {
+                ui.label(text);
+            }
+        });
+    });
+    dismissed
+}
+
+/// In place of a picture.
+fn waiting(ui: &mut EguiUi, opening: bool) {
+    ui.centered_and_justified(|ui| {
+        if opening {
+            ui.label(RichText::new("opening: compiling kernels, filling buffers").color(theme::FAINT));
+        } else {
+            ui.label(RichText::new("no picture").color(theme::FAINT));
+        }
+    });
+}

@@ -1,0 +1,267 @@
+//! The page of an open scene: the picture, what the mouse does to it, and what is asked of the worker.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::{ColorImage, Event, Pos2, Rect, Response, Sense, TextureHandle, TextureOptions, Ui, Vec2};
+
+use super::camera;
+use super::history::History;
+use super::keys::Action;
+use super::model::{Command, Look, Opened, Outbox, Pace, Shown, Status, Strike};
+use super::panel::Panel;
+use super::theme;
+use crate::scene::{Camera, RenderSettings, Scene};
+
+/// The camera counts as moving for so long after the last turn of the wheel.
+const SETTLES: Duration = Duration::from_millis(250);
+/// Least and largest side of a picture.
+const SIDES: [f32; 2] = [16.0, 8192.0];
+/// Points of a scroll that make one notch.
+const POINTS_PER_NOTCH: f32 = 50.0;
+/// Slowest and fastest pace that keys reach \[s\].
+const PACES: [f64; 2] = [0.5, 3600.0];
+
+/// An open scene as the window sees it.
+pub(super) struct View {
+    pub(super) opened: Opened,
+    /// The scene with the parameters that it has now.
+    pub(super) scene: Arc<Scene>,
+    /// What pictures should show.
+    pub(super) look: Look,
+    pub(super) pace: Pace,
+    pub(super) shown: Option<Shown>,
+    pub(super) history: History,
+    pub(super) stages: Vec<(String, f64)>,
+    pub(super) panel: Panel,
+    /// What the user asked for in this frame.
+    pub(super) commands: Vec<Command>,
+    texture: Option<TextureHandle>,
+    sent: Option<(Look, bool)>,
+    moves_until: Instant,
+    dragging: bool,
+}
+
+impl View {
+    pub(super) fn new(opened: Opened, pace: Pace) -> Self {
+        let (look, scene) = (opened.look.clone(), Arc::clone(&opened.scene));
+        Self {
+            panel: Panel::new(&scene),
+            opened,
+            scene,
+            look,
+            pace,
+            shown: None,
+            history: History::default(),
+            stages: Vec::new(),
+            commands: Vec::new(),
+            texture: None,
+            sent: None,
+            moves_until: Instant::now(),
+            dragging: false,
+        }
+    }
+
+    /// Dimension of the scene.
+    pub(super) fn dimension(&self) -> u32 {
+        self.scene.domain.dimension
+    }
+
+    /// Takes what the worker has left.
+    pub(super) fn receive(&mut self, outbox: Outbox) {
+        self.history.add(&outbox.records);
+        if let Some(stages) = outbox.stages {
+            self.stages = stages;
+        }
+        if let Some(scene) = outbox.changed {
+            self.scene = scene;
+        }
+        if let Some(shown) = outbox.shown {
+            self.shown = Some(shown);
+            self.texture = None;
+        }
+    }
+
+    /// Textures belong to a device that is gone.
+    pub(super) fn forget_texture(&mut self) {
+        self.texture = None;
+    }
+
+    /// The camera of the picture as it stands.
+    pub(super) fn camera(&self) -> Option<Camera> {
+        let domain = &self.scene.domain;
+        match domain.dimension {
+            3 => self.look.settings.camera.or(self.opened.fitted),
+            2 => Some(self.look.settings.camera.unwrap_or_else(|| camera::above(domain.origin, domain.size))),
+            _ => None,
+        }
+    }
+
+    pub(super) fn set_camera(&mut self, moved: Camera) {
+        let domain = &self.scene.domain;
+        self.look.settings.camera =
+            Some(if domain.dimension == 2 { camera::kept_inside(&moved, domain.origin, domain.size) } else { moved });
+    }
+
+    fn move_camera(&mut self, how: impl Fn(&Camera) -> Camera) {
+        if let Some(camera) = self.camera() {
+            self.set_camera(how(&camera));
+            self.moves_until = Instant::now() + SETTLES;
+        }
+    }
+
+    pub(super) fn fit(&mut self) {
+        self.look.settings.camera = if self.dimension() == 3 { self.opened.fitted } else { None };
+    }
+
+    pub(super) fn is_parallel(&self) -> bool {
+        self.dimension() == 3 && self.camera().is_some_and(|camera| camera.height.is_some())
+    }
+
+    pub(super) fn set_parallel(&mut self, parallel: bool) {
+        if self.dimension() == 3 {
+            self.move_camera(|camera| camera::with_parallel_rays(camera, parallel));
+        }
+    }
+
+    /// Does what a key asks for; keys that are not about the picture are left to others.
+    pub(super) fn act(&mut self, action: Action, status: &Status) {
+        match action {
+            Action::Play => self.commands.push(Command::Play(!status.playing)),
+            Action::Step(steps) => self.commands.push(Command::Steps(steps)),
+            Action::Screenshot => self.commands.push(Command::Screenshot),
+            Action::Record => self.commands.push(Command::Record(status.recorded.is_none())),
+            Action::Fit => self.fit(),
+            Action::Field(field) => self.look.field = field,
+            Action::Orthographic => self.set_parallel(!self.is_parallel()),
+            Action::Panel => self.panel.open = !self.panel.open,
+            Action::Zoom(notches) => self.move_camera(|camera| camera::zoom(camera, notches, [0.0; 2])),
+            Action::Turn(drag) if self.dimension() == 3 => self.move_camera(|camera| camera::orbit(camera, drag)),
+            Action::Turn(drag) => self.move_camera(|camera| camera::pan(camera, drag)),
+            Action::Pace(factor) => {
+                let seconds = match self.pace {
+                    Pace::Lasting(seconds) => (seconds / factor).clamp(PACES[0], PACES[1]),
+                    Pace::Fastest => 2.0 * PACES[0],
+                };
+                self.set_pace(Pace::Lasting(seconds));
+            }
+            Action::Restart | Action::Help | Action::Back | Action::Open | Action::Quit => {}
+        }
+    }
+
+    pub(super) fn set_pace(&mut self, pace: Pace) {
+        self.pace = pace;
+        self.commands.push(Command::Pace(pace));
+    }
+
+    /// Shows the picture in the room that is left, and hears the mouse.
+    pub(super) fn show(&mut self, ui: &mut Ui) {
+        let scale = ui.ctx().pixels_per_point();
+        let round = |place: Pos2| (place.to_vec2() * scale).round() / scale;
+        let room = ui.available_rect_before_wrap();
+        let place = Rect::from_min_max(round(room.min).to_pos2(), round(room.max).to_pos2());
+        let response = ui.interact(place, ui.scope_id().with("picture"), Sense::click_and_drag());
+        ui.painter().rect_filled(place, 0.0, theme::BACKGROUND);
+        let pixels = (place.size() * scale).round().clamp(Vec2::splat(SIDES[0]), Vec2::splat(SIDES[1]));
+        self.look.settings.size = [pixels.x as u32, pixels.y as u32];
+        self.paint(ui, place);
+        self.mouse(ui, &response, place);
+        self.send_look(ui, response.dragged());
+    }
+
+    /// The newest picture, pixel by pixel where it has the room's size.
+    fn paint(&mut self, ui: &Ui, place: Rect) {
+        let Some(shown) = &self.shown else { return };
+        let frame = &shown.picture.frame;
+        let size = [frame.width as usize, frame.height as usize];
+        let texture = self.texture.get_or_insert_with(|| {
+            let image = ColorImage::from_rgba_unmultiplied(size, &frame.rgba);
+            let options = if shown.look.settings.size == self.look.settings.size {
+                TextureOptions::NEAREST
+            } else {
+                TextureOptions::LINEAR
+            };
+            ui.ctx().load_texture("picture", image, options)
+        });
+        let own = Vec2::new(size[0] as f32, size[1] as f32);
+        let fitted = own * (place.size() / own).min_elem();
+        let target = if shown.look.settings.size == self.look.settings.size {
+            place
+        } else {
+            Rect::from_center_size(place.center(), fitted)
+        };
+        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+        ui.painter().image(texture.id(), target, whole, egui::Color32::WHITE);
+    }
+
+    fn mouse(&mut self, ui: &Ui, response: &Response, place: Rect) {
+        let (modifiers, scroll) = ui.input(|input| (input.modifiers, input.smooth_scroll_delta.y));
+        let height = f64::from(place.height().max(1.0));
+        let struck = modifiers.command || clicked_with_command(ui) || self.panel.detonates;
+        if response.dragged() && !struck {
+            let delta = response.drag_delta();
+            let drag = [f64::from(delta.x) / height, f64::from(delta.y) / height];
+            if drag != [0.0; 2] {
+                let turns = response.dragged_by(egui::PointerButton::Primary) && !modifiers.shift;
+                if turns && self.dimension() == 3 {
+                    self.move_camera(|camera| camera::orbit(camera, drag));
+                } else {
+                    self.move_camera(|camera| camera::pan(camera, drag));
+                }
+            }
+        }
+        let Some(pointer) = response.hover_pos() else { return };
+        let middle = place.center();
+        if response.hovered() && scroll != 0.0 {
+            let at = [f64::from(pointer.x - middle.x) / height, f64::from(pointer.y - middle.y) / height];
+            let notches = f64::from(scroll / POINTS_PER_NOTCH);
+            self.move_camera(|camera| camera::zoom(camera, notches, at));
+        }
+        if response.double_clicked() && !struck {
+            self.fit();
+        }
+        if response.clicked() && struck {
+            let share = (pointer - place.min) / place.size();
+            let at = [f64::from(share.x), f64::from(share.y)];
+            let (energy, radius) = (self.panel.blast.energy, self.panel.blast.radius);
+            self.commands.push(Command::Detonate(Strike { at, energy, radius }));
+        }
+        if struck && response.hovered() {
+            ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+        }
+    }
+
+    /// Tells the worker what pictures should show, when that changes.
+    fn send_look(&mut self, ui: &Ui, dragged: bool) {
+        self.dragging = dragged;
+        let now = Instant::now();
+        let moving = dragged || now < self.moves_until;
+        if moving {
+            ui.ctx().request_repaint_after(SETTLES);
+        }
+        // A range that is being typed may be empty for a moment.
+        if self.look.settings.range.is_some_and(|[low, high]| low.partial_cmp(&high) != Some(Ordering::Less)) {
+            return;
+        }
+        let wanted = (self.look.clone(), moving);
+        if self.sent.as_ref() != Some(&wanted) {
+            self.commands.push(Command::Look { look: Box::new(self.look.clone()), moving });
+            self.sent = Some(wanted);
+        }
+    }
+
+    /// The look that the scene file asks for, at the size of the window.
+    pub(super) fn reset_look(&mut self) {
+        let settings = RenderSettings { size: self.look.settings.size, ..self.opened.scene.render.clone() };
+        self.look = Look { field: self.opened.look.field, settings };
+    }
+}
+
+/// Whether Ctrl was held at a click of this frame; it may be up again by now.
+fn clicked_with_command(ui: &Ui) -> bool {
+    ui.input(|input| {
+        let held = |event: &Event| matches!(event, Event::PointerButton { modifiers, .. } if modifiers.command);
+        input.events.iter().any(held)
+    })
+}

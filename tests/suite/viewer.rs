@@ -1,0 +1,156 @@
+//! The live window without a window: its session draws what `run` draws, its worker does what it is asked for.
+
+use std::time::{Duration, Instant};
+
+use brisance::gpu::GpuOptions;
+use brisance::render::{Renderer, SceneBuffers};
+use brisance::scene::{Field, Scene};
+use brisance::simulation::Simulation;
+use brisance::viewer::model::{Command, Look, Outbox, Pace, Phase, Request, Shown, Strike, Weight};
+use brisance::viewer::record;
+use brisance::viewer::session::Session;
+use brisance::viewer::worker::Worker;
+
+use crate::common::gpu_or_skip;
+
+const SPACE: &str = "title = \"Charge in a box\"\n\
+    domain = { dimension = 3, cells = [12, 12, 12], size = [1.0, 1.0, 1.0] }\n\
+    gas.ambient = { density = 1.0, pressure = 1.0 }\n\
+    gas.regions = [{ shape = { sphere = { center = [0.3, 0.5, 0.5], radius = 0.2 } }, density = 3.0, pressure = 8.0 }]\n\
+    time = { until = 0.4, frames = 1 }\n\
+    output.fields = [\"pressure\"]\n\
+    [materials.jelly]\nneo_hookean = { young_modulus = 20.0, poisson_ratio = 0.3 }\n\
+    [[bodies]]\nname = \"lump\"\nshape = { sphere = { center = [0.7, 0.5, 0.5], radius = 0.15 } }\nmaterial = \"jelly\"\ndensity = 10.0\n";
+
+#[test]
+fn live_pictures_are_those_of_a_run_byte_by_byte() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let plane = "dimension = 2, cells = [24, 16], size = [1.5, 1.0]";
+    let plane = SPACE
+        .replace("dimension = 3, cells = [12, 12, 12], size = [1.0, 1.0, 1.0]", plane)
+        .replace(", 0.5, 0.5]", ", 0.5]");
+    for text in [SPACE, &plane] {
+        let scene = Scene::parse(text, "charge.toml", &["render.size=[200,150]".to_owned()]).unwrap();
+        let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+        let mut renderer = Renderer::new(&gpu, &scene, &SceneBuffers::of(&simulation.state)).unwrap();
+        let mut session = Session::open(&gpu, scene.clone()).unwrap();
+        let look = session.look();
+        simulation.set_target(scene.time.until).unwrap();
+        let mut records = (Vec::new(), Vec::new());
+        for steps in [3, 1, 2] {
+            simulation.advance_batch_of(&mut records.0, steps).unwrap();
+            session.advance(steps, &mut records.1).unwrap();
+            // other looks in between leave no trace
+            let other = Look {
+                field: Field::Mach,
+                settings: brisance::scene::RenderSettings { size: [64, 48], ..look.settings.clone() },
+            };
+            session.draw(&other).unwrap();
+            let (run, live) = (renderer.render(simulation.time()).unwrap(), session.draw(&look).unwrap());
+            assert_eq!(session.time().to_bits(), simulation.time().to_bits());
+            assert!(run[0] == live, "step {}", session.step_count());
+        }
+        assert_eq!(records.0, records.1);
+    }
+}
+
+/// Waits until the outbox has what a test waits for; everything that came before is added to `seen`.
+fn wait(worker: &Worker, seen: &mut Outbox, what: &str, done: impl Fn(&Outbox) -> bool) {
+    let start = Instant::now();
+    while !done(seen) {
+        assert!(start.elapsed() < Duration::from_secs(120), "no {what}: {:?} {:?}", seen.status, seen.notes);
+        std::thread::sleep(Duration::from_millis(10));
+        let Outbox { status, opened, shown, records, stages, changed, notes } = worker.take();
+        seen.status = status;
+        seen.opened = opened.or(seen.opened.take());
+        seen.shown = shown.or(seen.shown.take());
+        seen.stages = stages.or(seen.stages.take());
+        seen.changed = changed.or(seen.changed.take());
+        seen.records.extend(records);
+        seen.notes.extend(notes);
+    }
+}
+
+#[test]
+fn the_worker_opens_steps_detonates_changes_and_saves() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("charge.toml");
+    std::fs::write(&file, SPACE).unwrap();
+    let worker = Worker::start(GpuOptions::default(), || {});
+    let mut seen = Outbox::default();
+    worker.send(Command::Pace(Pace::Fastest));
+    worker.send(Command::Open(Request::of(file.to_str().unwrap()), None));
+    wait(&worker, &mut seen, "scene", |seen| seen.opened.is_some() && seen.shown.is_some());
+    let opened = seen.opened.clone().unwrap();
+    assert_eq!((opened.scene.title.as_str(), opened.particles > 0), ("Charge in a box", true));
+    assert_eq!(seen.status.phase, Phase::Ready);
+    let mut look = opened.look.clone();
+    look.settings.size = [160, 120];
+    worker.send(Command::Look { look: Box::new(look.clone()), moving: false });
+    let drawn = |shown: &Option<Shown>, look: &Look| shown.as_ref().is_some_and(|shown| shown.look == *look);
+    wait(&worker, &mut seen, "picture of that size", |seen| drawn(&seen.shown, &look));
+    worker.send(Command::Steps(3));
+    wait(&worker, &mut seen, "three steps", |seen| seen.records.len() == 3);
+    let before = seen.records.last().unwrap().given.energy;
+    worker.send(Command::Detonate(Strike { at: [0.5, 0.5], energy: 0.75, radius: 0.2 }));
+    worker.send(Command::Steps(1));
+    wait(&worker, &mut seen, "blast", |seen| seen.records.len() == 4);
+    let given = seen.records[3].given.energy - before;
+    assert!((given - 0.75).abs() < 0.05, "the books have {given} J");
+    assert!(seen.notes.iter().any(|note| note.weight == Weight::Fine), "{:?}", seen.notes);
+    worker.send(Command::Detonate(Strike { at: [0.001, 0.001], energy: 0.75, radius: 0.2 }));
+    wait(&worker, &mut seen, "word about a miss", |seen| {
+        seen.notes.iter().any(|note| note.text.contains("beside the domain"))
+    });
+    let mut scene = (*opened.scene).clone();
+    scene.gravity = [0.0, 0.0, -5.0];
+    worker.send(Command::Change(Box::new(scene.clone())));
+    wait(&worker, &mut seen, "change", |seen| seen.changed.as_ref().is_some_and(|now| **now == scene));
+    worker.send(Command::Play(true));
+    wait(&worker, &mut seen, "end of the run", |seen| seen.status.finished);
+    assert!((seen.status.time - 0.4).abs() < 1e-6 && !seen.status.playing, "{:?}", seen.status);
+    worker.send(Command::Steps(1));
+    wait(&worker, &mut seen, "step beyond the end", |seen| seen.status.time > 0.4);
+}
+
+#[test]
+fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let worker = Worker::start(GpuOptions::default(), || {});
+    let mut seen = Outbox::default();
+    worker.send(Command::Open(Request { overrides: vec!["gas.gamma=0.5".to_owned()], ..Request::of("gas/sod") }, None));
+    wait(&worker, &mut seen, "finding", |seen| seen.status.phase == Phase::Failed);
+    assert!(seen.notes[0].text.contains("gamma") && seen.notes[0].weight == Weight::Wrong, "{:?}", seen.notes);
+    worker.send(Command::Open(Request { resolution: Some(50), ..Request::of("gas/sod") }, None));
+    wait(&worker, &mut seen, "scene", |seen| seen.status.phase == Phase::Ready && seen.shown.is_some());
+}
+
+#[test]
+fn saved_pictures_hold_the_bytes_that_are_shown() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = Scene::parse(SPACE, "charge.toml", &["render.size=[96,64]".to_owned()]).unwrap();
+    let mut session = Session::open(&gpu, scene).unwrap();
+    let look = session.look();
+    let picture = std::sync::Arc::new(session.draw(&look).unwrap());
+    let shown = Shown { picture, look, time: 0.0, step: 0 };
+    let folder = tempfile::tempdir().unwrap();
+    let mut recording = record::Recording::start(folder.path(), "charge".into()).unwrap();
+    assert!(recording.add(&shown) && recording.add(&shown) && recording.count() == 2);
+    recording.finish().unwrap();
+    let first = record::save(folder.path(), &shown, "charge").unwrap();
+    let second = record::save(folder.path(), &shown, "charge").unwrap();
+    assert_ne!(first, second);
+    for path in [first, second, folder.path().join("recording_001/frames/0001.png")] {
+        let mut reader =
+            png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&path).unwrap())).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        let rgb: Vec<u8> = shown.picture.frame.rgba.chunks_exact(4).flat_map(|pixel| pixel[..3].to_vec()).collect();
+        assert_eq!(pixels, rgb, "{}", path.display());
+    }
+}
