@@ -19,7 +19,7 @@ use crate::{Error, Result};
 pub(super) struct Wake;
 
 /// Frames that nobody asked for by mouse or key take at most one part in so many of the time: the processor belongs to the scene.
-const IDLE_PARTS: u32 = 12;
+const IDLE_PARTS: u32 = 20;
 /// Losses of the window's device before the program gives up.
 const MOST_LOSSES: u32 = 3;
 /// Pause before a frame that could not be drawn is tried again.

@@ -9,7 +9,7 @@ const SUBMISSION: f64 = 0.033;
 /// Pictures follow each other no faster than this \[s\].
 const PICTURE_PERIOD: f64 = 1.0 / 30.0;
 /// Share of the time that pictures may take while the scene runs.
-const PICTURE_SHARE: f64 = 0.12;
+const PICTURE_SHARE: f64 = 0.08;
 /// The same while the user turns the camera or changes the look.
 const ATTENTIVE_SHARE: f64 = 0.6;
 /// Pictures of a running scene follow each other at least this often, if steps allow it \[s\].

@@ -176,7 +176,8 @@ impl View {
         let frame = &shown.picture.frame;
         let size = [frame.width as usize, frame.height as usize];
         let texture = self.texture.get_or_insert_with(|| {
-            let image = ColorImage::from_rgba_unmultiplied(size, &frame.rgba);
+            // Every pixel is opaque.
+            let image = ColorImage::from_rgba_premultiplied(size, &frame.rgba);
             let options = if shown.look.settings.size == self.look.settings.size {
                 TextureOptions::NEAREST
             } else {
