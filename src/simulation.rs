@@ -1,10 +1,11 @@
 //! The step: the whole method on one page, and the run around it.
 
+mod fault;
 mod live;
 mod recorded;
 
 use crate::diagnostics::StepRecord;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::gpu::{Detail, Gpu, Pass, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
@@ -13,7 +14,7 @@ use crate::stage::{
     InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals,
     Transfer,
 };
-use crate::state::constants::{self, NO_FAULT, STAGES};
+use crate::state::constants::{self, NO_FAULT};
 use crate::state::{Control, HISTORY, State};
 pub use live::Blast;
 use recorded::Recorded;
@@ -223,7 +224,7 @@ impl Simulation {
     /// Advances to a time and returns the records of all steps on the way.
     ///
     /// # Errors
-    /// [`Error::Diverged`] if a stage raised a fault; driver errors.
+    /// [`crate::Error::Diverged`] if a stage raised a fault; driver errors.
     pub fn advance_to(&mut self, time: f64) -> Result<Vec<StepRecord>> {
         let mut records = Vec::new();
         self.set_target(time)?;
@@ -326,32 +327,6 @@ impl Simulation {
     /// Driver errors.
     pub fn control(&self) -> Result<Control> {
         Ok(readback::read(&self.gpu, &self.state.control)?[0])
-    }
-
-    /// The fault of the run as an error.
-    fn fault(&self, control: &Control) -> Error {
-        let (stage, at) = ((control.fault >> 27) as usize, control.fault & 0x07ff_ffff);
-        let name = STAGES.get(stage).copied().unwrap_or("unknown");
-        let (cell, reason) = match name {
-            "g2p" => {
-                ([at as i32, 0, 0], "a particle is turned inside out or not finite; try a smaller numerics.elastic_cfl")
-            }
-            "coupled_solve" => {
-                ([0; 3], "the pressure solve did not converge; try a larger numerics.tolerance or a smaller time.cfl")
-            }
-            "interface" => {
-                (self.cell(at), "more surface vertices of fragments than there is room for; try a finer resolution")
-            }
-            _ => (self.cell(at), "density or pressure is not positive and finite; try a smaller time.cfl"),
-        };
-        Error::Diverged { step: u64::from(control.step) + 1, stage: name, cell, reason: reason.to_owned() }
-    }
-
-    fn cell(&self, slot: u32) -> [i32; 3] {
-        let grid = &self.state.grid;
-        let (stride, padding) = (grid.strides(), grid.padding());
-        let at = [slot % stride[0], slot / stride[0] % stride[1], slot / (stride[0] * stride[1])];
-        std::array::from_fn(|axis| at[axis] as i32 - padding[axis] as i32)
     }
 
     /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies, and blasts to gas, since the start.
