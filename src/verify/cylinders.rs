@@ -69,6 +69,10 @@ fn lifting(session: &mut Session<'_>) -> Result<()> {
     Ok(())
 }
 
+/// Why the coarse cylinder rises a little less than the prototype's.
+const VOLUME: &str =
+    "the particles weigh what the disc does; those of the prototype, all of one size, made it 0.6 % larger here";
+
 fn report_lift(session: &mut Session<'_>, journey: &Journey, [x, y]: [f64; 2], height: f64) {
     let [_, exact_x, exact_y] = PATH[PATH.len() - 1];
     let run = &journey.run;
@@ -83,7 +87,7 @@ fn report_lift(session: &mut Session<'_>, journey: &Journey, [x, y]: [f64; 2], h
         row.pass(Limit::Between(exact_y - 0.01, exact_y + 0.01));
     }
     let row = session.check(run, "y at 0.3 against the prototype", y).reference(height, "prototype, double precision");
-    row.pass(Limit::AtLeast(height - 0.001));
+    row.pass(Limit::AtLeast(height - 0.001)).known(Limit::AtLeast(height - 0.003), VOLUME);
     let (_, body) = &journey.path(0)[PATH.len()];
     session.check(run, "velocity along x at 0.3", body.velocity[0]).reference(2.2672, CUT_CELLS);
     session.check(run, "velocity along y at 0.3", body.velocity[1]).reference(0.5937, CUT_CELLS);
