@@ -1,7 +1,7 @@
 // fluid_update, last part: the energy floor, kinetic energy first. At closed faces the interface pressure changes momentum
 // without energy, so a cell squeezed between faces may hold more kinetic than total energy. Its momentum is scaled until a tenth
-// of the internal energy before the pressure step is left; the ledger takes the momentum. Only if the total energy itself is
-// below that floor is energy borrowed from the ledger. Every floored cell is counted.
+// of the internal energy before the pressure step is left, and the entropy of no gas that was there; the ledger takes the momentum.
+// Only if the total energy itself is below that floor is energy borrowed from the ledger. Every floored cell is counted.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -34,7 +34,8 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         return;
     }
     let before = 1.0 / (params.gamma * fill[slot].y * (params.gamma - 1.0));
-    let least = max(FLOOR_SHARE * before, RESOLVED_SHARE * total);
+    let coldest = params.least_entropy * pow(flow.x, params.gamma) / (params.gamma - 1.0);
+    let least = max(max(FLOOR_SHARE * before, coldest), RESOLVED_SHARE * total);
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
     // What the first of two solves loses counts more than once in the second [shared/ars.wgsl].

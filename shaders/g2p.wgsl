@@ -103,7 +103,7 @@ fn relaxation(p: u32, q: f32, f: mat3x3f, material: MaterialParams, time: f32) -
     volumetric.mu = 0.0;
     let tau = kirchhoff_stress(material.kind, f, volumetric);
     let swollen = params.ambient_pressure - (tau[0].x + tau[1].y + tau[2].z) / (3.0 * determinant(f));
-    let speed = wave_speed(material.kind, material, position[p].w / velocity[p].w);
+    let speed = wave_speed(material.kind, f, material, position[p].w / velocity[p].w);
     return (1.0 - exp(-time * speed / (RELAXED_CELLS * params.spacing))) * (swollen - q);
 }
 

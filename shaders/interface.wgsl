@@ -5,6 +5,7 @@
 // particle and nothing around it is that full: fragments]
 #include "shared/index.wgsl"
 #include "shared/material.wgsl"
+#include "shared/trial.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;
 @group(0) @binding(2) var<storage, read> affine: array<vec4f>;
@@ -36,8 +37,9 @@ fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         let p = order[i];
         let lambda = materials[bitcast<u32>(affine[3u * p + 2u].w)].ghost_modulus;
         volume += volume_of(p);
-        // What is driven does not give way.
-        let soft = select(1.0, 0.0, DRIVEN && deformation[3u * p + 1u].w == 2.0);
+        // A body with a given motion does not give way. A part that is held must: else its layer of vertices without compliance, on a
+        // layer of nodes that is half free, has pressures that nothing bounds.
+        let soft = select(0.0, 1.0, strains(p));
         compliance += soft / (lambda * max(1.0 - affine[3u * p].w / lambda, SMALLEST_GHOST_VOLUME));
     }
     fill[slot] = vec2f(volume, compliance / f32(max(end - first, 1u)));

@@ -13,6 +13,6 @@ fn energy_drucker_prager(f: mat3x3f, m: MaterialParams) -> f32 {
     return energy_hencky(f, m);
 }
 
-fn wave_speed_drucker_prager(m: MaterialParams, density: f32) -> f32 {
-    return wave_speed_neo_hookean(m, density);
+fn wave_speed_drucker_prager(f: mat3x3f, m: MaterialParams, density: f32) -> f32 {
+    return wave_speed_hencky(f, m, density);
 }

@@ -36,6 +36,9 @@ fn energy_fixed_corotated(f: mat3x3f, m: MaterialParams) -> f32 {
     return m.mu * dot(s.stretch, s.stretch) + 0.5 * m.lambda * swelling * swelling;
 }
 
-fn wave_speed_fixed_corotated(m: MaterialParams, density: f32) -> f32 {
-    return wave_speed_neo_hookean(m, density);
+// As in neo_hookean.wgsl: rho c^2 = 2 mu b + lambda J^2.
+fn wave_speed_fixed_corotated(f: mat3x3f, m: MaterialParams, density: f32) -> f32 {
+    let volume = determinant(f);
+    let square = 1.0 + largest_row_sum(strain_neo_hookean(f));
+    return sqrt((2.0 * m.mu * max(square, 1.0) + m.lambda * max(volume * volume, 1.0)) / density);
 }

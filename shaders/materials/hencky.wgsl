@@ -21,6 +21,11 @@ fn energy_hencky(f: mat3x3f, m: MaterialParams) -> f32 {
     return m.mu * dot(strain, strain) + 0.5 * m.lambda * volume * volume;
 }
 
-fn wave_speed_hencky(m: MaterialParams, density: f32) -> f32 {
-    return wave_speed_neo_hookean(m, density);
+// As in neo_hookean.wgsl: rho c^2 = lambda + 2 mu - tau, tau the least principal stress.
+fn wave_speed_hencky(f: mat3x3f, m: MaterialParams, density: f32) -> f32 {
+    if determinant(f) <= 0.0 { return sqrt((m.lambda + 2.0 * m.mu) / density); }
+    let strain = logarithmic_strain(f).strain;
+    let least = min(strain.x, min(strain.y, strain.z));
+    let stress = 2.0 * m.mu * least + m.lambda * (strain.x + strain.y + strain.z);
+    return sqrt(max(m.lambda + 2.0 * m.mu - stress, m.mu) / density);
 }

@@ -13,6 +13,6 @@ fn energy_von_mises(f: mat3x3f, m: MaterialParams) -> f32 {
     return energy_neo_hookean(f, m);
 }
 
-fn wave_speed_von_mises(m: MaterialParams, density: f32) -> f32 {
-    return wave_speed_neo_hookean(m, density);
+fn wave_speed_von_mises(f: mat3x3f, m: MaterialParams, density: f32) -> f32 {
+    return wave_speed_neo_hookean(f, m, density);
 }

@@ -49,6 +49,7 @@ struct Params {
     march: u32,                 // slots that one thread of a marching kernel takes, along the last axis
     wall_sides: u32,            // sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
     blending: u32,              // 1: faces of partly filled cells are blocked by their share
+    least_entropy: f32,         // p / rho^gamma that no gas falls below
     scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 

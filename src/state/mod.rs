@@ -27,7 +27,7 @@ pub use supports::{MotionAt, Support, Supports};
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel};
 use crate::numerics::PcgVectors;
-use crate::scene::{CutGeometry, Scene};
+use crate::scene::Scene;
 use params::{DeviceLimits, SolidLimits};
 
 /// Materials that one scene may use.
@@ -111,10 +111,14 @@ impl State {
             per_cell: per_cell.fold(0.0, f64::max),
         };
         let capacity = extra_capacity(slots, start.len(), domain.dimension);
-        let params = Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity));
         let unknowns = slots + 2 * capacity;
         let (openings, supports) = (Openings::new(scene), Supports::new(scene));
         let geometry = scene.cut_geometry();
+        let start_gas = cut::initial_gas(scene, &geometry);
+        let params = Params {
+            least_entropy: gas::least_entropy(scene.gas.gamma, &start_gas, &openings),
+            ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity))
+        };
         let table = cut::table(&grid, &geometry);
         let mut overrides = params::overrides(scene, !start.is_empty());
         overrides.push(("DRIVEN", f64::from(u8::from(supports.driven))));
@@ -147,7 +151,7 @@ impl State {
         state.params_buffer.write(gpu, 0, &[params]);
         state.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, ..Control::default() }]);
         state.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
-        state.fill_gas(gpu, scene, &openings, &geometry);
+        state.fill_gas(gpu, scene, &openings, &start_gas, &geometry.walls);
         if !table.is_empty() {
             state.interface.extra.write(gpu, 0, &cut::entries(&grid, &geometry));
             state.interface.extra.write(gpu, 2 * slots + 2, &table);
@@ -156,7 +160,7 @@ impl State {
     }
 
     /// Initial gas and kinds of all slots.
-    fn fill_gas(&self, gpu: &Gpu, scene: &Scene, openings: &Openings, geometry: &CutGeometry) {
+    fn fill_gas(&self, gpu: &Gpu, scene: &Scene, openings: &Openings, gas: &[[f64; 5]], walls: &[bool]) {
         let (grid, slots) = (&self.grid, self.grid.slots());
         let mut conserved = vec![[0.0f32; 4]; slots];
         let mut energy = vec![0.0f32; slots];
@@ -170,7 +174,6 @@ impl State {
                 }
             }
         }
-        let (gas, walls) = (cut::initial_gas(scene, geometry), &geometry.walls);
         let [nx, ny, nz] = grid.cells.map(|n| n as i32);
         let mut index = 0;
         for z in 0..nz {

@@ -69,8 +69,10 @@ pub struct Params {
     pub wall_sides: u32,
     /// 1 if faces of partly filled cells are blocked by their share.
     pub blending: u32,
+    /// p / rho^gamma that no gas falls below.
+    pub least_entropy: f32,
     /// Fills the last 16 bytes.
-    pub unused: [u32; 3],
+    pub unused: [u32; 2],
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -156,7 +158,8 @@ impl Params {
             march: limits.march,
             wall_sides: wall_sides(scene),
             blending: u32::from(numerics.blending),
-            unused: [0; 3],
+            least_entropy: 0.0,
+            unused: [0; 2],
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {

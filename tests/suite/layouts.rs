@@ -67,6 +67,7 @@ fn params() {
             march,
             wall_sides,
             blending,
+            least_entropy,
             scan,
         ]
     );

@@ -14,8 +14,12 @@ const RUBBER: &str =
     "[materials.rubber]\nneo_hookean = { young_modulus = 100.0, poisson_ratio = 0.3, ghost_modulus = 0.1 }\n";
 
 fn scene(domain: &str, gas: &str, body: &str, rest: &str) -> Scene {
+    scene_of(RUBBER, domain, gas, body, rest)
+}
+
+fn scene_of(rubber: &str, domain: &str, gas: &str, body: &str, rest: &str) -> Scene {
     let body = format!("[[bodies]]\nname = \"body\"\nmaterial = \"rubber\"\n{body}\n");
-    let text = format!("title = \"t\"\n{rest}\n[domain]\n{domain}\n{gas}{RUBBER}{body}");
+    let text = format!("title = \"t\"\n{rest}\n[domain]\n{domain}\n{gas}{rubber}{body}");
     Scene::parse(&text, "test.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -121,4 +125,21 @@ fn a_sliding_block_slows_down_by_its_friction() {
     assert!((slip - 1.0).abs() < 2e-3, "{slip}");
     assert!((rubbed - 0.85).abs() < 0.015, "{rubbed}");
     assert!(stuck.abs() < 0.2, "{stuck}");
+}
+
+/// A soft column on the floor in a stream at Mach 3: its root is held, and takes pressures like those of the gas, not more and more.
+#[test]
+fn the_ghost_pressure_of_a_held_root_stays_that_of_the_gas() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let gas = "[gas]\nambient = { density = 14.0, velocity = [3.0, 0.0], pressure = 10.0 }\n[boundary]\n\
+               x_min = { inlet = { density = 14.0, velocity = [3.0, 0.0], pressure = 10.0 } }\nx_max = \"outlet\"\ny_max = \"outlet\"\n";
+    let body = "density = 10.0\nshape = { box = { center = [0.6, 0.2], size = [0.2, 0.4] } }\n\
+                clamped = { half_space = { point = [0.0, 0.05], normal = [0.0, 1.0] } }";
+    let domain = "dimension = 2\ncells = [32, 16]\nsize = [1.6, 0.8]";
+    let soft = "[materials.rubber]\nneo_hookean = { young_modulus = 200.0, poisson_ratio = 0.35 }\n";
+    let scene = scene_of(soft, domain, gas, body, "[time]\nuntil = 0.18\n");
+    let [before, after] = run(&gpu, &scene);
+    let roots = before.particles.iter().zip(&after.particles).filter(|(start, _)| start.position[1] < 0.05);
+    let largest = roots.map(|(_, end)| end.ghost_pressure.abs()).fold(0.0, f32::max);
+    assert!(largest > 50.0 && largest < 500.0, "{largest}, the stagnation pressure is 120");
 }

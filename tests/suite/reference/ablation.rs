@@ -95,7 +95,7 @@ pub(crate) fn relax(problem: &Problem, particle: &mut Particle, dt: f64) {
     let material = &problem.materials[particle.material];
     let volume = particle.deformation.determinant();
     let swollen = problem.ambient.1 - material.lambda * volume.ln() / volume;
-    let speed = material.wave_speed(particle.mass / particle.volume0);
+    let speed = material.wave_speed(particle.deformation, particle.mass / particle.volume0);
     let share = -(-dt * speed / (10.0 * problem.grid.spacing)).exp_m1();
     particle.ghost_pressure += share * (swollen - particle.ghost_pressure);
 }

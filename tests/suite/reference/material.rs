@@ -30,9 +30,12 @@ impl Material {
         (f * f.transpose() - DMat3::IDENTITY) * self.mu + DMat3::IDENTITY * (self.lambda * f.determinant().ln())
     }
 
-    /// Longitudinal wave speed.
-    pub(crate) fn wave_speed(&self, density: f64) -> f64 {
-        ((self.lambda + 2.0 * self.mu) / density).sqrt()
+    /// Longitudinal wave speed in a deformed body, `density` that at rest.
+    pub(crate) fn wave_speed(&self, f: DMat3, density: f64) -> f64 {
+        let squares = f * f.transpose();
+        let rows = [squares.x_axis, squares.y_axis, squares.z_axis].map(|row| row.abs().element_sum());
+        let bulk = self.lambda * (1.0 - f.determinant().ln()).max(0.0);
+        ((bulk + self.mu * (1.0 + rows[0].max(rows[1]).max(rows[2]))) / density).sqrt()
     }
 
     /// Deformation after the plastic return, and the equivalent plastic strain of it.

@@ -53,10 +53,14 @@ pub(crate) fn time_step(problem: &Problem, state: &State) -> f64 {
     if state.previous_dt > 0.0 { dt.min(numerics.max_growth * state.previous_dt) } else { dt }
 }
 
-/// Largest elastic wave speed of the particles, 0 without particles.
+/// Largest elastic wave speed of the particles, or the cell edge times their velocity gradient; 0 without particles.
 pub(crate) fn fastest_wave(problem: &Problem, state: &State) -> f64 {
     let speeds = state.particles.iter().filter(|particle| particle.active);
-    speeds.map(|p| problem.materials[p.material].wave_speed(p.mass / p.volume0)).fold(0.0, f64::max)
+    let limit = |p: &super::Particle| {
+        let gradient = p.affine.to_cols_array().iter().map(|c| c * c).sum::<f64>().sqrt();
+        problem.materials[p.material].wave_speed(p.deformation, p.mass / p.volume0).max(gradient * problem.grid.spacing)
+    };
+    speeds.map(limit).fold(0.0, f64::max)
 }
 
 /// Elastic sub-steps of a step.
