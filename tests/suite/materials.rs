@@ -10,7 +10,7 @@ use crate::reference::material::eigen;
 /// Asks a law for everything it knows of given deformation gradients.
 const ASK: &str = r#"
 #include "shared/thread.wgsl"
-struct Answer { stress: mat3x3f, kept: mat3x3f, energy: f32, plastic_strain: f32 }
+struct Answer { stress: mat3x3f, kept: mat3x3f, energy: f32, plastic_strain: f32, wave_speed: f32 }
 @group(0) @binding(0) var<storage, read> material: array<MaterialParams>;
 @group(0) @binding(1) var<storage, read> given: array<mat3x3f>;
 @group(0) @binding(2) var<storage, read_write> answers: array<Answer>;
@@ -22,7 +22,8 @@ fn ask(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     if i >= arrayLength(&given) { return; }
     let m = material[0];
     let kept = return_map(m.kind, given[i], HARDENED, m);
-    answers[i] = Answer(kirchhoff_stress(m.kind, given[i], m), kept.deformation, elastic_energy(m.kind, given[i], m), kept.plastic_strain);
+    answers[i] = Answer(kirchhoff_stress(m.kind, given[i], m), kept.deformation, elastic_energy(m.kind, given[i], m), kept.plastic_strain,
+        wave_speed(m.kind, given[i], m, 1.0));
 }
 "#;
 
@@ -34,6 +35,7 @@ struct Answer {
     kept: DMat3,
     energy: f64,
     plastic_strain: f64,
+    wave_speed: f64,
 }
 
 fn material(kind: &str, more: &[(&str, f64)]) -> Material {
@@ -80,6 +82,7 @@ fn ask(gpu: &Gpu, material: &Material, given: &[DMat3]) -> Vec<Answer> {
         kept: matrix(&at[12..]),
         energy: at[24].into(),
         plastic_strain: at[25].into(),
+        wave_speed: at[26].into(),
     };
     found.chunks_exact(28).map(answer).collect()
 }
@@ -164,6 +167,34 @@ fn stress_is_the_derivative_of_energy() {
                 let name = material.kind().name;
                 assert!(off < of_stress && energy_off < of_energy, "{name} {size}: {off} {energy_off}");
             }
+        }
+    }
+}
+
+/// rho c^2 of a plane wave in a deformed body: the second derivative of the energy of (I + s m n^T) F, n its direction, m its motion.
+fn stiffness(material: &Material, f: DMat3, n: DVec3, m: DVec3) -> f64 {
+    let at = |s: f64| energy(material, (DMat3::IDENTITY + s * DMat3::from_cols(m * n.x, m * n.y, m * n.z)) * f);
+    let h = 1e-3;
+    (16.0 * (at(h) + at(-h)) - (at(2.0 * h) + at(-2.0 * h)) - 30.0 * at(0.0)) / (12.0 * h * h)
+}
+
+#[test]
+fn no_wave_in_a_deformed_body_is_faster_than_the_law_says() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut random = Random(11);
+    let mut given = gradients(0.5, 40);
+    given.push(DMat3::IDENTITY);
+    for material in all() {
+        let name = material.kind().name;
+        for (f, found) in given.iter().zip(ask(&gpu, &material, &given)) {
+            let (_, axes) = logarithmic(*f);
+            let turned = (0..20).map(|_| rotation(&mut random)).chain([axes]).collect::<Vec<_>>();
+            let pairs = turned.iter().flat_map(|r| [0, 1, 2].map(|n| [0, 1, 2].map(|m| (r.col(n), r.col(m)))));
+            let fastest = pairs.flatten().map(|(n, m)| stiffness(&material, *f, n, m)).fold(0.0, f64::max);
+            let share = found.wave_speed.powi(2) / fastest;
+            assert!(share > 1.0 - 1e-3 && share < 3.0, "{name} {f}: {share}");
+            let rest = material.lambda() + 2.0 * material.mu();
+            assert!(*f != DMat3::IDENTITY || (found.wave_speed.powi(2) / rest - 1.0).abs() < 1e-5, "{name} at rest");
         }
     }
 }

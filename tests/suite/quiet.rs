@@ -273,3 +273,17 @@ fn round_explosions() {
         assert!(consistent < cell, "{consistent} {cell}");
     }
 }
+
+/// Gas colder than any that was there is warmed to a tenth of the least entropy, and the cells are counted.
+#[test]
+fn no_gas_is_colder_than_any_that_was_there() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let text = "title = \"cold\"\n[domain]\ndimension = 1\ncells = [40]\nsize = [1.0]\n[gas]\nambient = { density = 1.0, pressure = 1.0 }\n\
+                [time]\nuntil = 1.0\nfixed_step = 1e-7\n";
+    let mut simulation = disturbed(&gpu, text, |random, _| (random.between(0.1, 1.0), [0.0; 3], 1e-6));
+    let records = simulation.advance_to(1e-7).unwrap_or_else(|error| panic!("{error}"));
+    let found = simulation.snapshot().unwrap();
+    let entropies = found.pressure.iter().zip(&found.density).map(|(p, density)| p / density.powf(1.4));
+    assert!(entropies.map(|s| (s / 0.1 - 1.0).abs()).fold(0.0, f32::max) < 1e-3);
+    assert_eq!(records.last().unwrap().floored, 40);
+}
