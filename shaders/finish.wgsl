@@ -1,5 +1,6 @@
 // From light to pixels.
 // finish: reads light; writes pixels, red in the lowest byte, alpha opaque: the mean of each pixel's rays.
+// finish_linear, finish_toned: read light; write deep, the mean of each pixel's rays before the tone map, and behind it.
 
 #include "shared/thread.wgsl"
 #include "shared/view.wgsl"
@@ -7,6 +8,7 @@
 
 @group(0) @binding(1) var<storage, read> light: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> pixels: array<u32>;
+@group(0) @binding(3) var<storage, read_write> deep: array<vec4f>;
 
 // sRGB value of a light intensity [IEC 61966-2-1].
 fn srgb_from_linear(linear: vec3f) -> vec3f {
@@ -31,24 +33,57 @@ fn toned(color: vec3f) -> vec3f {
     return min(color, vec3f(1.0));
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn finish(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-          @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+// Pixels of the band drawn now.
+fn band_pixels() -> u32 {
+    let n = view.supersampling;
+    return view.size.x / n * (view.rows / n);
+}
+
+// Mean light of a pixel's rays, before or behind the tone map.
+fn mean_light(i: u32, behind: bool) -> vec3f {
     let n = view.supersampling;
     let width = view.size.x / n;
-    if (i >= width * (view.rows / n)) {
-        return;
-    }
     let place = vec2u(i % width, i / width);
     var sum = vec3f(0.0);
     for (var k = 0u; k < n * n; k++) {
         let ray = place * n + vec2u(k % n, k / n);
-        sum += toned(light[ray.x + view.size.x * ray.y].rgb);
+        let own = light[ray.x + view.size.x * ray.y].rgb;
+        sum += select(own, toned(own), behind);
     }
+    return sum / f32(n * n);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn finish_linear(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, groups, local);
+    if (i < band_pixels()) {
+        deep[i] = vec4f(mean_light(i, false), 1.0);
+    }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn finish_toned(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, groups, local);
+    if (i < band_pixels()) {
+        deep[i] = vec4f(mean_light(i, true), 1.0);
+    }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn finish(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+          @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, groups, local);
+    if (i >= band_pixels()) {
+        return;
+    }
+    let n = view.supersampling;
+    let width = view.size.x / n;
+    let place = vec2u(i % width, i / width);
     // In dark gradients of 3D noise breaks the bands.
     let noise = hash_unit((place.x + width * (place.y + view.first_row / n)) ^ 0x9e3779b9u);
     let dither = select(0.5, noise, view.dimension == 3u);
-    let levels = vec3u(srgb_from_linear(sum / f32(n * n)) * 255.0 + dither);
+    let levels = vec3u(srgb_from_linear(mean_light(i, true)) * 255.0 + dither);
     pixels[i] = levels.x | (levels.y << 8u) | (levels.z << 16u) | 0xff000000u;
 }

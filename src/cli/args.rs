@@ -28,6 +28,8 @@ pub struct Cli {
 pub enum Command {
     /// Run a scene: pictures, tables and a report
     Run(RunOptions),
+    /// Draw the frames of a run again, with another camera or look, without simulating
+    Render(RenderOptions),
     /// Watch a scene in a live window; without a verb, the gallery of all scenes
     View(ViewOptions),
     /// Check a scene and print cells, particles, memory and every default
@@ -106,15 +108,69 @@ pub struct RunOptions {
     /// Pictures besides the first, instead of time.frames
     #[arg(long, value_name = "N")]
     pub frames: Option<u32>,
-    /// Further formats, such as vtk; may be repeated
-    #[arg(long, value_name = "FORMAT")]
+    /// Further formats: png16, exr, vtk, states; separated by commas, may be repeated
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
     pub export: Vec<String>,
+    /// A film.
+    #[command(flatten)]
+    pub film: FilmOptions,
     /// Write tables and report, but no pictures
     #[arg(long)]
     pub no_frames: bool,
     /// Do not compare the result with the scene's [expect]
     #[arg(long)]
     pub no_expect: bool,
+    /// Print nothing but warnings and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// A film of the pictures.
+#[derive(Debug, Args)]
+pub struct FilmOptions {
+    /// Make a film of the pictures with ffmpeg, where it is installed; the name says the format, as in film.mp4
+    #[arg(long, value_name = "FILE")]
+    pub video: Option<PathBuf>,
+    /// Pictures per second of the film
+    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub fps: u32,
+}
+
+/// Options of `render`.
+#[derive(Debug, Args)]
+pub struct RenderOptions {
+    /// Folder of a run that has states: `brisance run SCENE --export states`
+    pub run: PathBuf,
+    /// Take [render] and output.fields from another scene file, or from a shipped scene
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Change a key of [render] or output.fields, for example render.colormap=inferno; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Only this view; `main` is the scene's own look; may be repeated
+    #[arg(long = "view", value_name = "NAME")]
+    pub view: Vec<String>,
+    /// Fields instead of output.fields; may be repeated
+    #[arg(long = "field", value_name = "FIELD")]
+    pub field: Vec<String>,
+    /// Camera of the scene's own look as a TOML table, for example "{ eye = [2, -2, 1], target = [0, 0, 0] }"
+    #[arg(long, value_name = "TABLE")]
+    pub camera: Option<String>,
+    /// Width and height in pixels, for example 3840x2160
+    #[arg(long, value_name = "WxH")]
+    pub size: Option<String>,
+    /// Only this frame; may be repeated
+    #[arg(long = "frame", value_name = "N")]
+    pub frame: Vec<u32>,
+    /// Folder for the frames [default: RUN/again]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Formats: png, png16, exr [default: png]; separated by commas, may be repeated
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
+    pub export: Vec<String>,
+    /// A film.
+    #[command(flatten)]
+    pub film: FilmOptions,
     /// Print nothing but warnings and errors
     #[arg(long, short)]
     pub quiet: bool,

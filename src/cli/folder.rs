@@ -5,8 +5,10 @@ use std::path::Path;
 use crate::{Error, Result};
 
 /// What a run writes into its folder, besides the report.
-const OURS: [&str; 8] =
-    ["frames", "fields", "particles", "fields.pvd", "particles.pvd", "diagnostics.csv", "bodies.csv", "probes.csv"];
+#[rustfmt::skip]
+const OURS: [&str; 9] = [
+    "frames", "fields", "particles", "states", "fields.pvd", "particles.pvd", "diagnostics.csv", "bodies.csv", "probes.csv",
+];
 
 /// Makes the folder. If it holds the report of an earlier run, that run's files go, so that no old frame stays among new
 /// ones; anything else in the folder stays.

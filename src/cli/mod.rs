@@ -12,10 +12,12 @@ macro_rules! say {
 mod args;
 mod bench;
 mod check;
+mod film;
 mod folder;
 mod interrupt;
 mod list;
 mod progress;
+mod render;
 mod run;
 mod scenes;
 mod tables;
@@ -102,6 +104,7 @@ fn execute(cli: &Cli) -> Result<()> {
     match command {
         Command::View(options) => view::view(Some(options), cli),
         Command::Run(options) => run::run(options, cli),
+        Command::Render(options) => render::render(options, cli),
         Command::Check(options) => check::check(options, cli),
         Command::Bench(options) => bench::bench(options, cli),
         Command::Verify(options) => verify::verify(options, cli),

@@ -8,13 +8,14 @@ use super::args::{Cli, RunOptions};
 use super::check::overlap_text;
 use super::interrupt::{self, Wish};
 use super::progress::{Progress, clock};
-use super::writer::{FrameToWrite, Message, Writer, Written};
-use super::{folder, open_device, scenes};
+use super::writer::{Files, FrameToWrite, Message, Writer, Written};
+use super::{film, folder, open_device, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Check, Ending, Summary};
+use crate::export::Needs;
 use crate::export::report::{self, DeviceReport, Report};
 use crate::gpu::Gpu;
-use crate::render::{Renderer, SceneBuffers};
+use crate::render::{Renderer, SceneBuffers, Stored};
 use crate::scene::{self, Scene};
 use crate::simulation::Simulation;
 use crate::snapshot::Snapshot;
@@ -62,7 +63,7 @@ struct Run<'a> {
     simulation: Simulation,
     renderer: Option<Renderer>,
     writer: Option<Writer>,
-    needs_snapshot: bool,
+    needs: Needs,
     progress: Progress,
     pending: Vec<StepRecord>,
     summary: Summary,
@@ -80,10 +81,13 @@ impl<'a> Run<'a> {
         folder: PathBuf,
         start: Instant,
     ) -> Result<Self> {
-        let formats = formats(options, &scene);
-        let needs_snapshot = !scene.bodies.is_empty() || formats.iter().any(|name| name != "png");
+        let (formats, video) = (formats(options, &scene), film::asked(&options.film, &folder.join("frames")));
+        let pictures = !options.no_frames || video.is_some();
+        let files = Files { folder: folder.clone(), formats, video, tables: true };
+        let mut needs = files.needs()?;
+        needs.snapshot |= !scene.bodies.is_empty();
         folder::prepare(&folder)?;
-        let writer = Writer::start(&folder, &scene, formats)?;
+        let writer = Writer::start(files, &scene);
         if !options.quiet {
             let cells = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join(" x ");
             for overlap in scene.overlaps() {
@@ -94,7 +98,8 @@ impl<'a> Run<'a> {
         let simulation = Simulation::new(gpu, &scene)?;
         let start_budget = Budget::read(&simulation, &scene, 0.0)?;
         let buffers = SceneBuffers::of(&simulation.state);
-        let renderer = (!options.no_frames).then(|| Renderer::new(gpu, &scene, &buffers)).transpose()?;
+        let renderer = pictures.then(|| Renderer::new(gpu, &scene, &buffers)).transpose()?;
+        let renderer = renderer.map(|renderer| renderer.with_depth(needs.depth));
         let progress = Progress::new(scene.time.until, options.quiet);
         let clocks = Clocks { setup: start.elapsed(), ..Clocks::default() };
         let run = Self {
@@ -106,7 +111,7 @@ impl<'a> Run<'a> {
             simulation,
             renderer,
             writer: Some(writer),
-            needs_snapshot,
+            needs,
             progress,
             pending: Vec::new(),
             summary: Summary::default(),
@@ -160,11 +165,13 @@ impl<'a> Run<'a> {
     fn frame(&mut self, index: u32, time: f64) -> Result<()> {
         let start = Instant::now();
         let pictures = self.renderer.as_mut().map(|renderer| renderer.render(time)).transpose()?.unwrap_or_default();
-        let snapshot = self.needs_snapshot.then(|| self.simulation.snapshot()).transpose()?;
+        let snapshot = self.needs.snapshot.then(|| self.simulation.snapshot()).transpose()?;
+        let buffers = SceneBuffers::of(&self.simulation.state);
+        let at = (time, self.simulation.step_count());
+        let stored = self.needs.stored.then(|| Stored::read(&self.gpu, &buffers, at)).transpose()?;
         self.clocks.pictures += start.elapsed();
         let start = Instant::now();
-        let step = self.simulation.step_count();
-        let frame = Some(FrameToWrite { index, time, step, pictures, snapshot });
+        let frame = Some(FrameToWrite { index, time, step: at.1, pictures, snapshot, stored });
         let message = Message { records: std::mem::take(&mut self.pending), frame };
         let accepted = self.writer.as_ref().is_some_and(|writer| writer.send(message));
         self.clocks.waiting += start.elapsed();
@@ -187,6 +194,7 @@ impl<'a> Run<'a> {
             (Ok(()), Err(error)) => (Err(error), Written::default()),
             (outcome, written) => (outcome, written.unwrap_or_default()),
         };
+        film::tell(&written.notes, self.options.quiet || json);
         let mut checks = Vec::new();
         if outcome.is_ok() && !self.options.no_expect {
             checks = self.judge()?;
@@ -238,6 +246,8 @@ impl<'a> Run<'a> {
             totals: totals(&self.summary, &end),
             drift: end.drift_since(&self.start_budget),
             expect: expect.to_vec(),
+            scene_hash: self.scene.hash(),
+            scene_file: scenes::place(&self.options.scene.scene),
             scene: &self.scene,
         };
         report::write(&self.folder.join("report.json"), &report)?;
@@ -254,16 +264,30 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Formats of a run: pictures unless unwanted, VTK if the scene or the command line asks.
+/// Formats of a run: pictures unless unwanted, others if the scene or the command line asks.
 fn formats(options: &RunOptions, scene: &Scene) -> Vec<String> {
     let mut formats: Vec<String> = if options.no_frames { Vec::new() } else { vec!["png".to_owned()] };
-    let asked = options.export.iter().cloned().chain(scene.output.vtk.then(|| "vtk".to_owned()));
+    let asked = options.export.iter().cloned().chain(scene.output.formats().map(str::to_owned));
     for name in asked {
         if !formats.contains(&name) {
             formats.push(name);
         }
     }
+    if options.no_frames {
+        formats.retain(|name| !PICTURES.contains(&name.as_str()));
+    }
+    without_coarse(&mut formats);
     formats
+}
+
+/// Formats that hold pictures.
+pub(super) const PICTURES: [&str; 3] = ["png", "png16", "exr"];
+
+/// Pictures of 16 bits per channel take the place of those of 8.
+pub(super) fn without_coarse(formats: &mut Vec<String>) {
+    if formats.iter().any(|name| name == "png16") {
+        formats.retain(|name| name != "png");
+    }
 }
 
 fn device(gpu: &Gpu) -> DeviceReport {

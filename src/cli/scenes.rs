@@ -18,3 +18,8 @@ pub(super) fn load(options: &SceneOptions, further: &[String]) -> Result<Scene> 
         None => Ok(scene),
     }
 }
+
+/// Where a scene lies: the whole path of a file, or the name of a shipped scene.
+pub(super) fn place(name: &str) -> String {
+    std::fs::canonicalize(name).map_or_else(|_| name.to_owned(), |path| path.display().to_string())
+}

@@ -1,7 +1,7 @@
 //! The writer: a thread that encodes and writes while the device goes on. Its queue is short, so that a slow disk slows the
 //! run down instead of filling the memory.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 use super::tables::Tables;
 use crate::Result;
 use crate::diagnostics::StepRecord;
-use crate::export::{self, Moment};
-use crate::render::Picture;
+use crate::export::video::VideoExporter;
+use crate::export::{self, Exporter, Moment, Needs, Origin};
+use crate::render::{Picture, Stored};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 
@@ -39,6 +40,40 @@ pub(super) struct FrameToWrite {
     pub(super) pictures: Vec<Picture>,
     /// The state, if something needs it.
     pub(super) snapshot: Option<Snapshot>,
+    /// What pictures are drawn from, if something needs it.
+    pub(super) stored: Option<Stored>,
+}
+
+/// What the thread writes of every frame, and where.
+#[derive(Clone, Debug)]
+pub(super) struct Files {
+    /// Folder of the results.
+    pub(super) folder: PathBuf,
+    /// Names of the formats.
+    pub(super) formats: Vec<String>,
+    /// A film and its pictures per second.
+    pub(super) video: Option<(PathBuf, u32)>,
+    /// Whether there are tables.
+    pub(super) tables: bool,
+}
+
+impl Files {
+    /// The exporters; the error is an unknown format.
+    fn open(&self) -> Result<Vec<Box<dyn Exporter>>> {
+        let mut exporters = export::open(&self.formats, &self.folder)?;
+        if let Some((path, rate)) = &self.video {
+            exporters.push(Box::new(VideoExporter::new(path, *rate)));
+        }
+        Ok(exporters)
+    }
+
+    /// What they want of every frame.
+    ///
+    /// # Errors
+    /// [`crate::Error::Usage`] if a format is unknown.
+    pub(super) fn needs(&self) -> Result<Needs> {
+        Ok(Needs::of(&self.open()?))
+    }
 }
 
 /// Handle of the thread.
@@ -49,26 +84,23 @@ pub(super) struct Writer {
 }
 
 /// What the thread has done.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Written {
     /// Frames.
     pub(super) frames: u32,
     /// Time spent encoding and writing.
     pub(super) busy: Duration,
+    /// What there is to tell about the files.
+    pub(super) notes: Vec<String>,
 }
 
 impl Writer {
-    /// Starts the thread for one folder and these export formats.
-    ///
-    /// # Errors
-    /// [`crate::Error::Usage`] if a format is unknown.
-    pub(super) fn start(folder: &Path, scene: &Scene, formats: Vec<String>) -> Result<Self> {
-        // Unknown names are the user's business, here and now.
-        export::open(&formats, folder)?;
+    /// Starts the thread for the files of a scene.
+    pub(super) fn start(files: Files, scene: &Scene) -> Self {
         let (queue, messages) = sync_channel(QUEUE);
-        let (folder, scene): (PathBuf, Scene) = (folder.to_owned(), scene.clone());
-        let thread = std::thread::spawn(move || work(&messages, &folder, &scene, &formats));
-        Ok(Self { queue, thread })
+        let scene = scene.clone();
+        let thread = std::thread::spawn(move || work(&messages, &files, &scene));
+        Self { queue, thread }
     }
 
     /// Hands a message over; waits while the queue is full. Returns false if the thread has stopped: [`Writer::finish`] says why.
@@ -89,33 +121,38 @@ impl Writer {
     }
 }
 
-fn work(messages: &Receiver<Message>, folder: &Path, scene: &Scene, formats: &[String]) -> Result<Written> {
-    let mut exporters = export::open(formats, folder)?;
-    let mut tables = Tables::new(folder, scene);
+fn work(messages: &Receiver<Message>, files: &Files, scene: &Scene) -> Result<Written> {
+    let mut exporters = files.open()?;
+    let mut tables = files.tables.then(|| Tables::new(&files.folder, scene));
+    let origin = Origin::of(scene);
     let mut written = Written::default();
     for Message { records, frame } in messages {
         let start = Instant::now();
-        tables.add_steps(&records);
+        if let Some(tables) = &mut tables {
+            tables.add_steps(&records);
+        }
         if let Some(frame) = frame {
-            let FrameToWrite { index, time, step, pictures, snapshot } = &frame;
-            if let Some(snapshot) = snapshot {
+            let FrameToWrite { index, time, step, pictures, snapshot, stored } = &frame;
+            if let (Some(tables), Some(snapshot)) = (&mut tables, snapshot) {
                 tables.add_bodies(*index, *time, snapshot);
             }
-            let moment = Moment {
-                index: *index,
-                title: &scene.title,
-                time: *time,
-                step: *step,
-                pictures,
-                snapshot: snapshot.as_ref(),
-            };
+            let (snapshot, stored) = (snapshot.as_ref(), stored.as_ref());
+            let moment =
+                Moment { index: *index, origin: &origin, time: *time, step: *step, pictures, snapshot, stored };
             for exporter in &mut exporters {
                 exporter.write(&moment)?;
             }
             written.frames += 1;
         }
-        tables.save()?;
+        if let Some(tables) = &mut tables {
+            tables.save()?;
+        }
         written.busy += start.elapsed();
     }
+    let start = Instant::now();
+    for exporter in &mut exporters {
+        written.notes.extend(exporter.finish()?);
+    }
+    written.busy += start.elapsed();
     Ok(written)
 }

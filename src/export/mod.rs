@@ -4,31 +4,108 @@
 
 pub mod atomic;
 pub mod csv;
+pub mod exr;
 pub mod png;
 pub mod report;
+pub mod states;
+pub mod video;
 pub mod vtk;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::render::Picture;
+use crate::render::{Depth, Picture, Stored};
+use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 use crate::{Error, Result};
+
+/// What files say about the scene that they come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Origin {
+    /// Title of the scene.
+    pub title: String,
+    /// [`Scene::hash`].
+    pub hash: String,
+}
+
+impl Origin {
+    /// That of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        Self { title: scene.title.clone(), hash: scene.hash() }
+    }
+}
 
 /// Everything known about one frame when it is written.
 #[derive(Debug, Clone, Copy)]
 pub struct Moment<'a> {
     /// Frame number, from 0; file names carry it.
     pub index: u32,
-    /// Title of the scene.
-    pub title: &'a str,
+    /// Where it comes from.
+    pub origin: &'a Origin,
     /// Simulated time \[s\].
     pub time: f64,
     /// Steps done.
     pub step: u64,
-    /// Pictures of this frame, one per field that the scene asks for.
+    /// Pictures of this frame, one per view and field that the scene asks for.
     pub pictures: &'a [Picture],
     /// The state; present whenever an exporter of the run asks for it.
     pub snapshot: Option<&'a Snapshot>,
+    /// What pictures are drawn from; present whenever an exporter of the run asks for it.
+    pub stored: Option<&'a Stored>,
+}
+
+impl Moment<'_> {
+    /// Where a picture comes from: keyword and text.
+    #[must_use]
+    pub fn provenance(&self, picture: &Picture) -> Vec<(&'static str, String)> {
+        let mut text = vec![
+            ("Title", self.origin.title.clone()),
+            ("Software", concat!("brisance ", env!("CARGO_PKG_VERSION")).to_owned()),
+            ("Scene", self.origin.hash.clone()),
+            ("Time", format!("{:?}", self.time)),
+            ("Step", self.step.to_string()),
+            ("Field", picture.name.clone()),
+            ("Range", format!("{:?} {:?}", picture.range[0], picture.range[1])),
+        ];
+        if !picture.view.is_empty() {
+            text.push(("View", picture.view.clone()));
+        }
+        text
+    }
+
+    /// The pictures with their paths below `frames`, without extension: `NNNN` is the first picture, `FIELD/NNNN` any other; those
+    /// of a view lie in a folder of its name.
+    pub fn places(&self) -> impl Iterator<Item = (PathBuf, &Picture)> {
+        let first = |order: usize| order == 0 || self.pictures[order - 1].view != self.pictures[order].view;
+        self.pictures.iter().enumerate().map(move |(order, picture)| {
+            let of_view = Path::new(&picture.view);
+            let folder = if first(order) { of_view.to_owned() } else { of_view.join(&picture.name) };
+            (folder.join(format!("{:04}", self.index)), picture)
+        })
+    }
+}
+
+/// What an exporter wants of every frame: reading the whole state back has a price, and so has depth.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// [`Moment::snapshot`].
+    pub snapshot: bool,
+    /// [`Moment::stored`].
+    pub stored: bool,
+    /// Pictures with more than 8 bits per channel.
+    pub depth: Depth,
+}
+
+impl Needs {
+    /// What several exporters want together.
+    #[must_use]
+    pub fn of(exporters: &[Box<dyn Exporter>]) -> Self {
+        exporters.iter().map(|exporter| exporter.needs()).fold(Self::default(), |a, b| Self {
+            snapshot: a.snapshot || b.snapshot,
+            stored: a.stored || b.stored,
+            depth: Depth { linear: a.depth.linear || b.depth.linear, fine: a.depth.fine || b.depth.fine },
+        })
+    }
 }
 
 /// A file format that receives every frame of a run.
@@ -36,9 +113,14 @@ pub trait Exporter {
     /// Writes one frame. On return all files of this format are complete and agree with each other.
     fn write(&mut self, moment: &Moment) -> Result<()>;
 
-    /// Whether [`Moment::snapshot`] must be present: reading the whole state back has a price.
-    fn needs_snapshot(&self) -> bool {
-        false
+    /// What must be present in every [`Moment`] beside the pictures.
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
+
+    /// Called once behind the last frame; what there is to tell the user.
+    fn finish(&mut self) -> Result<Vec<String>> {
+        Ok(Vec::new())
     }
 }
 
@@ -57,8 +139,23 @@ pub struct Format {
 pub const FORMATS: &[Format] = &[
     Format {
         name: "png",
-        description: "frames/NNNN.png, with time, step, field and range as text chunks",
+        description: "frames/NNNN.png, with scene, time, step, field and range as text chunks",
         open: |folder| Box::new(png::PngExporter::new(folder)),
+    },
+    Format {
+        name: "png16",
+        description: "the same with 16 bits per channel",
+        open: |folder| Box::new(png::PngExporter::fine(folder)),
+    },
+    Format {
+        name: "exr",
+        description: "frames/NNNN.exr, linear light before the tone map",
+        open: |folder| Box::new(exr::ExrExporter::new(folder)),
+    },
+    Format {
+        name: "states",
+        description: "states/NNNN.state, from which `brisance render` draws again",
+        open: |folder| Box::new(states::StateExporter::new(folder)),
     },
     Format {
         name: "vtk",

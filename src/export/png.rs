@@ -1,57 +1,72 @@
 //! frames/NNNN.png: the pictures, with where they come from as text chunks.
 
-use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ::png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 
 use crate::Result;
-use crate::export::{Exporter, Moment, atomic};
-use crate::render::Frame;
+use crate::export::{Exporter, Moment, Needs, atomic};
+use crate::render::{Depth, Frame, Picture};
 
-/// Writes the first picture of a frame to `frames/NNNN.png` and further ones to `frames/<field>/NNNN.png`.
+/// Writes the pictures of a frame to `frames/NNNN.png`, `frames/FIELD/NNNN.png` and `frames/VIEW/...`, see [`Moment::places`].
 #[derive(Debug)]
 pub struct PngExporter {
     folder: PathBuf,
+    fine: bool,
 }
 
 impl PngExporter {
-    /// For one output folder.
+    /// For one output folder, 8 bits per channel.
     #[must_use]
     pub fn new(folder: &Path) -> Self {
-        Self { folder: folder.join("frames") }
+        Self { folder: folder.join("frames"), fine: false }
+    }
+
+    /// For one output folder, 16 bits per channel.
+    #[must_use]
+    pub fn fine(folder: &Path) -> Self {
+        Self { fine: true, ..Self::new(folder) }
     }
 }
 
 impl Exporter for PngExporter {
     fn write(&mut self, moment: &Moment) -> Result<()> {
-        for (order, picture) in moment.pictures.iter().enumerate() {
-            let folder =
-                if order == 0 { Cow::Borrowed(&self.folder) } else { Cow::Owned(self.folder.join(&picture.name)) };
-            let text = [
-                ("Title", moment.title.to_owned()),
-                ("Software", concat!("brisance ", env!("CARGO_PKG_VERSION")).to_owned()),
-                ("Time", format!("{:?}", moment.time)),
-                ("Step", moment.step.to_string()),
-                ("Field", picture.name.clone()),
-                ("Range", format!("{:?} {:?}", picture.range[0], picture.range[1])),
-            ];
-            write(&folder.join(format!("{:04}.png", moment.index)), &picture.frame, &text)?;
+        for (place, picture) in moment.places() {
+            let path = self.folder.join(place).with_extension("png");
+            let text = moment.provenance(picture);
+            if self.fine { write_fine(&path, picture, &text)? } else { write(&path, &picture.frame, &text)? }
         }
         Ok(())
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { depth: Depth { fine: self.fine, linear: false }, ..Needs::default() }
     }
 }
 
 /// Writes one picture with text chunks; what latin-1 cannot hold goes into international chunks.
 pub fn write(path: &Path, frame: &Frame, text: &[(&str, String)]) -> Result<()> {
-    atomic::write(path, |out| encode(out, frame, text).map_err(io::Error::other))
+    // Every pixel is opaque: three bytes say it all.
+    let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    atomic::write(path, |out| encode(out, frame, (BitDepth::Eight, &rgb), text).map_err(io::Error::other))
 }
 
-fn encode(out: &mut dyn Write, frame: &Frame, text: &[(&str, String)]) -> std::result::Result<(), EncodingError> {
+/// The same with 16 bits per channel.
+fn write_fine(path: &Path, picture: &Picture, text: &[(&str, String)]) -> Result<()> {
+    let words: Vec<u8> = picture.fine.iter().flatten().flat_map(|value| value.to_be_bytes()).collect();
+    atomic::write(path, |out| encode(out, &picture.frame, (BitDepth::Sixteen, &words), text).map_err(io::Error::other))
+}
+
+fn encode(
+    out: &mut dyn Write,
+    frame: &Frame,
+    (depth, pixels): (BitDepth, &[u8]),
+    text: &[(&str, String)],
+) -> std::result::Result<(), EncodingError> {
     let mut encoder = Encoder::new(out, frame.width, frame.height);
     encoder.set_color(ColorType::Rgb);
-    encoder.set_depth(BitDepth::Eight);
+    encoder.set_depth(depth);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     encoder.set_compression(Compression::Fast);
     for (keyword, content) in text {
@@ -63,8 +78,6 @@ fn encode(out: &mut dyn Write, frame: &Frame, text: &[(&str, String)]) -> std::r
         }
     }
     let mut writer = encoder.write_header()?;
-    // Every pixel is opaque: three bytes say it all.
-    let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-    writer.write_image_data(&rgb)?;
+    writer.write_image_data(pixels)?;
     writer.finish()
 }

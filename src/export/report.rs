@@ -49,6 +49,10 @@ pub struct Report<S> {
     pub drift: BTreeMap<String, f64>,
     /// The scene's expectations against what was measured; empty if they were not asked for.
     pub expect: Vec<Check>,
+    /// [`crate::scene::Scene::hash`] of the scene: what pictures and states say about where they come from.
+    pub scene_hash: String,
+    /// File or name of the scene; paths in it start there.
+    pub scene_file: String,
     /// The scene as it was run.
     pub scene: S,
 }

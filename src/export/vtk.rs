@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use bytemuck::{Pod, cast_slice};
 
 use crate::Result;
-use crate::export::{Exporter, Moment, atomic};
+use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::snapshot::{ParticleSample, Snapshot, kind};
 
 /// Writes `fields/NNNN.vti`, `particles/NNNN.vtp`, and `fields.pvd`, `particles.pvd` that give each file its time.
@@ -45,8 +45,8 @@ impl Exporter for VtkExporter {
         Ok(())
     }
 
-    fn needs_snapshot(&self) -> bool {
-        true
+    fn needs(&self) -> Needs {
+        Needs { snapshot: true, ..Needs::default() }
     }
 }
 

@@ -71,6 +71,14 @@ pub(super) fn middle_of(grid: &Grid) -> Vec3 {
     Vec3::from(grid.origin) + 0.5 * Vec3::from(grid.extent())
 }
 
+/// The camera onto a plane domain that shows all of it.
+pub(super) fn above(grid: &Grid) -> Camera {
+    let target = middle_of(grid).with_z(0.0).as_dvec3();
+    let height = f64::from(grid.extent()[1]);
+    let (eye, up) = ((target + height * DVec3::Z).into(), [0.0, 1.0, 0.0]);
+    Camera { eye, target: target.into(), up, fov_degrees: 40.0, height: Some(height) }
+}
+
 /// A view from the side and above that shows the whole domain, below the title.
 pub(super) fn fitting_camera(grid: &Grid, size: [u32; 2]) -> Camera {
     const FIELD_OF_VIEW: f32 = 32.0;

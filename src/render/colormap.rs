@@ -56,6 +56,11 @@ pub(crate) fn lookup(table: &[Vec3], fraction: f32) -> [u8; 3] {
     (color * 255.0 + 0.5).to_array().map(|channel| channel as u8)
 }
 
+/// sRGB value of a light intensity in 0..1 [IEC 61966-2-1].
+pub(crate) fn srgb_from_linear(light: f32) -> f32 {
+    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+}
+
 /// Light intensity of an sRGB value in 0..1 [IEC 61966-2-1].
 pub(crate) fn linear_from_srgb(value: f32) -> f32 {
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }

@@ -1,7 +1,7 @@
 //! Finished pictures in memory.
 
 /// A picture: 8 bits per channel, sRGB, rows from the top.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Frame {
     /// Pixels per row.
     pub width: u32,
@@ -11,15 +11,42 @@ pub struct Frame {
     pub rgba: Vec<u8>,
 }
 
+/// What a picture holds beside its 8 bits per channel.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Depth {
+    /// Linear light before the tone map.
+    pub linear: bool,
+    /// 16 bits per channel.
+    pub fine: bool,
+}
+
 /// A picture with what it shows.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Picture {
+    /// Name of the view, empty for the scene's own.
+    pub view: String,
     /// Name of the field.
     pub name: String,
     /// Values at the two ends of the colour bar, in the field's unit.
     pub range: [f64; 2],
     /// The pixels.
     pub frame: Frame,
+    /// Linear light of each pixel before the tone map, red, green, blue; empty unless asked for. What is written over and around
+    /// the picture has the light of its sRGB colour.
+    pub linear: Vec<[f32; 3]>,
+    /// The pixels with 16 bits per channel, sRGB; empty unless asked for.
+    pub fine: Vec<[u16; 3]>,
+}
+
+/// Light of the pixels of a plot, rows from the top; what was not asked for is empty.
+#[derive(Debug, Default)]
+pub(super) struct Drawn {
+    /// 8 bits per channel, sRGB, dithered in 3D.
+    pub(super) pixels: Vec<u32>,
+    /// Linear light before the tone map.
+    pub(super) linear: Vec<[f32; 4]>,
+    /// Linear light behind it, 0 to 1.
+    pub(super) toned: Vec<[f32; 4]>,
 }
 
 impl Frame {

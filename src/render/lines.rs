@@ -2,8 +2,9 @@
 
 use super::buffers::Sources;
 use super::plot::Line;
+use super::stored::elements;
 use crate::Result;
-use crate::gpu::{Gpu, readback};
+use crate::gpu::Gpu;
 use crate::scene::Scene;
 use crate::snapshot::kind;
 
@@ -50,9 +51,4 @@ fn exact_lines(scene: &Scene, width: u32, time: f64) -> Option<[Vec<[f64; 2]>; 3
         }
     }
     Some(lines)
-}
-
-fn elements<T: bytemuck::Pod>(gpu: &Gpu, buffer: &wgpu::Buffer, len: usize) -> Result<Vec<T>> {
-    let bytes = readback::read_bytes(gpu, buffer, 0, (len * size_of::<T>()) as u64)?;
-    Ok(bytemuck::pod_collect_to_vec(&bytes))
 }

@@ -20,6 +20,7 @@ mod plane;
 mod plot;
 mod quantity;
 mod screen;
+mod stored;
 mod ticks;
 mod transfer;
 mod view;
@@ -27,15 +28,16 @@ mod view;
 pub use buffers::{ParticleBuffers, SceneBuffers};
 pub use camera::Ray;
 pub use colormap::colors;
-pub use frame::{Frame, Picture};
+pub use frame::{Depth, Frame, Picture};
 pub use kernels::constants as shader_constants;
 pub use quantity::{caption, particle_caption};
+pub use stored::{Loaded, Stored, StoredParticles};
 pub(crate) use ticks::ticks;
 pub use view::View;
 
 use crate::Result;
 use crate::gpu::Gpu;
-use crate::scene::{Camera, Contours, Field, RenderMode, RenderSettings, Scene};
+use crate::scene::{Camera, Contours, Field, RenderMode, RenderSettings, Scene, Shot};
 use buffers::Sources;
 use camera::Eye;
 use overlay::Layout;
@@ -70,6 +72,8 @@ struct Stamp<'a> {
 pub struct Renderer {
     gpu: Gpu,
     scene: Scene,
+    shots: Vec<Shot>,
+    depth: Depth,
     sources: Sources,
     /// In two and three dimensions.
     drawing: Option<Drawing>,
@@ -83,22 +87,36 @@ impl Renderer {
     pub fn new(gpu: &Gpu, scene: &Scene, buffers: &SceneBuffers) -> Result<Self> {
         let sources = Sources::from(buffers);
         let drawing = if sources.grid.dimension > 1 { Some(Drawing::new(gpu, scene, &sources)?) } else { None };
-        Ok(Self { gpu: gpu.clone(), scene: scene.clone(), sources, drawing })
+        let shots = scene.shots()?;
+        Ok(Self { gpu: gpu.clone(), scene: scene.clone(), shots, depth: Depth::default(), sources, drawing })
     }
 
-    /// The pictures of the state as it is now: one per field of the scene's output, or one line plot in 1D.
-    /// The scene's range is meant for its first field.
+    /// Asks for more than 8 bits per channel of all pictures.
+    #[must_use]
+    pub fn with_depth(self, depth: Depth) -> Self {
+        Self { depth, ..self }
+    }
+
+    /// Draws other views than those of the scene.
+    #[must_use]
+    pub fn with_shots(self, shots: Vec<Shot>) -> Self {
+        Self { shots, ..self }
+    }
+
+    /// The pictures of the state as it is now: for the scene and each of its views one per field, or one line plot in 1D.
+    /// A range is meant for the first field.
     ///
     /// # Errors
     /// As [`Renderer::draw`].
     pub fn render(&mut self, time: f64) -> Result<Vec<Picture>> {
-        let mut look = self.scene.render.clone();
         let one = self.sources.grid.dimension == 1;
-        let fields = if one { vec![Field::Density] } else { self.scene.output.fields.clone() };
-        let mut pictures = Vec::with_capacity(fields.len());
-        for field in fields {
-            pictures.push(self.draw(&look, field, time)?);
-            look.range = None;
+        let mut pictures = Vec::new();
+        for Shot { name, fields, settings: mut look } in self.shots.clone() {
+            for field in if one { vec![Field::Density] } else { fields } {
+                let picture = self.draw(&look, field, time)?;
+                pictures.push(Picture { view: name.clone(), ..picture });
+                look.range = None;
+            }
         }
         Ok(pictures)
     }
@@ -110,7 +128,7 @@ impl Renderer {
     /// [`crate::Error::DoesNotFit`] if the picture is too large for the device, and whatever the device reports.
     pub fn draw(&mut self, look: &RenderSettings, field: Field, time: f64) -> Result<Picture> {
         let layout = self.layout(look);
-        let mut view = self.view(look, &layout);
+        let mut view = self.view(look, &layout, time);
         let Some(drawing) = &self.drawing else { return self.draw_lines(look, time) };
         let shown = self.shown_field(look, field);
         view.field = quantity::code(shown);
@@ -125,31 +143,37 @@ impl Renderer {
         let particle_colors = colormap::table(look.particle_colormap, Field::Velocity, 3);
         let tables = self.tables(look, shown, range, &colors, &particle_colors);
         let drawing = self.drawing.as_mut().expect("checked above");
-        let (pixels, arrows) = drawing.draw(&self.gpu, &self.sources, &mut view, &tables, look.overlays.edges)?;
+        let wanted = (look.overlays.edges, self.depth);
+        let (drawn, arrows) = drawing.draw(&self.gpu, &self.sources, &mut view, &tables, wanted)?;
         let stamp = self.stamp(look, time);
         let contrast = view.contrast;
         let bars = [(caption(shown), &colors[..], range, contrast)];
         let own = (particle_caption(look.particle_color), &particle_colors[..], particle_range, 1.0);
-        let labels =
-            Labels { stamp, bars: [bars[0], own], arrows: (view.arrows, arrows), scale: self.scale(look, &layout) };
-        let frame = plane::compose(look.size, &layout, &pixels, &labels, self.sources.grid.dimension < 3);
-        Ok(Picture { name: field.keyword().to_owned(), range, frame })
+        let labels = Labels {
+            stamp,
+            bars: [bars[0], own],
+            arrows: (view.arrows, arrows),
+            scale: self.scale(look, &layout, time),
+        };
+        let picture = plane::compose(look.size, &layout, &drawn, &labels, self.sources.grid.dimension < 3);
+        Ok(Picture { name: field.keyword().to_owned(), range, ..picture })
     }
 
-    /// The camera of a look: its own, or the one that shows the whole domain.
+    /// The camera of a look at a time \[s\]: its own, or the one that shows the whole domain, where its path leads it.
     #[must_use]
-    pub fn camera(&self, look: &RenderSettings) -> Camera {
-        look.camera.unwrap_or_else(|| camera::fitting_camera(&self.sources.grid, look.size))
+    pub fn camera(&self, look: &RenderSettings, time: f64) -> Camera {
+        let still = look.camera.unwrap_or_else(|| camera::fitting_camera(&self.sources.grid, look.size));
+        look.path.as_ref().map_or(still, |path| path.at(time, &still))
     }
 
-    /// The line of sight through a place of the picture, in pixels from the top left corner of the frame. In 2D it meets the
-    /// plane of the domain at the point shown there.
+    /// The line of sight at a time \[s\] through a place of the picture, in pixels from the top left corner of the frame. In 2D it
+    /// meets the plane of the domain at the point shown there.
     #[must_use]
-    pub fn ray(&self, look: &RenderSettings, pixel: [f64; 2]) -> Ray {
+    pub fn ray(&self, look: &RenderSettings, time: f64, pixel: [f64; 2]) -> Ray {
         let plot = self.layout(look).plot;
         let size = glam::Vec2::new(plot.width as f32, plot.height as f32);
         let place = glam::DVec2::from(pixel) - glam::DVec2::new(plot.x.into(), plot.y.into());
-        self.eye(look).ray(size, place.as_vec2())
+        self.eye(look, time).ray(size, place.as_vec2())
     }
 
     /// The range that a picture without a given one shows: that of the values in the gas now.
@@ -159,7 +183,7 @@ impl Renderer {
     pub fn automatic_range(&self, look: &RenderSettings, field: Field) -> Result<[f64; 2]> {
         let shown = self.shown_field(look, field);
         let Some(drawing) = &self.drawing else { return Ok(self.read_line(look, 0.0)?.range(0)) };
-        let view = View { field: quantity::code(shown), ..self.view(look, &self.layout(look)) };
+        let view = View { field: quantity::code(shown), ..self.view(look, &self.layout(look), 0.0) };
         Ok(self.range_to_show(shown, drawing.evaluate(&self.gpu, &view)?[0]))
     }
 
@@ -172,20 +196,20 @@ impl Renderer {
         Layout::new(look.size, aspect, bars, overlays.title || overlays.time)
     }
 
-    fn eye(&self, look: &RenderSettings) -> Eye {
+    fn eye(&self, look: &RenderSettings, time: f64) -> Eye {
         let grid = &self.sources.grid;
         if grid.dimension == 3 {
-            Eye::of_camera(&self.camera(look))
-        } else {
-            Eye::onto_plane(grid, look.camera.as_ref())
+            return Eye::of_camera(&self.camera(look, time));
         }
+        let moved = look.path.as_ref().map(|path| path.at(time, &look.camera.unwrap_or(camera::above(grid))));
+        Eye::onto_plane(grid, moved.or(look.camera).as_ref())
     }
 
     /// Everything about a picture but what depends on the field.
-    fn view(&self, look: &RenderSettings, layout: &Layout) -> View {
+    fn view(&self, look: &RenderSettings, layout: &Layout, time: f64) -> View {
         let size = [layout.plot.width as u32, layout.plot.height as u32];
         let grid = &self.sources.grid;
-        let mut view = View::new(&self.scene, grid, &self.eye(look), look, size);
+        let mut view = View::new(&self.scene, grid, &self.eye(look, time), look, size);
         view.particles = self.sources.particles.as_ref().filter(|_| look.particles).map_or(0, |own| own.count);
         view.particle_color = quantity::particle_code(look.particle_color);
         view.smooth_skin = u32::from(look.surface == crate::scene::Surface::Smooth && grid.dimension == 3);
@@ -295,8 +319,8 @@ impl Renderer {
     }
 
     /// Pixels per metre, where the whole picture has one scale and its bar is wanted.
-    fn scale(&self, look: &RenderSettings, layout: &Layout) -> Option<f64> {
-        let eye = self.eye(look);
+    fn scale(&self, look: &RenderSettings, layout: &Layout, time: f64) -> Option<f64> {
+        let eye = self.eye(look, time);
         (look.overlays.scale_bar && eye.parallel)
             .then(|| f64::from(layout.plot.height) / (2.0 * f64::from(eye.half_height)))
     }
@@ -310,7 +334,7 @@ impl Renderer {
     fn draw_lines(&self, look: &RenderSettings, time: f64) -> Result<Picture> {
         let line = self.read_line(look, time)?;
         let frame = plot::draw(&line, look.size, &self.stamp(look, time));
-        Ok(Picture { name: "lines".to_owned(), range: line.range(0), frame })
+        Ok(Picture { name: "lines".to_owned(), range: line.range(0), ..plane::flat(frame, self.depth) })
     }
 
     fn read_line(&self, look: &RenderSettings, time: f64) -> Result<plot::Line> {

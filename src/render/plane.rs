@@ -5,7 +5,8 @@ use glam::Vec3;
 use super::arrows;
 use super::buffers::Sources;
 use super::canvas::Canvas;
-use super::frame::Frame;
+use super::colormap::{linear_from_srgb, srgb_from_linear};
+use super::frame::{Depth, Drawn, Frame, Picture};
 use super::gas::Gas;
 use super::light::{Distance, Light};
 use super::overlay::{self, Layout};
@@ -17,6 +18,9 @@ use crate::Result;
 use crate::gpu::{Gpu, Pass};
 use crate::scene::Scene;
 
+/// Sizes of pictures whose kernels and buffers are kept at most.
+const MOST_SCREENS: usize = 6;
+
 /// Kernels and buffers of all parts of a picture.
 #[derive(Debug)]
 pub(super) struct Drawing {
@@ -24,7 +28,10 @@ pub(super) struct Drawing {
     particles: Option<Particles>,
     pub(super) distance: Distance,
     light: Light,
-    screen: Option<Screen>,
+    /// Of the pictures drawn last, the newest at the end.
+    screens: Vec<Screen>,
+    /// As many as there are views, so that none is made anew for every frame.
+    kept: usize,
 }
 
 /// A colour bar: caption, colours, values at its ends, and the power that turns a fraction of them into a place in the colours.
@@ -43,11 +50,12 @@ pub(super) struct Labels<'a> {
 
 impl Drawing {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, sources: &Sources) -> Result<Self> {
+        let kept = (1 + scene.render.views.len()).min(MOST_SCREENS);
         let gas = Gas::new(gpu, sources)?;
         let particles = Particles::new(gpu, sources, &gas)?;
         let distance = Distance::new(gpu, scene, &sources.grid)?;
         let light = Light::new(gpu, &gas, particles.as_ref(), &distance)?;
-        Ok(Self { gas, particles, distance, light, screen: None })
+        Ok(Self { gas, particles, distance, light, screens: Vec::new(), kept })
     }
 
     /// Computes the view's field and the particles' quantity; returns least and largest value of both.
@@ -71,9 +79,9 @@ impl Drawing {
         sources: &Sources,
         view: &mut View,
         tables: &Tables,
-        edges: bool,
-    ) -> Result<(Vec<u32>, Vec<[f32; 4]>)> {
-        let Self { gas, particles, distance, light, screen } = self;
+        (edges, depth): (bool, Depth),
+    ) -> Result<(Drawn, Vec<[f32; 4]>)> {
+        let Self { gas, particles, distance, light, screens, kept } = self;
         gas.view.write(gpu, 0, &[*view]);
         gas.set_tables(gpu, tables);
         let mut pass = Pass::new(gpu, "picture light");
@@ -84,23 +92,26 @@ impl Drawing {
         light.record(&mut pass, view);
         pass.submit()?;
         let shared = Shared { gpu, sources, gas, particles: particles.as_ref(), light, distance };
-        if screen.as_ref().is_none_or(|screen| !screen.fits(view)) {
-            // The old one first: two at once may not fit.
-            *screen = None;
-            *screen = Some(Screen::new(&shared, view)?);
+        match screens.iter().position(|screen| screen.fits(view, depth)) {
+            Some(place) => screens[place..].rotate_left(1),
+            None => {
+                // Old ones first: one more than are kept may not fit.
+                screens.drain(..(screens.len() + 1).saturating_sub(*kept));
+                screens.push(Screen::new(&shared, view, depth)?);
+            }
         }
-        let screen = screen.as_ref().expect("made above");
+        let screen = screens.last().expect("made or moved to the end above");
         let velocities = arrows::sample(gpu, sources, gas, view.arrows)?;
         Ok((screen.draw(&shared, view, edges)?, velocities))
     }
 }
 
 /// Puts the plot's pixels on a frame and writes over and around them.
-pub(super) fn compose(size: [u32; 2], layout: &Layout, pixels: &[u32], labels: &Labels, outlined: bool) -> Frame {
+pub(super) fn compose(size: [u32; 2], layout: &Layout, drawn: &Drawn, labels: &Labels, outlined: bool) -> Picture {
     let [width, height] = size;
     let mut frame = Frame::filled(width, height, overlay::BACKGROUND);
     let plot = layout.plot;
-    for (row, line) in pixels.chunks_exact(plot.width as usize).enumerate() {
+    for (row, line) in drawn.pixels.chunks_exact(plot.width as usize).enumerate() {
         let first = 4 * ((plot.y as usize + row) * width as usize + plot.x as usize);
         frame.rgba[first..first + 4 * line.len()].copy_from_slice(bytemuck::cast_slice(line));
     }
@@ -119,5 +130,36 @@ pub(super) fn compose(size: [u32; 2], layout: &Layout, pixels: &[u32], labels: &
         }
     }
     overlay::header(&mut canvas, labels.stamp.title, labels.stamp.time);
-    frame
+    let depth = Depth { linear: !drawn.linear.is_empty(), fine: !drawn.toned.is_empty() };
+    let mut picture = flat(frame, depth);
+    let corner = [plot.x as usize, plot.y as usize];
+    deepen(&mut picture, drawn, corner, plot.width as usize);
+    picture
+}
+
+/// A picture that is known in 8 bits only.
+pub(super) fn flat(frame: Frame, depth: Depth) -> Picture {
+    let pixels = || frame.rgba.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]);
+    let light = |value: u8| linear_from_srgb(f32::from(value) / 255.0);
+    let linear = if depth.linear { pixels().map(|pixel| pixel.map(light)).collect() } else { Vec::new() };
+    let fine =
+        if depth.fine { pixels().map(|pixel| pixel.map(|value| 257 * u16::from(value))).collect() } else { Vec::new() };
+    Picture { frame, linear, fine, ..Picture::default() }
+}
+
+/// Puts the full depth of the plot where nothing was written over it.
+fn deepen(picture: &mut Picture, drawn: &Drawn, corner: [usize; 2], width: usize) {
+    let Picture { frame, linear, fine, .. } = picture;
+    for (i, pixel) in drawn.pixels.iter().enumerate() {
+        let place = (corner[1] + i / width) * frame.width as usize + corner[0] + i % width;
+        if frame.rgba[4 * place..4 * place + 4] != pixel.to_le_bytes() {
+            continue;
+        }
+        if let Some([red, green, blue, _]) = drawn.linear.get(i) {
+            linear[place] = [*red, *green, *blue];
+        }
+        if let Some([red, green, blue, _]) = drawn.toned.get(i) {
+            fine[place] = [*red, *green, *blue].map(|light| (65535.0 * srgb_from_linear(light)).round() as u16);
+        }
+    }
 }

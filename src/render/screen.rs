@@ -3,6 +3,7 @@
 use glam::Vec4;
 
 use super::buffers::Sources;
+use super::frame::{Depth, Drawn};
 use super::gas::{Gas, RANGE_GROUPS};
 use super::kernels::{SAMPLE_MARGIN, bind, bind_with};
 use super::light::{Distance, Light};
@@ -43,6 +44,15 @@ pub(super) struct Screen {
     optics: Option<Optics>,
     draw: Bound,
     finish: Bound,
+    deep: Option<Deep>,
+}
+
+/// The kernels that write more than 8 bits per channel.
+#[derive(Debug)]
+struct Deep {
+    light: Buffer<[f32; 4]>,
+    finish_linear: Bound,
+    finish_toned: Bound,
 }
 
 /// The kernels that draw particles, in order.
@@ -80,16 +90,18 @@ struct Key {
     emission: bool,
     slices: bool,
     smooth: bool,
+    depth: Depth,
 }
 
 impl Key {
-    fn of(view: &View) -> Self {
+    fn of(view: &View, depth: Depth) -> Self {
         Self {
             rays: view.size,
             samples: [view.samples, view.supersampling],
             emission: view.heat_opacity > 0.0,
             slices: view.slice_count > 0,
             smooth: view.smooth_skin == 1,
+            depth,
         }
     }
 
@@ -99,9 +111,9 @@ impl Key {
 }
 
 impl Screen {
-    pub(super) fn new(shared: &Shared, view: &View) -> Result<Self> {
+    pub(super) fn new(shared: &Shared, view: &View, depth: Depth) -> Result<Self> {
         let Shared { gpu, sources, gas, light, distance, .. } = *shared;
-        let key = Key::of(view);
+        let key = Key::of(view, depth);
         let [width, height] = view.size;
         let n = view.supersampling;
         let band_rows = (BAND_RAYS / width / n * n).clamp(n, height);
@@ -134,11 +146,14 @@ impl Screen {
         Ok(Self {
             key,
             band_rows,
-            skin: shared.particles.map(|own| Skin::new(shared, own, view, band_rows, &surface)).transpose()?,
+            skin: shared.particles.map(|own| Skin::new(shared, own, (view, &key), band_rows, &surface)).transpose()?,
             trace_solids: volume.then(trace).transpose()?,
             optics: (view.optics > 0).then(optics).transpose()?,
             draw,
             finish: bind(gpu, "finish.wgsl", "finish", &[of_view, drawn[2], ("pixels", pixels.raw())])?,
+            deep: (depth != Depth::default())
+                .then(|| Deep::new(gpu, &[of_view, drawn[2]], pixels.len()))
+                .transpose()?,
             edges,
             surface,
             solid,
@@ -147,19 +162,19 @@ impl Screen {
     }
 
     /// Whether this screen can draw a view.
-    pub(super) fn fits(&self, view: &View) -> bool {
-        self.key == Key::of(view) && (view.optics == 0 || self.optics.is_some())
+    pub(super) fn fits(&self, view: &View, depth: Depth) -> bool {
+        self.key == Key::of(view, depth) && (view.optics == 0 || self.optics.is_some())
     }
 
-    /// Draws what was prepared; one packed pixel per pixel of the picture, rows from the top.
-    pub(super) fn draw(&self, shared: &Shared, view: &mut View, edges: bool) -> Result<Vec<u32>> {
+    /// Draws what was prepared.
+    pub(super) fn draw(&self, shared: &Shared, view: &mut View, edges: bool) -> Result<Drawn> {
         let Shared { gpu, gas, .. } = *shared;
         self.edges.write(gpu, 0, &if edges { view.edges() } else { [View::NO_EDGE; 12] });
         if let Some(optics) = self.optics.as_ref().filter(|_| view.optics > 0) {
             view.gain = optics.measure(shared, view)?;
         }
         let n = view.supersampling;
-        let mut pixels = Vec::with_capacity((view.size[0] / n * (view.size[1] / n)) as usize);
+        let mut drawn = Drawn::default();
         for first_row in (0..view.size[1]).step_by(self.band_rows as usize) {
             view.first_row = first_row;
             view.rows = self.band_rows.min(view.size[1] - first_row);
@@ -168,9 +183,20 @@ impl Screen {
             self.record_band(gpu, &mut pass, view);
             pass.submit()?;
             let count = view.size[0] / n * (view.rows / n);
-            pixels.extend(readback::read_range(gpu, &self.pixels, 0, count as usize)?);
+            drawn.pixels.extend(readback::read_range(gpu, &self.pixels, 0, count as usize)?);
+            if let Some(deep) = &self.deep {
+                let wanted = self.key.depth;
+                for (kernel, of, into) in [
+                    (&deep.finish_linear, wanted.linear, &mut drawn.linear),
+                    (&deep.finish_toned, wanted.fine, &mut drawn.toned),
+                ] {
+                    if of {
+                        into.extend(deep.read(gpu, kernel, count as usize)?);
+                    }
+                }
+            }
         }
-        Ok(pixels)
+        Ok(drawn)
     }
 
     fn record_band(&self, gpu: &Gpu, pass: &mut Pass, view: &View) {
@@ -189,8 +215,31 @@ impl Screen {
     }
 }
 
+impl Deep {
+    fn new(gpu: &Gpu, shared: &[(&str, &wgpu::Buffer)], pixels: usize) -> Result<Self> {
+        let light: Buffer<[f32; 4]> = Buffer::new(gpu, "deep pixels", pixels)?;
+        let own = [shared, &[("deep", light.raw())]].concat();
+        let bind = |entry: &str| bind(gpu, "finish.wgsl", entry, &own);
+        Ok(Self { finish_linear: bind("finish_linear")?, finish_toned: bind("finish_toned")?, light })
+    }
+
+    /// What one of the kernels makes of the band drawn last.
+    fn read(&self, gpu: &Gpu, kernel: &Bound, count: usize) -> Result<Vec<[f32; 4]>> {
+        let mut pass = Pass::new(gpu, "deep pixels");
+        pass.dispatch(kernel, &Extent::Threads(count as u64));
+        pass.submit()?;
+        readback::read_range(gpu, &self.light, 0, count)
+    }
+}
+
 impl Skin {
-    fn new(shared: &Shared, own: &Particles, view: &View, rows: u32, surface: &Buffer<[u32; 4]>) -> Result<Self> {
+    fn new(
+        shared: &Shared,
+        own: &Particles,
+        (view, key): (&View, &Key),
+        rows: u32,
+        surface: &Buffer<[u32; 4]>,
+    ) -> Result<Self> {
         let Shared { gpu, gas, light, .. } = *shared;
         let samples = (view.size[0] * view.samples) as usize * (rows * view.samples + 2 * SAMPLE_MARGIN) as usize;
         let depth: Buffer<u32> = Buffer::new(gpu, "sample depths", samples)?;
@@ -212,7 +261,7 @@ impl Skin {
         };
         let shade = light.of_surfaces();
         let result = [of_view, of_nearest, balls, of_covered, ("depth_in", depth.raw()), ("surface", surface.raw())];
-        let switches = Key::of(view).switches();
+        let switches = key.switches();
         Ok(Self {
             count: own.count,
             samples: samples as u64,

@@ -1,48 +1,84 @@
-//! Checks of `[render]`.
+//! Checks of `[render]` and its views.
 
 use super::check::Check;
-use super::{Camera, Contours};
+use super::{Camera, CameraPath, Contours, Field, RenderSettings};
 
 /// Slices of a picture at most.
 const MAX_SLICES: usize = 4;
 /// Contour lines of a picture at most.
 const MAX_CONTOURS: u32 = 32;
+/// Highest and lowest place of a key frame around its target \[degrees\].
+const POLE: f64 = 89.9;
 
 impl Check<'_> {
     pub(super) fn render(&mut self) {
-        let render = &self.scene.render;
-        for pixels in render.size {
-            self.count("render.size", pixels, 16, 8192);
-        }
-        for (key, range) in [("range", render.range), ("particle_range", render.particle_range)] {
-            if let Some([low, high]) =
-                range.filter(|[low, high]| low.partial_cmp(high) != Some(std::cmp::Ordering::Less))
-            {
-                self.add(format!("render.{key}"), format!("[{low}, {high}] is empty"), "give the lower value first");
-            }
-        }
-        self.opacity();
-        self.count("render.supersampling", render.supersampling, 1, 4);
-        self.count("render.arrows", render.arrows, 0, 200);
-        self.positive("render.exposure", render.exposure, "");
-        if let Some(depth) = render.optical_depth {
-            self.positive("render.optical_depth", depth, "");
-        }
-        if let Some(emission) = render.emission {
-            self.positive("render.emission.ambient_kelvin", emission.ambient_kelvin, "[K]");
-            self.not_negative("render.emission.strength", emission.strength);
-            self.positive("render.emission.optical_depth", emission.optical_depth, "");
-        }
-        self.not_negative("render.light.strength", render.light.strength);
-        self.not_negative("render.light.ambient", render.light.ambient);
-        self.direction("render.light.direction", render.light.direction);
-        self.planes();
-        if let Some(camera) = render.camera {
-            self.camera(&camera);
+        let before = self.findings.len();
+        self.look("render", &self.scene.render);
+        // What a view takes over from the scene would be told again.
+        if self.findings.len() == before {
+            self.views();
         }
     }
 
-    fn not_negative(&mut self, path: &str, value: f64) {
+    fn views(&mut self) {
+        for name in self.scene.render.views.keys() {
+            let path = format!("render.views.{name}");
+            if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-') {
+                let message = format!("`{name}` is no name of a view");
+                self.add("render.views", message, "use letters, digits, _ and -: the view's folder has this name");
+            } else if Field::ALL.iter().any(|field| field.keyword() == name) {
+                self.add(&path, format!("`{name}` is the name of a field"), "use another name: both name folders");
+            }
+            match self.scene.shot(name) {
+                Ok(shot) => self.look(&path, &shot.settings),
+                Err((key, message)) => {
+                    let key = if key.is_empty() { path } else { format!("{path}.{key}") };
+                    self.add(key, message, "a view has the keys of [render], and `fields`; see docs/scenes.md");
+                }
+            }
+        }
+    }
+
+    fn look(&mut self, path: &str, render: &RenderSettings) {
+        let key = |name: &str| format!("{path}.{name}");
+        for pixels in render.size {
+            self.count(key("size"), pixels, 16, 8192);
+        }
+        for (name, range) in [("range", render.range), ("particle_range", render.particle_range)] {
+            if let Some([low, high]) =
+                range.filter(|[low, high]| low.partial_cmp(high) != Some(std::cmp::Ordering::Less))
+            {
+                self.add(key(name), format!("[{low}, {high}] is empty"), "give the lower value first");
+            }
+        }
+        self.opacity(key("opacity"), &render.opacity);
+        self.count(key("supersampling"), render.supersampling, 1, 4);
+        self.count(key("arrows"), render.arrows, 0, 200);
+        self.positive(key("exposure"), render.exposure, "");
+        if let Some(depth) = render.optical_depth {
+            self.positive(key("optical_depth"), depth, "");
+        }
+        if let Some(emission) = render.emission {
+            self.positive(key("emission.ambient_kelvin"), emission.ambient_kelvin, "[K]");
+            self.not_negative(key("emission.strength"), emission.strength);
+            self.positive(key("emission.optical_depth"), emission.optical_depth, "");
+        }
+        self.not_negative(key("light.strength"), render.light.strength);
+        self.not_negative(key("light.ambient"), render.light.ambient);
+        self.direction(key("light.direction"), render.light.direction);
+        self.planes(path, render);
+        if let Some(camera) = &render.camera {
+            self.camera(&key("camera"), camera);
+        }
+        if let Some(camera_path) = &render.path {
+            self.camera_path(&key("path"), camera_path);
+            if render.camera.is_some() && !camera_path.keys.is_empty() {
+                self.add(key("camera"), "both a camera and key frames of one", "leave out `camera` or `path.keys`");
+            }
+        }
+    }
+
+    fn not_negative(&mut self, path: String, value: f64) {
         if !(value >= 0.0 && value.is_finite()) {
             self.add(path, format!("{value} is out of range"), "give a finite number, 0 or above");
         }
@@ -54,46 +90,80 @@ impl Check<'_> {
         }
     }
 
-    fn opacity(&mut self) {
-        let points = &self.scene.render.opacity;
+    fn opacity(&mut self, path: String, points: &[[f64; 2]]) {
         let inside = points.iter().flatten().all(|value| (0.0..=1.0).contains(value));
         let ascending = points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
         if !inside || !ascending {
             let help = "give points [fraction of the colour bar, opacity] from 0 to 1, fractions in ascending order";
-            self.add("render.opacity", format!("{points:?} is no curve"), help);
+            self.add(path, format!("{points:?} is no curve"), help);
         }
     }
 
-    fn planes(&mut self) {
-        let render = &self.scene.render;
+    fn planes(&mut self, path: &str, render: &RenderSettings) {
         if render.slices.len() > MAX_SLICES {
-            self.add("render.slices", format!("{} planes", render.slices.len()), format!("give at most {MAX_SLICES}"));
+            let message = format!("{} planes", render.slices.len());
+            self.add(format!("{path}.slices"), message, format!("give at most {MAX_SLICES}"));
         }
         for (index, slice) in render.slices.iter().enumerate() {
-            self.direction(format!("render.slices[{index}].normal"), slice.normal);
+            self.direction(format!("{path}.slices[{index}].normal"), slice.normal);
         }
         let lines = match &render.contours {
             Contours::Count(count) => *count,
             Contours::Values(values) => values.len() as u32,
         };
-        self.count("render.contours", lines, 0, MAX_CONTOURS);
+        self.count(format!("{path}.contours"), lines, 0, MAX_CONTOURS);
     }
 
-    fn camera(&mut self, camera: &Camera) {
+    fn camera(&mut self, path: &str, camera: &Camera) {
         let view: [f64; 3] = std::array::from_fn(|d| camera.target[d] - camera.eye[d]);
         let [a, b] = [view, camera.up];
         let across = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         if view == [0.0; 3] {
-            self.add("render.camera.eye", "eye and target are the same point", "move one of them");
+            self.add(format!("{path}.eye"), "eye and target are the same point", "move one of them");
         } else if across.iter().all(|x| x.abs() < 1e-9) {
-            self.add("render.camera.up", format!("{b:?} is zero or points along the view"), "give another direction");
+            self.add(format!("{path}.up"), format!("{b:?} is zero or points along the view"), "give another direction");
         }
         if !(1.0..=170.0).contains(&camera.fov_degrees) {
             let message = format!("{} is out of range", camera.fov_degrees);
-            self.add("render.camera.fov_degrees", message, "give a number from 1 to 170 [degrees]");
+            self.add(format!("{path}.fov_degrees"), message, "give a number from 1 to 170 [degrees]");
         }
         if let Some(height) = camera.height {
-            self.positive("render.camera.height", height, "[m], or leave it out");
+            self.positive(format!("{path}.height"), height, "[m], or leave it out");
+        }
+    }
+
+    fn camera_path(&mut self, path: &str, own: &CameraPath) {
+        if !own.orbit.is_finite() {
+            self.add(format!("{path}.orbit"), format!("{} is not finite", own.orbit), "give [degrees s^-1]");
+        }
+        for (index, key) in own.keys.iter().enumerate() {
+            let place = format!("{path}.keys[{index}]");
+            let given = [key.azimuth, key.elevation, key.distance].iter().flatten().count();
+            if !matches!((key.eye, given), (Some(_), 0) | (None, 3)) {
+                let help = "give either `eye`, or `azimuth`, `elevation` and `distance`";
+                self.add(place, "the place of the eye is not said, or said twice", help);
+                return;
+            }
+            if key.sphere().is_some_and(|[_, elevation, _]| elevation.abs() > POLE) {
+                let help = format!("give a number from -{POLE} to {POLE} [degrees]");
+                self.add(format!("{place}.elevation"), "straight above or below the target", help);
+            } else if key.distance.is_some_and(|distance| !(distance > 0.0 && distance.is_finite())) {
+                self.positive(format!("{place}.distance"), key.distance.unwrap_or_default(), "[m]");
+            } else {
+                self.camera(&place, &key.camera());
+            }
+        }
+        for (index, pair) in own.keys.windows(2).enumerate() {
+            let place = format!("{path}.keys[{}]", index + 1);
+            if pair[1].time.partial_cmp(&pair[0].time) != Some(std::cmp::Ordering::Greater) {
+                let message = format!("{} does not come after {}", pair[1].time, pair[0].time);
+                self.add(format!("{place}.time"), message, "give the keys in the order of their times");
+            }
+            let kinds = pair.iter().map(|key| (key.eye.is_some(), key.height.is_some())).collect::<Vec<_>>();
+            if kinds[0] != kinds[1] {
+                let help = "give all keys of a path by `eye` or all around the target, and `height` to all or none";
+                self.add(place, "not the same kind of key as the one before", help);
+            }
         }
     }
 }

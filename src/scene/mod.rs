@@ -7,6 +7,7 @@
 
 mod body;
 mod boundary;
+mod camera;
 mod check;
 mod check_body;
 mod check_boundary;
@@ -28,6 +29,7 @@ mod sample;
 mod settings;
 mod shape;
 mod shipped;
+mod shot;
 mod source;
 #[cfg(test)]
 mod tests;
@@ -50,6 +52,7 @@ pub use boundary::{
     AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
     TimedState,
 };
+pub use camera::{Camera, CameraKey, CameraPath};
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
 pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidUpdate};
@@ -60,13 +63,14 @@ pub use mesh::Mesh;
 pub use named::Named;
 pub use polyhedron::Part;
 pub use render::{
-    Camera, Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice,
-    Surface, ToneMap,
+    Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice, Surface,
+    ToneMap,
 };
 pub use sample::{Overlap, Seed};
 pub use settings::{Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
 pub use shape::Shape;
 pub use shipped::{Shipped, shipped, stem};
+pub use shot::{Shot, ShotKeys};
 pub use vortex::Vortex;
 pub use wave::Wave;
 

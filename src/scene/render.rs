@@ -1,7 +1,12 @@
 //! What pictures show and how: fields, camera, colours.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use super::camera::{Camera, CameraPath};
+use super::shot::ShotKeys;
 
 /// A quantity of the gas that can be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
@@ -59,6 +64,9 @@ pub struct RenderSettings {
     /// Where the eye is, in 3D; a view from the side and above when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
+    /// How the camera moves with the simulated time; it stands still when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<CameraPath>,
     /// How a 3D domain is seen.
     pub mode: RenderMode,
     /// Values at the ends of the colour bar; those of each picture when left out.
@@ -109,6 +117,10 @@ pub struct RenderSettings {
     pub arrows: u32,
     /// What is written over and around the picture.
     pub overlays: Overlays,
+    /// Further pictures of every frame, by name: what each changes of the keys above, and its `fields`.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(with = "BTreeMap<String, ShotKeys>")]
+    pub views: BTreeMap<String, toml::Table>,
 }
 
 impl Default for RenderSettings {
@@ -116,6 +128,7 @@ impl Default for RenderSettings {
         RenderSettings {
             size: [1280, 720],
             camera: None,
+            path: None,
             mode: RenderMode::default(),
             range: None,
             colormap: Colormap::default(),
@@ -137,35 +150,8 @@ impl Default for RenderSettings {
             contours: Contours::default(),
             arrows: 0,
             overlays: Overlays::default(),
+            views: BTreeMap::new(),
         }
-    }
-}
-
-/// A camera: a pinhole, or parallel rays where `height` is given.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Camera {
-    /// Position of the eye `[m]`.
-    pub eye: [f64; 3],
-    /// The point in the middle of the picture `[m]`.
-    pub target: [f64; 3],
-    /// Direction that is up in the picture.
-    #[serde(default = "Camera::default_up")]
-    pub up: [f64; 3],
-    /// Vertical opening angle of the pinhole `[degrees]`, 1 to 170.
-    #[serde(default = "Camera::default_fov")]
-    pub fov_degrees: f64,
-    /// Height of what is seen by parallel rays `[m]`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub height: Option<f64>,
-}
-
-impl Camera {
-    fn default_up() -> [f64; 3] {
-        [0.0, 0.0, 1.0]
-    }
-    fn default_fov() -> f64 {
-        40.0
     }
 }
 

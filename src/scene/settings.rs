@@ -179,10 +179,24 @@ pub struct Output {
     pub fields: Vec<Field>,
     /// Also write VTK files of all fields and particles.
     pub vtk: bool,
+    /// Write pictures with 16 bits per channel.
+    pub png16: bool,
+    /// Also write the pictures' linear light.
+    pub exr: bool,
+    /// Also write what pictures are drawn from, so that `brisance render` can draw them again.
+    pub states: bool,
+}
+
+impl Output {
+    /// Names of the formats that the scene asks for beside pictures.
+    pub fn formats(&self) -> impl Iterator<Item = &'static str> {
+        let all = [("vtk", self.vtk), ("png16", self.png16), ("exr", self.exr), ("states", self.states)];
+        all.into_iter().filter(|(_, on)| *on).map(|(name, _)| name)
+    }
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Output { fields: vec![Field::Density], vtk: false }
+        Output { fields: vec![Field::Density], vtk: false, png16: false, exr: false, states: false }
     }
 }

@@ -1,5 +1,7 @@
 //! The grid: cells per axis, spacing, origin; and the padded index space every buffer shares.
 
+use crate::scene::Domain;
+
 /// A uniform grid of cubic cells with 1, 2 or 3 active axes (x, then y, then z).
 ///
 /// Buffers hold one ring of cells around the active axes. Inactive axes have one cell and no ring.
@@ -16,6 +18,17 @@ pub struct Grid {
 }
 
 impl Grid {
+    /// The grid of a scene's domain.
+    #[must_use]
+    pub fn of(domain: &Domain) -> Self {
+        Self {
+            dimension: domain.dimension,
+            cells: domain.cells,
+            origin: domain.origin.map(|v| v as f32),
+            spacing: domain.spacing() as f32,
+        }
+    }
+
     /// Cells of the ring on each side: 1 on active axes, 0 elsewhere.
     #[must_use]
     pub fn padding(&self) -> [u32; 3] {

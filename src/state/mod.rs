@@ -96,12 +96,7 @@ impl State {
     /// If the device has no room, or a driver error.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<State> {
         let domain = &scene.domain;
-        let grid = Grid {
-            dimension: domain.dimension,
-            cells: domain.cells,
-            origin: domain.origin.map(|v| v as f32),
-            spacing: domain.spacing() as f32,
-        };
+        let grid = Grid::of(domain);
         let slots = grid.slots();
         let start = ParticleStart::new(scene);
         let per_cell = scene.bodies.iter().map(|body| f64::from(body.particles_per_cell).powi(domain.dimension as i32));

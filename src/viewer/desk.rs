@@ -10,6 +10,7 @@ use super::record::{self, Recording};
 use super::session::Session;
 use super::worker::lock;
 use crate::diagnostics::StepRecord;
+use crate::export::Origin;
 use crate::gpu::{Gpu, GpuOptions};
 use crate::scene::{Scene, stem};
 use crate::{Error, Result};
@@ -326,7 +327,7 @@ impl Desk {
             drawn?;
         }
         let (Some(shown), Some(session)) = (&self.shown, &self.session) else { return Ok(()) };
-        let path = record::save(&self.folder, shown, &session.scene().title)?;
+        let path = record::save(&self.folder, shown, &Origin::of(session.scene()))?;
         self.note(Weight::Fine, format!("saved {}", path.display()));
         Ok(())
     }
@@ -334,7 +335,7 @@ impl Desk {
     fn record(&mut self, on: bool) -> Result<()> {
         self.finish_recording();
         if let (true, Some(session)) = (on, &self.session) {
-            self.recording = Some(Recording::start(&self.folder, session.scene().title.as_str().into())?);
+            self.recording = Some(Recording::start(&self.folder, Origin::of(session.scene()))?);
         }
         Ok(())
     }

@@ -1,12 +1,11 @@
 //! Pictures to the disk: single ones, and every one of a recording. A thread encodes and writes; its queue is short.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 
 use super::model::Shown;
-use crate::export::{Exporter, Moment, png::PngExporter};
+use crate::export::{Exporter, Moment, Origin, png::PngExporter};
 use crate::{Error, Result};
 
 /// Pictures that may wait.
@@ -26,12 +25,12 @@ impl Recording {
     ///
     /// # Errors
     /// [`Error::Io`] if the folder cannot be made.
-    pub fn start(parent: &Path, title: Arc<str>) -> Result<Self> {
+    pub fn start(parent: &Path, origin: Origin) -> Result<Self> {
         let folder = free(parent, "recording");
         std::fs::create_dir_all(&folder).map_err(|source| Error::io(&folder, source))?;
         let (queue, pictures) = sync_channel(QUEUE);
         let place = folder.clone();
-        let thread = std::thread::spawn(move || write_all(&pictures, &place, &title));
+        let thread = std::thread::spawn(move || write_all(&pictures, &place, &origin));
         Ok(Self { folder, queue, thread, accepted: 0 })
     }
 
@@ -89,28 +88,29 @@ fn video(folder: &Path, pictures: u32) -> String {
     }
 }
 
-fn write_all(pictures: &Receiver<Shown>, folder: &Path, title: &str) -> Result<()> {
+fn write_all(pictures: &Receiver<Shown>, folder: &Path, origin: &Origin) -> Result<()> {
     let mut exporter = PngExporter::new(folder);
     for (index, shown) in pictures.iter().enumerate() {
-        write(&mut exporter, index as u32, &shown, title)?;
+        write(&mut exporter, index as u32, &shown, origin)?;
     }
     Ok(())
 }
 
-fn write(exporter: &mut PngExporter, index: u32, shown: &Shown, title: &str) -> Result<()> {
+fn write(exporter: &mut PngExporter, index: u32, shown: &Shown, origin: &Origin) -> Result<()> {
     let pictures = std::slice::from_ref(&*shown.picture);
-    exporter.write(&Moment { index, title, time: shown.time, step: shown.step, pictures, snapshot: None })
+    let (time, step) = (shown.time, shown.step);
+    exporter.write(&Moment { index, origin, time, step, pictures, snapshot: None, stored: None })
 }
 
 /// Saves one picture below a folder and tells where.
 ///
 /// # Errors
 /// [`Error::Io`] if it cannot be written.
-pub fn save(parent: &Path, shown: &Shown, title: &str) -> Result<PathBuf> {
+pub fn save(parent: &Path, shown: &Shown, origin: &Origin) -> Result<PathBuf> {
     let folder = parent.join("screenshots");
     let file = |index: u32| folder.join("frames").join(format!("{index:04}.png"));
     let index = (0..).find(|&index| !file(index).exists()).unwrap_or(0);
-    write(&mut PngExporter::new(&folder), index, shown, title)?;
+    write(&mut PngExporter::new(&folder), index, shown, origin)?;
     Ok(file(index))
 }
 

@@ -7,7 +7,7 @@ use super::pick;
 use crate::diagnostics::StepRecord;
 use crate::gpu::{Detail, Gpu};
 use crate::render::{Picture, Renderer, SceneBuffers};
-use crate::scene::{Camera, Field, Scene};
+use crate::scene::{Camera, Field, RenderSettings, Scene};
 use crate::simulation::{Blast, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -81,14 +81,14 @@ impl Session {
     #[must_use]
     pub fn look(&self) -> Look {
         let field = self.scene.output.fields.first().copied().unwrap_or(Field::Density);
-        Look { field, settings: self.scene.render.clone() }
+        Look { field, settings: self.scene.own_look() }
     }
 
     /// The camera that shows all of a 3D scene in a picture of some size.
     #[must_use]
     pub fn fitted_camera(&self, look: &Look) -> Option<Camera> {
-        let settings = crate::scene::RenderSettings { camera: None, ..look.settings.clone() };
-        (self.scene.domain.dimension == 3).then(|| self.renderer.camera(&settings))
+        let settings = RenderSettings { camera: None, path: None, ..look.settings.clone() };
+        (self.scene.domain.dimension == 3).then(|| self.renderer.camera(&settings, 0.0))
     }
 
     /// Lets the scene run past the end of its run.
@@ -151,7 +151,7 @@ impl Session {
     /// [`Error::Usage`] if the click misses the domain or its gas.
     pub fn strike(&mut self, strike: &Strike, look: &Look, records: &mut Vec<StepRecord>) -> Result<Blast> {
         let [width, height] = look.settings.size.map(f64::from);
-        let ray = self.renderer.ray(&look.settings, [strike.at[0] * width, strike.at[1] * height]);
+        let ray = self.renderer.ray(&look.settings, self.time(), [strike.at[0] * width, strike.at[1] * height]);
         let grid = self.simulation.state.grid;
         let particles = if grid.dimension == 3 { self.simulation.snapshot()?.particles } else { Vec::new() };
         let center = pick::point(&ray, &grid, &particles)

@@ -90,16 +90,20 @@ impl View {
 
     /// The camera of the picture as it stands.
     pub(super) fn camera(&self) -> Option<Camera> {
-        let domain = &self.scene.domain;
-        match domain.dimension {
-            3 => self.look.settings.camera.or(self.opened.fitted),
-            2 => Some(self.look.settings.camera.unwrap_or_else(|| camera::above(domain.origin, domain.size))),
-            _ => None,
-        }
+        let (domain, settings) = (&self.scene.domain, &self.look.settings);
+        let still = match domain.dimension {
+            3 => settings.camera.or(self.opened.fitted)?,
+            2 => settings.camera.unwrap_or_else(|| camera::above(domain.origin, domain.size)),
+            _ => return None,
+        };
+        let time = self.shown.as_ref().map_or(0.0, |shown| shown.time);
+        Some(settings.path.as_ref().map_or(still, |path| path.at(time, &still)))
     }
 
+    /// Whoever moves the camera takes it off its path.
     pub(super) fn set_camera(&mut self, moved: Camera) {
         let domain = &self.scene.domain;
+        self.look.settings.path = None;
         self.look.settings.camera =
             Some(if domain.dimension == 2 { camera::kept_inside(&moved, domain.origin, domain.size) } else { moved });
     }
@@ -112,6 +116,7 @@ impl View {
     }
 
     pub(super) fn fit(&mut self) {
+        self.look.settings.path = None;
         self.look.settings.camera = if self.dimension() == 3 { self.opened.fitted } else { None };
     }
 
@@ -254,7 +259,7 @@ impl View {
 
     /// The look that the scene file asks for, at the size of the window.
     pub(super) fn reset_look(&mut self) {
-        let settings = RenderSettings { size: self.look.settings.size, ..self.opened.scene.render.clone() };
+        let settings = RenderSettings { size: self.look.settings.size, ..self.opened.scene.own_look() };
         self.look = Look { field: self.opened.look.field, settings };
     }
 }

@@ -10,26 +10,26 @@ use brisance::state::MemoryPlan;
 
 use crate::common::gpu_or_skip;
 
-fn brisance(arguments: &[&str]) -> Command {
+pub(crate) fn brisance(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_brisance"));
     command.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR"));
     command
 }
 
-fn run(arguments: &[&str]) -> Output {
+pub(crate) fn run(arguments: &[&str]) -> Output {
     brisance(arguments).output().unwrap()
 }
 
-fn out(output: &Output) -> String {
+pub(crate) fn out(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
-fn err(output: &Output) -> String {
+pub(crate) fn err(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
 /// Runs, checks the exit code, and returns standard error.
-fn fails(code: i32, arguments: &[&str]) -> String {
+pub(crate) fn fails(code: i32, arguments: &[&str]) -> String {
     let output = run(arguments);
     let text = err(&output);
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
@@ -37,7 +37,7 @@ fn fails(code: i32, arguments: &[&str]) -> String {
     text
 }
 
-fn succeeds(arguments: &[&str]) -> String {
+pub(crate) fn succeeds(arguments: &[&str]) -> String {
     let output = run(arguments);
     assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", err(&output));
     out(&output)
@@ -58,14 +58,14 @@ fn table(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
     (header, rows)
 }
 
-fn report(folder: &Path) -> serde_json::Value {
+pub(crate) fn report(folder: &Path) -> serde_json::Value {
     serde_json::from_str(&std::fs::read_to_string(folder.join("report.json")).unwrap()).unwrap()
 }
 
 #[test]
 fn help_and_usage() {
     let help = succeeds(&["--help"]);
-    for verb in ["run", "check", "bench", "verify", "devices", "list", "schema"] {
+    for verb in ["run", "render", "check", "bench", "verify", "devices", "list", "schema"] {
         assert!(help.contains(&format!("\n  {verb} ")), "{help}");
     }
     assert!(succeeds(&["--version"]).starts_with("brisance "));
@@ -251,7 +251,7 @@ fn a_folder_that_cannot_be_written_is_a_disk_error() {
 }
 
 /// A small scene with a body and a probe.
-fn write_small_scene(path: &Path) {
+pub(crate) fn write_small_scene(path: &Path) {
     let text = r#"
 title = "Small"
 domain = { dimension = 2, cells = [24, 12], size = [2.0, 1.0] }

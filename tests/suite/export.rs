@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use brisance::export::{self, Moment};
+use brisance::export::{self, Moment, Needs, Origin};
 use brisance::snapshot::{ParticleSample, Snapshot, kind};
 use brisance::state::Grid;
 
@@ -63,8 +63,10 @@ fn vtk_files_hold_the_snapshot() {
         let mut exporters = export::open(&["vtk".to_owned()], &folder).unwrap();
         for index in 0..2 {
             let time = 0.1 * f64::from(index);
-            let moment = Moment { index, title: "t", time, step: 3, pictures: &[], snapshot: Some(&snapshot) };
-            assert!(exporters[0].needs_snapshot());
+            let origin = Origin { title: "t".to_owned(), hash: String::new() };
+            let snapshot = Some(&snapshot);
+            let moment = Moment { index, origin: &origin, time, step: 3, pictures: &[], snapshot, stored: None };
+            assert_eq!(Needs::of(&exporters), Needs { snapshot: true, ..Needs::default() });
             exporters[0].write(&moment).unwrap();
         }
         let fields = folder.join("fields/0001.vti");
@@ -85,6 +87,6 @@ fn vtk_files_hold_the_snapshot() {
 #[test]
 fn unknown_format_lists_the_known_ones() {
     let error = export::open(&["gif".to_owned()], Path::new("out")).err().unwrap();
-    assert_eq!(error.to_string(), "no export format `gif`; there are: png, vtk");
+    assert_eq!(error.to_string(), "no export format `gif`; there are: png, png16, exr, states, vtk");
     assert_eq!(error.exit_code(), 2);
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use brisance::export::{self, Exporter, Moment};
+use brisance::export::{self, Exporter, Moment, Origin};
 use brisance::gpu::{Folder, Shader, readback};
 use brisance::render::{Renderer, View};
 use brisance::scene::{Camera, Field};
@@ -133,10 +133,10 @@ fn a_look_may_change_from_picture_to_picture() {
     assert_ne!(renderer.draw(&look, Field::Velocity, 0.0125).unwrap().frame, other.frame);
     let again = renderer.draw(&scene.render, Field::Density, 0.0125).unwrap();
     assert_eq!(again, first[0], "what was drawn in between leaves no trace");
-    let ray = renderer.ray(&look, [24.0, 40.0]);
+    let ray = renderer.ray(&look, 0.0, [24.0, 40.0]);
     assert_eq!(ray.origin, eye.map(|x: f64| f64::from(x as f32)));
     assert!(ray.direction[1] > 0.99, "{ray:?}");
-    assert_eq!(renderer.camera(&look), look.camera.unwrap());
+    assert_eq!(renderer.camera(&look, 0.0), look.camera.unwrap());
 }
 
 #[test]
@@ -147,12 +147,12 @@ fn a_pixel_of_the_plane_is_the_point_it_shows() {
     let renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
     let mut look = scene.render.clone();
     look.size = [640, 400];
-    let along = |x: f64| renderer.ray(&look, [x, 200.0]).origin[0];
+    let along = |x: f64| renderer.ray(&look, 0.0, [x, 200.0]).origin[0];
     // the picture of the unit square is as high as the frame but for the margins
     let pixels = (1.0 / (along(301.0) - along(300.0))).round();
     assert!((300.0..400.0).contains(&pixels), "{pixels} pixels per unit length");
     assert!((along(300.0) - along(200.0) - 100.0 / pixels).abs() < 1e-3);
-    assert!(renderer.ray(&look, [320.0, 100.0]).origin[1] > renderer.ray(&look, [320.0, 300.0]).origin[1]);
+    assert!(renderer.ray(&look, 0.0, [320.0, 100.0]).origin[1] > renderer.ray(&look, 0.0, [320.0, 300.0]).origin[1]);
 }
 
 #[test]
@@ -260,8 +260,9 @@ fn view_has_the_offsets_of_the_shader() {
 fn png_tells_where_it_comes_from() {
     let folder = tempfile::tempdir().unwrap();
     let pictures = render(2, 16, [64, 48], "output.fields = [\"pressure\", \"density\"]");
-    let moment =
-        Moment { index: 7, title: "Sod \u{2192} shell", time: 0.0125, step: 42, pictures: &pictures, snapshot: None };
+    let origin = Origin { title: "Sod \u{2192} shell".to_owned(), hash: "cafe".to_owned() };
+    let (pictures, snapshot, stored) = (&pictures[..], None, None);
+    let moment = Moment { index: 7, origin: &origin, time: 0.0125, step: 42, pictures, snapshot, stored };
     export::png::PngExporter::new(folder.path()).write(&moment).unwrap();
     let file = std::fs::File::open(folder.path().join("frames/0007.png")).unwrap();
     let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
@@ -275,6 +276,7 @@ fn png_tells_where_it_comes_from() {
     };
     assert_eq!(text("Time").as_deref(), Some("0.0125"));
     assert_eq!(text("Step").as_deref(), Some("42"));
+    assert_eq!(text("Scene").as_deref(), Some("cafe"));
     assert_eq!(text("Field").as_deref(), Some("pressure"));
     assert!(text("Range").is_some());
     assert_eq!(info.utf8_text[0].get_text().unwrap(), "Sod \u{2192} shell");

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use brisance::export::Origin;
 use brisance::gpu::GpuOptions;
 use brisance::render::{Renderer, SceneBuffers};
 use brisance::scene::{Field, Scene};
@@ -130,6 +131,10 @@ fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
     wait(&worker, &mut seen, "scene", |seen| seen.status.phase == Phase::Ready && seen.shown.is_some());
 }
 
+fn origin() -> Origin {
+    Origin { title: "charge".to_owned(), hash: "cafe".to_owned() }
+}
+
 #[test]
 fn saved_pictures_hold_the_bytes_that_are_shown() {
     let Some(gpu) = gpu_or_skip() else { return };
@@ -139,11 +144,11 @@ fn saved_pictures_hold_the_bytes_that_are_shown() {
     let picture = std::sync::Arc::new(session.draw(&look).unwrap());
     let shown = Shown { picture, look, time: 0.0, step: 0 };
     let folder = tempfile::tempdir().unwrap();
-    let mut recording = record::Recording::start(folder.path(), "charge".into()).unwrap();
+    let mut recording = record::Recording::start(folder.path(), origin()).unwrap();
     assert!(recording.add(&shown) && recording.add(&shown) && recording.count() == 2);
     recording.finish().unwrap();
-    let first = record::save(folder.path(), &shown, "charge").unwrap();
-    let second = record::save(folder.path(), &shown, "charge").unwrap();
+    let first = record::save(folder.path(), &shown, &origin()).unwrap();
+    let second = record::save(folder.path(), &shown, &origin()).unwrap();
     assert_ne!(first, second);
     for path in [first, second, folder.path().join("recording_001/frames/0001.png")] {
         let mut reader =

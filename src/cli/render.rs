@@ -1,0 +1,215 @@
+//! `render`: the frames of a run again, with another camera or look, from its stored states.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde::Deserialize;
+use serde_json::json;
+
+use super::args::{Cli, RenderOptions};
+use super::interrupt::{self, Wish};
+use super::progress::clock;
+use super::run::{PICTURES, without_coarse};
+use super::writer::{Files, FrameToWrite, Message, Writer, Written};
+use super::{film, open_device};
+use crate::export::states;
+use crate::gpu::Gpu;
+use crate::render::{Loaded, Renderer, Stored};
+use crate::scene::{Scene, Shot};
+use crate::state::Grid;
+use crate::{Error, Result};
+
+/// Name of the scene's own look among the views.
+const MAIN: &str = "main";
+
+/// What is needed of a run's report.
+#[derive(Deserialize)]
+struct Recorded {
+    scene_hash: String,
+    scene_file: String,
+    scene: Scene,
+}
+
+/// Draws the frames of a run again.
+///
+/// # Errors
+/// [`Error::Usage`] if the run has no states or an option makes no sense; [`Error::Scene`] if the look is wrong.
+pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
+    interrupt::listen();
+    let start = Instant::now();
+    let recorded = read_report(&options.run)?;
+    let hash = recorded.scene_hash.clone();
+    let scene = with_look(recorded, options)?;
+    if scene.hash() != hash {
+        let message = "the scene of the run is read differently by this program, or a mesh file of it has changed";
+        return Err(Error::Usage(format!("{}: {message}; run it again", options.run.display())));
+    }
+    let shots = chosen(&scene, options)?;
+    let frames = frames(options)?;
+    let folder = options.out.clone().unwrap_or_else(|| options.run.join("again"));
+    let files = files(options, folder.clone())?;
+    let gpu = open_device(cli)?;
+    let mut drawing = Drawing { gpu, scene, hash, shots, depth: files.needs()?.depth, at_work: None };
+    let writer = Writer::start(files, &drawing.scene);
+    let mut drawn = Ok(());
+    for (index, path) in &frames {
+        let frame =
+            if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
+        let accepted = frame.map(|frame| writer.send(Message { records: Vec::new(), frame: Some(frame) }));
+        if !matches!(accepted, Ok(true)) {
+            drawn = accepted.map(|_| ());
+            break;
+        }
+    }
+    // What the writer has to say comes first: a disk that is full, for example.
+    let Written { frames, notes, .. } = writer.finish()?;
+    film::tell(&notes, options.quiet || cli.json);
+    drawn?;
+    if cli.json {
+        say!("{}", json!({ "frames": frames, "folder": folder, "seconds": start.elapsed().as_secs_f64() }));
+    } else if !options.quiet {
+        say!("{frames} frames in {} in {}", folder.display(), clock(start.elapsed()));
+    }
+    Ok(())
+}
+
+fn read_report(run: &Path) -> Result<Recorded> {
+    let path = run.join("report.json");
+    let text = std::fs::read_to_string(&path).map_err(|source| match source.kind() {
+        std::io::ErrorKind::NotFound => {
+            Error::Usage(format!("{} is no folder of a run: it has no report.json", run.display()))
+        }
+        _ => Error::io(&path, source),
+    })?;
+    serde_json::from_str(&text)
+        .map_err(|error| Error::Usage(format!("{}: {error}; run the scene again with this program", path.display())))
+}
+
+/// The scene of the run with the look that the options ask for.
+fn with_look(recorded: Recorded, options: &RenderOptions) -> Result<Scene> {
+    let mut scene = recorded.scene;
+    if let Some(name) = &options.scene {
+        let other = Scene::find(name, &[])?;
+        (scene.render, scene.output.fields) = (other.render, other.output.fields);
+    }
+    if let Some(key) =
+        options.set.iter().find(|set| !["render.", "output.fields"].iter().any(|own| set.starts_with(own)))
+    {
+        let message =
+            "only render.* and output.fields can change without simulating; use `brisance run` for other keys";
+        return Err(Error::Usage(format!("--set {key}: {message}")));
+    }
+    // The meshes of the run, wherever they were allowed to lie.
+    let mut overrides = vec!["allow_outside=true".to_owned()];
+    if let Some(camera) = &options.camera {
+        scene.render.path = None;
+        overrides.push(format!("render.camera={camera}"));
+    }
+    if let Some(size) = &options.size {
+        let sides = size.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+        let Some([width, height]) = sides else {
+            return Err(Error::Usage(format!("--size {size} is no size; write width x height, as in 3840x2160")));
+        };
+        let [width, height]: [u32; 2] = [width, height];
+        overrides.push(format!("render.size=[{width}, {height}]"));
+    }
+    if !options.field.is_empty() {
+        let names: Vec<String> = options.field.iter().map(|name| format!("{name:?}")).collect();
+        overrides.push(format!("output.fields=[{}]", names.join(", ")));
+    }
+    overrides.extend(options.set.iter().cloned());
+    let text = toml::to_string(&scene).map_err(|error| Error::Scene(format!("report.json: {error}")))?;
+    Scene::parse(&text, &recorded.scene_file, &overrides)
+}
+
+/// The views that are asked for; what the command line says holds for each of them.
+fn chosen(scene: &Scene, options: &RenderOptions) -> Result<Vec<Shot>> {
+    let mut shots = scene.shots()?;
+    let name_of = |shot: &Shot| if shot.name.is_empty() { MAIN.to_owned() } else { shot.name.clone() };
+    let names: Vec<String> = shots.iter().map(name_of).collect();
+    if let Some(unknown) = options.view.iter().find(|name| !names.contains(name)) {
+        return Err(Error::Usage(format!("no view `{unknown}`; there are: {}", names.join(", "))));
+    }
+    if !options.view.is_empty() {
+        shots.retain(|shot| options.view.contains(&name_of(shot)));
+    }
+    for shot in &mut shots {
+        if options.camera.is_some() {
+            (shot.settings.camera, shot.settings.path) = (scene.render.camera, None);
+        }
+        if options.size.is_some() {
+            shot.settings.size = scene.render.size;
+        }
+        if !options.field.is_empty() {
+            shot.fields.clone_from(&scene.output.fields);
+        }
+    }
+    Ok(shots)
+}
+
+/// The states to draw.
+fn frames(options: &RenderOptions) -> Result<Vec<(u32, PathBuf)>> {
+    let run = options.run.display();
+    let all = if states::folder_of(&options.run).is_dir() { states::list(&options.run)? } else { Vec::new() };
+    if all.is_empty() {
+        return Err(Error::Usage(format!("{run} has no states; run the scene again with --export states")));
+    }
+    let found = |number: &u32| all.iter().any(|(index, _)| index == number);
+    if let Some(missing) = options.frame.iter().find(|number| !found(number)) {
+        return Err(Error::Usage(format!("{run} has no state of frame {missing}; it has {} states", all.len())));
+    }
+    Ok(all.into_iter().filter(|(index, _)| options.frame.is_empty() || options.frame.contains(index)).collect())
+}
+
+fn files(options: &RenderOptions, folder: PathBuf) -> Result<Files> {
+    let mut formats = vec!["png".to_owned()];
+    for name in &options.export {
+        if !PICTURES.contains(&name.as_str()) {
+            let known = PICTURES.join(", ");
+            return Err(Error::Usage(format!("--export {name}: pictures are drawn again as one of: {known}")));
+        }
+        if !formats.contains(name) {
+            formats.push(name.clone());
+        }
+    }
+    without_coarse(&mut formats);
+    let video = film::asked(&options.film, &folder.join("frames"));
+    Ok(Files { folder, formats, video, tables: false })
+}
+
+/// Device, scene and look, and the buffers and kernels of the frames so far.
+struct Drawing {
+    gpu: Gpu,
+    scene: Scene,
+    hash: String,
+    shots: Vec<Shot>,
+    depth: crate::render::Depth,
+    at_work: Option<(Loaded, Renderer)>,
+}
+
+impl Drawing {
+    fn draw(&mut self, index: u32, path: &Path) -> Result<FrameToWrite> {
+        let (hash, stored) = states::read(path)?;
+        let grid = Grid::of(&self.scene.domain);
+        if hash != self.hash || !stored.fits(&grid) {
+            return Err(Error::Usage(format!("{} is a state of another scene than report.json", path.display())));
+        }
+        let renderer = self.renderer(grid, &stored)?;
+        let pictures = renderer.render(stored.time)?;
+        let (time, step) = (stored.time, stored.step);
+        Ok(FrameToWrite { index, time, step, pictures, snapshot: None, stored: None })
+    }
+
+    /// The renderer with a state in its buffers.
+    fn renderer(&mut self, grid: Grid, stored: &Stored) -> Result<&mut Renderer> {
+        let filled = self.at_work.as_ref().is_some_and(|(loaded, _)| loaded.fill(&self.gpu, stored));
+        if !filled {
+            self.at_work = None;
+            let loaded = Loaded::new(&self.gpu, grid, stored)?;
+            let renderer = Renderer::new(&self.gpu, &self.scene, &loaded.buffers())?;
+            let renderer = renderer.with_depth(self.depth).with_shots(self.shots.clone());
+            self.at_work = Some((loaded, renderer));
+        }
+        Ok(self.at_work.as_mut().map(|(_, renderer)| renderer).expect("made above"))
+    }
+}

@@ -1,0 +1,180 @@
+//! Films: raw pictures through a pipe to ffmpeg, one film per view. It encodes in processes of its own, beside the simulation.
+
+use std::ffi::OsString;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+
+use crate::export::{Exporter, Moment};
+use crate::render::Frame;
+use crate::{Error, Result};
+
+/// The program that encodes.
+const ENCODER: &str = "ffmpeg";
+
+/// Whether films can be made here.
+#[must_use]
+pub fn is_possible() -> bool {
+    let quiet = || Stdio::null();
+    let asked = Command::new(ENCODER).arg("-version").stdin(quiet()).stdout(quiet()).stderr(quiet()).status();
+    asked.is_ok_and(|status| status.success())
+}
+
+/// Writes the first picture of each view to a film: `film.mp4` for the scene's own look, `film_VIEW.mp4` for the others.
+#[derive(Debug)]
+pub struct VideoExporter {
+    path: PathBuf,
+    /// Pictures per second of the film.
+    rate: u32,
+    films: Vec<Film>,
+}
+
+/// One film in the making.
+#[derive(Debug)]
+struct Film {
+    view: String,
+    path: PathBuf,
+    /// Where it grows until it is complete.
+    draft: PathBuf,
+    process: Child,
+    pipe: Option<ChildStdin>,
+    size: [u32; 2],
+    /// Why it was given up.
+    failed: Option<String>,
+}
+
+impl VideoExporter {
+    /// A film of so many pictures per second.
+    #[must_use]
+    pub fn new(path: &Path, rate: u32) -> Self {
+        Self { path: path.to_owned(), rate, films: Vec::new() }
+    }
+
+    fn film(&mut self, view: &str, moment: &Moment, frame: &Frame) -> Result<&mut Film> {
+        let place = match self.films.iter().position(|film| film.view == view) {
+            Some(place) => place,
+            None => {
+                self.films.push(Film::start(&self.path, self.rate, view, moment, frame)?);
+                self.films.len() - 1
+            }
+        };
+        Ok(&mut self.films[place])
+    }
+}
+
+impl Exporter for VideoExporter {
+    fn write(&mut self, moment: &Moment) -> Result<()> {
+        let mut last = None;
+        for picture in moment.pictures {
+            if last.replace(picture.view.as_str()) != Some(picture.view.as_str()) {
+                self.film(&picture.view, moment, &picture.frame)?.add(&picture.frame);
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<Vec<String>> {
+        Ok(self.films.drain(..).map(Film::finish).collect())
+    }
+}
+
+/// `film_VIEW.mp4` beside `film.mp4`; `prefix` and `suffix` go around the name.
+fn named(path: &Path, view: &str, prefix: &str, suffix: &str) -> PathBuf {
+    let text = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_os_string();
+    let mut name = OsString::from(prefix);
+    name.push(text(path.file_stem()));
+    if !view.is_empty() {
+        name.push(format!("_{view}"));
+    }
+    name.push(format!("{suffix}."));
+    name.push(path.extension().unwrap_or("mp4".as_ref()));
+    path.with_file_name(name)
+}
+
+impl Film {
+    fn start(path: &Path, rate: u32, view: &str, moment: &Moment, frame: &Frame) -> Result<Self> {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|source| Error::io(folder, source))?;
+        }
+        let (film, draft) = (named(path, view, "", ""), named(path, view, ".", "_draft"));
+        let mut command = Command::new(ENCODER);
+        command.args(["-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24"]);
+        command.args(["-video_size", &format!("{}x{}", frame.width, frame.height)]);
+        command.args(["-framerate", &rate.to_string(), "-i", "pipe:0"]);
+        // Most players want 4:2:0, which wants even sides.
+        command.args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]);
+        command.args(["-metadata", &format!("title={}", moment.origin.title)]);
+        command.args(["-metadata", &format!("comment=brisance, scene {}", moment.origin.hash)]);
+        command.arg(&draft).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+        #[cfg(unix)]
+        {
+            use std::os::unix::process::CommandExt;
+            // Ctrl-C in the terminal is for us: the film ends when its pictures end.
+            command.process_group(0);
+        }
+        let mut process = command.spawn().map_err(|source| Error::io(ENCODER, source))?;
+        let pipe = process.stdin.take();
+        let size = [frame.width, frame.height];
+        Ok(Self { view: view.to_owned(), path: film, draft, process, pipe, size, failed: None })
+    }
+
+    /// Takes a picture. A film that fails does not stop the run, whose pictures are on the disk all the same.
+    fn add(&mut self, frame: &Frame) {
+        let Some(pipe) = &mut self.pipe else { return };
+        let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        let sent = if [frame.width, frame.height] == self.size {
+            pipe.write_all(&rgb)
+        } else {
+            Err(io::Error::other("pictures of several sizes make no film"))
+        };
+        if let Err(error) = sent {
+            self.failed = Some(error.to_string());
+            self.pipe = None;
+        }
+    }
+
+    /// Waits for the encoder; what became of the film.
+    fn finish(mut self) -> String {
+        self.pipe = None;
+        let mut said = String::new();
+        if let Some(errors) = &mut self.process.stderr {
+            // What it says is only told.
+            let _ = errors.read_to_string(&mut said);
+        }
+        let done = self.process.wait().is_ok_and(|status| status.success());
+        let reason = self.failed.take().map(|reason| format!("{reason} {said}"));
+        let moved = match reason {
+            None if done => std::fs::rename(&self.draft, &self.path).map_err(|error| error.to_string()),
+            reason => Err(reason.unwrap_or(said)),
+        };
+        match moved {
+            Ok(()) => format!("film in {}", self.path.display()),
+            Err(reason) => {
+                format!("warning: no film {}: {ENCODER} failed: {}", self.path.display(), reason.trim())
+            }
+        }
+    }
+}
+
+impl Drop for Film {
+    fn drop(&mut self) {
+        // A film that was finished has no draft any more, and its process has ended.
+        self.pipe = None;
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+        let _ = std::fs::remove_file(&self.draft);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn films_of_views_stand_beside_the_film() {
+        let path = Path::new("out/a.b.mkv");
+        assert_eq!(named(path, "", "", ""), path);
+        assert_eq!(named(path, "top", "", ""), Path::new("out/a.b_top.mkv"));
+        assert_eq!(named(Path::new("film"), "top", ".", "_draft"), Path::new(".film_top_draft.mp4"));
+    }
+}

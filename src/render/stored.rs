@@ -1,0 +1,175 @@
+//! What pictures are drawn from, bit by bit on the host: read from a simulation, kept in files, and brought to a device again.
+
+use super::buffers::{ParticleBuffers, SceneBuffers};
+use crate::Result;
+use crate::gpu::{Buffer, Gpu, readback};
+use crate::snapshot::kind;
+use crate::state::Grid;
+
+/// The state at one time as pictures read it. Cell arrays hold the ring around the domain, see [`Grid`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stored {
+    /// Simulated time \[s\].
+    pub time: f64,
+    /// Steps done.
+    pub step: u64,
+    /// Density and momentum per volume.
+    pub conserved: Vec<[f32; 4]>,
+    /// Total energy per volume.
+    pub energy: Vec<f32>,
+    /// Kind of each cell, see [`kind`].
+    pub kind: Vec<u8>,
+    /// The particles, if there are any.
+    pub particles: Option<StoredParticles>,
+}
+
+/// The particles' arrays, as [`ParticleBuffers`] describes them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StoredParticles {
+    /// Position and mass.
+    pub position: Vec<[f32; 4]>,
+    /// Velocity and volume at rest.
+    pub velocity: Vec<[f32; 4]>,
+    /// Affine velocity, three rows per particle.
+    pub affine: Vec<[f32; 4]>,
+    /// Deformation gradient, three rows per particle.
+    pub deformation: Vec<[f32; 4]>,
+    /// Kirchhoff stress times volume at rest, two rows per particle.
+    pub stress: Vec<[f32; 4]>,
+}
+
+/// Rows of 16 bytes per particle in each of its arrays.
+const ROWS: [usize; 5] = [1, 1, 3, 3, 2];
+
+impl StoredParticles {
+    /// The arrays by name.
+    #[must_use]
+    pub fn arrays(&self) -> [(&'static str, &Vec<[f32; 4]>); 5] {
+        [
+            ("position", &self.position),
+            ("velocity", &self.velocity),
+            ("affine", &self.affine),
+            ("deformation", &self.deformation),
+            ("stress", &self.stress),
+        ]
+    }
+
+    /// From the arrays in the order of [`StoredParticles::arrays`].
+    #[must_use]
+    pub fn of([position, velocity, affine, deformation, stress]: [Vec<[f32; 4]>; 5]) -> Self {
+        Self { position, velocity, affine, deformation, stress }
+    }
+}
+
+impl Stored {
+    /// Copies what pictures read from the device, at a time \[s\] after so many steps.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn read(gpu: &Gpu, buffers: &SceneBuffers, (time, step): (f64, u64)) -> Result<Self> {
+        let slots = buffers.grid.slots();
+        let words: Vec<u32> = elements(gpu, buffers.cells, slots)?;
+        let particles = buffers.particles.filter(|own| own.count > 0).map(|own| {
+            let all = [own.position, own.velocity, own.affine, own.deformation, own.stress];
+            let mut arrays = [const { Vec::new() }; 5];
+            for ((array, buffer), rows) in arrays.iter_mut().zip(all).zip(ROWS) {
+                *array = elements(gpu, buffer, rows * own.count as usize)?;
+            }
+            Ok::<_, crate::Error>(StoredParticles::of(arrays))
+        });
+        Ok(Self {
+            time,
+            step,
+            conserved: elements(gpu, buffers.conserved, slots)?,
+            energy: elements(gpu, buffers.energy, slots)?,
+            kind: words.iter().map(|word| *word as u8 & kind::MASK).collect(),
+            particles: particles.transpose()?,
+        })
+    }
+
+    /// Whether all arrays have the lengths that belong to a grid.
+    #[must_use]
+    pub fn fits(&self, grid: &Grid) -> bool {
+        let slots = grid.slots();
+        let cells = [self.conserved.len(), self.energy.len(), self.kind.len()];
+        let particles = self.particles.as_ref().is_none_or(|own| {
+            let count = own.position.len();
+            own.arrays().iter().zip(ROWS).all(|((_, array), rows)| array.len() == rows * count)
+        });
+        cells == [slots; 3] && particles
+    }
+}
+
+/// A stored state on a device.
+#[derive(Debug)]
+pub struct Loaded {
+    grid: Grid,
+    conserved: Buffer<[f32; 4]>,
+    energy: Buffer<f32>,
+    cells: Buffer<u32>,
+    count: u32,
+    particles: Option<[Buffer<[f32; 4]>; 5]>,
+}
+
+impl Loaded {
+    /// Brings a state to the device; it must fit the grid, see [`Stored::fits`].
+    ///
+    /// # Errors
+    /// If the device has no room.
+    pub fn new(gpu: &Gpu, grid: Grid, stored: &Stored) -> Result<Self> {
+        let words: Vec<u32> = stored.kind.iter().map(|kind| u32::from(*kind)).collect();
+        let particles = stored.particles.as_ref().map(|own| {
+            let [a, b, c, d, e] = own.arrays().map(|(name, array)| Buffer::from_slice(gpu, name, array));
+            Ok::<_, crate::Error>([a?, b?, c?, d?, e?])
+        });
+        Ok(Self {
+            grid,
+            conserved: Buffer::from_slice(gpu, "conserved", &stored.conserved)?,
+            energy: Buffer::from_slice(gpu, "energy", &stored.energy)?,
+            cells: Buffer::from_slice(gpu, "cells", &words)?,
+            count: stored.particles.as_ref().map_or(0, |own| own.position.len() as u32),
+            particles: particles.transpose()?,
+        })
+    }
+
+    /// The buffers as a renderer takes them.
+    #[must_use]
+    pub fn buffers(&self) -> SceneBuffers<'_> {
+        let particles =
+            self.particles.as_ref().map(|[position, velocity, affine, deformation, stress]| ParticleBuffers {
+                count: self.count,
+                position: position.raw(),
+                velocity: velocity.raw(),
+                affine: affine.raw(),
+                deformation: deformation.raw(),
+                stress: stress.raw(),
+            });
+        let (conserved, energy, cells) = (self.conserved.raw(), self.energy.raw(), self.cells.raw());
+        SceneBuffers { grid: self.grid, conserved, energy, cells, particles }
+    }
+
+    /// Puts another state of the same scene into the same buffers; false, and nothing done, if its sizes differ.
+    #[must_use]
+    pub fn fill(&self, gpu: &Gpu, stored: &Stored) -> bool {
+        let count = stored.particles.as_ref().map_or(0, |own| own.position.len() as u32);
+        if !stored.fits(&self.grid) || count != self.count {
+            return false;
+        }
+        let words: Vec<u32> = stored.kind.iter().map(|kind| u32::from(*kind)).collect();
+        self.conserved.write(gpu, 0, &stored.conserved);
+        self.energy.write(gpu, 0, &stored.energy);
+        self.cells.write(gpu, 0, &words);
+        if let (Some(buffers), Some(own)) = (&self.particles, &stored.particles) {
+            for (buffer, (_, array)) in buffers.iter().zip(own.arrays()) {
+                buffer.write(gpu, 0, array);
+            }
+        }
+        true
+    }
+}
+
+/// The first elements of a buffer.
+pub(super) fn elements<T: bytemuck::Pod>(gpu: &Gpu, buffer: &wgpu::Buffer, len: usize) -> Result<Vec<T>> {
+    let bytes = readback::read_bytes(gpu, buffer, 0, (len * size_of::<T>()) as u64)?;
+    Ok(bytemuck::pod_collect_to_vec(&bytes))
+}

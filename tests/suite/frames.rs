@@ -1,0 +1,273 @@
+//! Frames on the disk: views, paths, depth, films, and frames drawn again from stored states.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use brisance::export::{Exporter, Moment, Origin, exr::ExrExporter, png::PngExporter};
+use brisance::render::{Depth, Picture, Renderer};
+use brisance::scene::{Camera, Field};
+
+use crate::cli::{brisance, err, fails, run, succeeds, write_small_scene};
+use crate::common::gpu_or_skip;
+use crate::synthetic::{State, gpu, scene};
+
+/// The pictures of the synthetic state in full depth.
+fn deep(dimension: u32, look: &str) -> Vec<Picture> {
+    let gpu = gpu();
+    let scene = scene(dimension, 12, [48, 40], look);
+    let state = State::new(&gpu, &scene);
+    let renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
+    renderer.with_depth(Depth { linear: true, fine: true }).render(0.5).unwrap()
+}
+
+/// Writes the pictures of frame 3.
+fn write(exporter: &mut dyn Exporter, pictures: &[Picture]) {
+    let origin = Origin { title: "Depth \u{2192} files".to_owned(), hash: "cafe".to_owned() };
+    let (snapshot, stored) = (None, None);
+    exporter.write(&Moment { index: 3, origin: &origin, time: 0.5, step: 9, pictures, snapshot, stored }).unwrap();
+}
+
+#[test]
+fn pictures_have_their_whole_depth_on_the_disk() {
+    let folder = tempfile::tempdir().unwrap();
+    for (dimension, look) in [(1, ""), (2, "render.arrows = 4"), (3, "render.exposure = 3\nrender.supersampling = 2")] {
+        let pictures = deep(dimension, look);
+        write(&mut PngExporter::fine(folder.path()), &pictures);
+        write(&mut ExrExporter::new(folder.path()), &pictures);
+        let Picture { frame, linear, fine, .. } = &pictures[0];
+
+        let file = std::fs::File::open(folder.path().join("frames/0003.png")).unwrap();
+        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+        assert_eq!(reader.info().bit_depth, png::BitDepth::Sixteen);
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut bytes).unwrap();
+        let words: Vec<u16> = bytes.chunks_exact(2).map(|word| u16::from_be_bytes([word[0], word[1]])).collect();
+        assert_eq!(words, fine.as_flattened());
+        let coarse = frame.rgba.chunks_exact(4).flat_map(|pixel| &pixel[..3]);
+        // dithering may take the next level
+        assert!(
+            words.iter().zip(coarse).all(|(word, byte)| (f64::from(*word) / 257.0 - f64::from(*byte)).abs() <= 1.01)
+        );
+
+        let image = exr::prelude::read_first_rgba_layer_from_file(
+            folder.path().join("frames/0003.exr"),
+            |size, _| vec![[0.0_f32; 3]; size.width() * size.height()],
+            |pixels, place, (red, green, blue, _): (f32, f32, f32, f32)| {
+                pixels[place.x() + 48 * place.y()] = [red, green, blue];
+            },
+        )
+        .unwrap();
+        assert_eq!(&image.layer_data.channel_data.pixels, linear, "{dimension}D");
+        let comments = image.layer_data.attributes.comments.unwrap().to_string();
+        assert!(comments.contains("Scene: cafe") && comments.contains("Step: 9"), "{comments}");
+        let most = linear.iter().flatten().fold(0.0_f32, |most, value| most.max(*value));
+        assert_eq!(most > 1.5, dimension == 3, "{dimension}D: light above white only where exposure makes it: {most}");
+    }
+}
+
+#[test]
+fn depth_costs_nothing_where_it_is_not_wanted() {
+    let gpu = gpu();
+    let scene = scene(3, 12, [48, 40], "");
+    let state = State::new(&gpu, &scene);
+    let plain = Renderer::new(&gpu, &scene, &state.buffers()).unwrap().render(0.5).unwrap();
+    assert!(plain[0].linear.is_empty() && plain[0].fine.is_empty());
+    assert_eq!(plain[0].frame, deep(3, "")[0].frame, "and changes no pixel");
+}
+
+#[test]
+fn a_path_moves_the_camera_of_its_view_only() {
+    let gpu = gpu();
+    let look = "render.views.turning.path.orbit = 90\nrender.views.flying.path.keys = [\
+                { time = 0, azimuth = -60, elevation = 20, distance = 3, target = [0.5, 0.5, 0.5] },\
+                { time = 1, azimuth = 30, elevation = 20, distance = 3, target = [0.5, 0.5, 0.5] }]\n\
+                [render.views.still]\nfields = [\"pressure\", \"density\"]\nsize = [40, 32]";
+    let scene = scene(3, 12, [48, 40], look);
+    let state = State::new(&gpu, &scene);
+    let mut renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
+    let at = |renderer: &mut Renderer, time: f64| {
+        let pictures = renderer.render(time).unwrap();
+        let names: Vec<_> = pictures.iter().map(|own| (own.view.clone(), own.name.clone())).collect();
+        let names: Vec<_> = names.iter().map(|(view, name)| (view.as_str(), name.as_str())).collect();
+        let expected = [
+            ("", "density"),
+            ("flying", "density"),
+            ("still", "pressure"),
+            ("still", "density"),
+            ("turning", "density"),
+        ];
+        assert_eq!(names, expected);
+        assert_eq!(pictures[2].frame.width, 40);
+        pictures
+    };
+    let no_words = |pictures: &[Picture], k: usize| -> Vec<u8> {
+        // below the time stamp
+        pictures[k].frame.rgba[4 * 48 * 12..].to_vec()
+    };
+    let (first, later) = (at(&mut renderer, 0.0), at(&mut renderer, 1.0));
+    for (k, moves) in [(0, false), (1, true), (4, true)] {
+        assert_eq!(no_words(&first, k) != no_words(&later, k), moves, "picture {k}");
+    }
+    // a quarter turn of the first place of the keys is the last one
+    let turned = scene.shots().unwrap()[1].settings.path.clone().unwrap();
+    let base = Camera { eye: [0.0; 3], target: [1.0; 3], up: [0.0, 0.0, 1.0], fov_degrees: 40.0, height: None };
+    let look = brisance::scene::RenderSettings { camera: Some(turned.at(1.0, &base)), path: None, ..scene.own_look() };
+    let same = renderer.draw(&look, Field::Density, 1.0).unwrap();
+    assert_eq!(same.frame, later[1].frame);
+}
+
+/// All files below a folder, with their bytes.
+fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder_here) = folders.pop() {
+        for entry in std::fs::read_dir(folder_here).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let bytes = std::fs::read(&path).unwrap();
+                found.push((path.strip_prefix(folder).unwrap().to_owned(), bytes));
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// A small shell in space with two views and a moving camera.
+fn write_shell(path: &Path) {
+    let text = r#"
+title = "Shell"
+domain = { dimension = 3, cells = [12, 12, 12], size = [1.0, 1.0, 1.0] }
+time = { until = 0.02, frames = 2 }
+materials.rubber.neo_hookean = { young_modulus = 100.0, poisson_ratio = 0.3 }
+[gas]
+ambient = { density = 1.0, pressure = 1.0 }
+regions = [{ shape = { sphere = { center = [0.4, 0.5, 0.5], radius = 0.2 } }, density = 2.0, pressure = 6.0 }]
+[[bodies]]
+name = "block"
+shape = { box = { center = [0.75, 0.5, 0.5], size = [0.2, 0.5, 0.5] } }
+material = "rubber"
+density = 5.0
+[render]
+size = [96, 64]
+emission = { ambient_kelvin = 900.0 }
+tone = "aces"
+particle_color = "deviatoric_stress"
+path.orbit = 300.0
+[render.views.top]
+fields = ["pressure", "vorticity"]
+camera = { eye = [0.5, 0.5, 4.0], target = [0.5, 0.5, 0.5], up = [0.0, 1.0, 0.0] }
+[expect]
+"#;
+    std::fs::write(path, text).unwrap();
+}
+
+#[test]
+fn frames_drawn_again_are_the_same_to_the_byte() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let text = |path: &Path| path.to_str().unwrap().to_owned();
+    let (small, shell) = (folder.path().join("small.toml"), folder.path().join("shell.toml"));
+    write_small_scene(&small);
+    write_shell(&shell);
+    for (name, count) in [(text(&small), 6), (text(&shell), 9), ("sod".to_owned(), 3)] {
+        let out = folder.path().join("run");
+        succeeds(&["run", &name, "--frames", "2", "--no-expect", "--export", "states", "--out", &text(&out)]);
+        let printed = succeeds(&["render", &text(&out)]);
+        assert!(printed.starts_with("3 frames in "), "{printed}");
+        let (first, again) = (files(&out.join("frames")), files(&out.join("again/frames")));
+        assert_eq!(first.len(), count, "{name}");
+        for ((path, bytes), (same, drawn)) in first.iter().zip(&again) {
+            assert_eq!(path, same);
+            assert!(bytes == drawn, "{name}: {} differs", path.display());
+        }
+        assert_eq!(first.len(), again.len());
+        std::fs::remove_dir_all(&out).unwrap();
+    }
+}
+
+#[test]
+fn frames_drawn_again_have_another_look() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("shell.toml");
+    write_shell(&scene);
+    let out = folder.path().join("run");
+    let run = out.to_str().unwrap();
+    succeeds(&["run", scene.to_str().unwrap(), "--no-frames", "--export", "states", "--out", run]);
+    assert!(!out.join("frames").exists());
+    let camera = "{ eye = [0.5, -3.0, 0.5], target = [0.5, 0.5, 0.5] }";
+    let look = ["--camera", camera, "--size", "80x60", "--set", "render.colormap=inferno", "--field", "pressure"];
+    succeeds(&[&["render", run, "--view", "main", "--frame", "1"], &look[..]].concat());
+    let drawn = files(&out.join("again"));
+    assert_eq!(drawn.len(), 1);
+    assert_eq!(drawn[0].0, Path::new("frames/0001.png"));
+    let reader = png::Decoder::new(std::io::Cursor::new(&drawn[0].1[..])).read_info().unwrap();
+    assert_eq!((reader.info().width, reader.info().height), (80, 60));
+    let chunks = &reader.info().uncompressed_latin1_text;
+    assert!(chunks.iter().any(|chunk| chunk.keyword == "Field" && chunk.text == "pressure"));
+
+    for (options, parts) in [
+        (&["--view", "side"][..], ["no view `side`", "main, top"]),
+        (&["--set", "gas.gamma=1.3"], ["render.* and output.fields", "brisance run"]),
+        (&["--size", "80"], ["--size 80", "width x height"]),
+        (&["--frame", "7"], ["no state of frame 7", "3 states"]),
+        (&["--export", "vtk"], ["--export vtk", "png, png16, exr"]),
+    ] {
+        let message = fails(2, &[&["render", run], options].concat());
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    }
+    assert!(fails(3, &["render", run, "--field", "heat"]).contains("unknown variant `heat`"));
+    assert!(fails(2, &["render", folder.path().to_str().unwrap()]).contains("no report.json"));
+    std::fs::write(out.join("states/0002.state"), "short").unwrap();
+    assert!(fails(9, &["render", run]).contains("0002.state"));
+    std::fs::remove_dir_all(out.join("states")).unwrap();
+    assert!(fails(2, &["render", run]).contains("--export states"));
+}
+
+/// Whether a program answers.
+fn installed(program: &str) -> bool {
+    Command::new(program).arg("-version").output().is_ok_and(|output| output.status.success())
+}
+
+#[test]
+fn a_film_is_made_where_there_is_ffmpeg() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("shell.toml");
+    write_shell(&scene);
+    let (out, film) = (folder.path().join("run"), folder.path().join("films/film.mp4"));
+    let arguments = ["run", scene.to_str().unwrap(), "--set", "render.size=[95, 63]", "--frames", "3", "--video"];
+    let arguments = [&arguments[..], &[film.to_str().unwrap(), "--out", out.to_str().unwrap()]].concat();
+
+    let output = brisance(&arguments).env("PATH", "/nowhere").output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(err(&output).contains("ffmpeg is not installed") && !film.exists(), "{}", err(&output));
+    assert!(out.join("frames/0003.png").is_file() && out.join("frames/top/vorticity/0003.png").is_file());
+
+    if !(installed("ffmpeg") && installed("ffprobe")) {
+        eprintln!("skipped: no ffmpeg and ffprobe");
+        return;
+    }
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(err(&output).contains("film in "), "{}", err(&output));
+    for name in ["film.mp4", "film_top.mp4"] {
+        let probed = Command::new("ffprobe")
+            .args(["-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames,r_frame_rate"])
+            .args(["-of", "csv=p=0"])
+            .arg(film.with_file_name(name))
+            .output()
+            .unwrap();
+        assert_eq!(String::from_utf8_lossy(&probed.stdout).trim(), "96,64,25/1,4", "{name}: {}", err(&probed));
+    }
+    assert_eq!(std::fs::read_dir(film.parent().unwrap()).unwrap().count(), 2, "no drafts stay");
+}
