@@ -13,6 +13,7 @@ mod args;
 mod bench;
 mod check;
 mod folder;
+mod gallery;
 mod interrupt;
 mod list;
 mod progress;
@@ -98,10 +99,11 @@ fn kind(error: &Error) -> &'static str {
 }
 
 fn execute(cli: &Cli) -> Result<()> {
-    let Some(command) = &cli.command else { return gallery(cli) };
+    let Some(command) = &cli.command else { return window(cli) };
     match command {
         Command::View(options) => view::view(Some(options), cli),
         Command::Run(options) => run::run(options, cli),
+        Command::Gallery(options) => gallery::gallery(options, cli),
         Command::Check(options) => check::check(options, cli),
         Command::Bench(options) => bench::bench(options, cli),
         Command::Verify(options) => verify::verify(options, cli),
@@ -120,8 +122,8 @@ fn execute(cli: &Cli) -> Result<()> {
     }
 }
 
-/// Without a verb: the gallery, or the help where there is no window.
-fn gallery(cli: &Cli) -> Result<()> {
+/// Without a verb: the window, or the help where there is none.
+fn window(cli: &Cli) -> Result<()> {
     view::view(None, cli).inspect_err(|error| {
         if matches!(error, Error::Usage(_)) && !cli.json {
             eprintln!("{}", Cli::command().render_help());

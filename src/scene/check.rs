@@ -301,6 +301,17 @@ impl Check<'_> {
             self.add(format!("expect.{key}"), "the domain is open", "remove the key, or make every side a \"wall\"");
         }
         self.expected_bodies();
+        self.expected_probes();
+    }
+
+    fn expected_probes(&mut self) {
+        for (index, expected) in self.scene.expect.probes.iter().enumerate() {
+            let given = expected.ranges().into_iter().filter_map(|(key, range)| Some((key, range?)));
+            for (key, [low, high]) in given.filter(|(_, [low, high])| low > high) {
+                let path = format!("expect.probes[{index}].{key}");
+                self.add(path, format!("[{low}, {high}] is empty"), "give the lower value first");
+            }
+        }
     }
 
     fn expected_bodies(&mut self) {

@@ -7,6 +7,7 @@ mod common;
 mod cut;
 mod determinism;
 mod export;
+mod gallery;
 mod gpu;
 mod images;
 mod kernels;
