@@ -207,6 +207,9 @@ pub fn evaluate(scene: &Scene, ending: &Ending<'_>) -> Vec<Check> {
     let mut checks = Checks(Vec::new());
     checks.at_most("gas_mass_drift", drift["gas_mass"].abs(), expect.gas_mass_drift);
     checks.at_most("energy_drift", drift["energy"].abs(), expect.energy_drift);
+    if let Some(range) = expect.energy_change {
+        checks.within("energy_change", drift["energy"], range);
+    }
     checks.at_most("max_speed", summary.max_speed / sound, expect.max_speed);
     if let Some(range) = expect.peak_speed {
         checks.within("peak_speed", summary.max_speed / sound, range);

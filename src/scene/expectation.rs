@@ -16,6 +16,9 @@ pub struct Expect {
     /// Largest relative change of the energy of gas and solids together; for closed domains.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_drift: Option<f64>,
+    /// Lowest and highest value allowed for that change with its sign; for closed domains.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_change: Option<[f64; 2]>,
     /// Largest speed of gas or particles, in units of the ambient speed of sound; for scenes at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_speed: Option<f64>,
