@@ -238,7 +238,7 @@ impl<'a> Run<'a> {
             frames: written.frames,
             wall_seconds: self.start.elapsed().as_secs_f64(),
             device: device(&self.gpu),
-            particles: self.plan.particles as u64,
+            particles: self.plan.particles,
             memory: self.plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
             timings: timings.map(seconds).into(),
             totals: totals(&self.summary, &end),
