@@ -1,6 +1,9 @@
 //! What a run conserved, and whether it did what its scene expects: the `[expect]` table against measured values.
 
 mod bodies;
+mod probes;
+
+pub use probes::Seen;
 
 use std::collections::BTreeMap;
 
@@ -111,8 +114,8 @@ pub struct Summary {
     pub max_speed: f64,
     /// Cells where the energy floor acted, summed over steps.
     pub floored: u64,
-    /// Largest pressure that each probe has seen in gas \[Pa\].
-    pub probe_pressure: Vec<f64>,
+    /// What each probe has seen.
+    pub probes: Vec<Seen>,
     /// The last step.
     pub last: Option<StepRecord>,
 }
@@ -129,7 +132,7 @@ impl Default for Summary {
             min_pressure: f64::INFINITY,
             max_speed: 0.0,
             floored: 0,
-            probe_pressure: Vec::new(),
+            probes: Vec::new(),
             last: None,
         }
     }
@@ -148,10 +151,7 @@ impl Summary {
             self.min_pressure = self.min_pressure.min(record.pressure[0].into());
             self.max_speed = self.max_speed.max(record.gas_speed.max(record.solid_speed).into());
             self.floored += u64::from(record.floored);
-            self.probe_pressure.resize(record.probes.len(), 0.0);
-            for (most, probe) in self.probe_pressure.iter_mut().zip(&record.probes) {
-                *most = most.max(if probe.kind == kind::GAS { probe.pressure.into() } else { 0.0 });
-            }
+            probes::add(&mut self.probes, record);
         }
         if let Some(last) = records.last() {
             self.last = Some(last.clone());
@@ -207,7 +207,13 @@ pub fn evaluate(scene: &Scene, ending: &Ending<'_>) -> Vec<Check> {
     let mut checks = Checks(Vec::new());
     checks.at_most("gas_mass_drift", drift["gas_mass"].abs(), expect.gas_mass_drift);
     checks.at_most("energy_drift", drift["energy"].abs(), expect.energy_drift);
+    if let Some(range) = expect.energy_change {
+        checks.within("energy_change", drift["energy"], range);
+    }
     checks.at_most("max_speed", summary.max_speed / sound, expect.max_speed);
+    if let Some(range) = expect.peak_speed {
+        checks.within("peak_speed", summary.max_speed / sound, range);
+    }
     if let Some(limit) = expect.density_l1 {
         checks.at_most("density_l1", density_error(scene, ending.snapshot).unwrap_or(f64::NAN), Some(limit));
     }
@@ -219,11 +225,7 @@ pub fn evaluate(scene: &Scene, ending: &Ending<'_>) -> Vec<Check> {
     checks.above("min_pressure", summary.min_pressure, expect.min_pressure);
     checks.at_most("max_iterations", summary.max_iterations.into(), expect.max_iterations.map(f64::from));
     checks.at_most("max_steps", summary.steps as f64, expect.max_steps.map(f64::from));
-    for expected in &expect.probes {
-        let index = scene.probes.iter().position(|probe| probe.name == expected.probe);
-        let seen = index.and_then(|index| summary.probe_pressure.get(index).copied()).unwrap_or(f64::NAN);
-        checks.within(&format!("probes.{}.pressure", expected.probe), seen, expected.pressure);
-    }
+    checks.probes(expect, &scene.probes, &summary.probes);
     checks.bodies(scene, ending.snapshot);
     checks.0
 }

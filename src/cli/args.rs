@@ -32,6 +32,8 @@ pub enum Command {
     Render(RenderOptions),
     /// Watch a scene in a live window; without a verb, the gallery of all scenes
     View(ViewOptions),
+    /// Run scenes one after another and write one page that shows them all
+    Gallery(GalleryOptions),
     /// Check a scene and print cells, particles, memory and every default
     Check(CheckOptions),
     /// Measure a scene: a table of stages, then totals per second
@@ -53,7 +55,7 @@ pub enum Command {
 }
 
 /// A scene and what to change about it.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct SceneOptions {
     /// Scene file, or name of a shipped scene (see `brisance list`)
     pub scene: String,
@@ -94,7 +96,7 @@ pub struct CheckOptions {
 }
 
 /// Options of `run`.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct RunOptions {
     /// What to run.
     #[command(flatten)]
@@ -126,7 +128,7 @@ pub struct RunOptions {
 }
 
 /// A film of the pictures.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct FilmOptions {
     /// Make a film of the pictures with ffmpeg, where it is installed; the name says the format, as in film.mp4
     #[arg(long, value_name = "FILE")]
@@ -172,6 +174,42 @@ pub struct RenderOptions {
     #[command(flatten)]
     pub film: FilmOptions,
     /// Print nothing but warnings and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// How large the scenes of a gallery run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Scale {
+    /// The variant `small` of scenes that have one; minutes on a processor
+    Small,
+    /// As the scene is; for a GPU
+    Full,
+}
+
+impl Scale {
+    /// Its word on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Scale::Small => "small",
+            Scale::Full => "full",
+        }
+    }
+}
+
+/// Options of `gallery`.
+#[derive(Debug, Args)]
+pub struct GalleryOptions {
+    /// Scenes, folders of shipped scenes such as `demos`, or SCENE:VARIANT [default: paper demos]
+    pub names: Vec<String>,
+    /// Size of the scenes
+    #[arg(long, value_enum, default_value_t = Scale::Small)]
+    pub scale: Scale,
+    /// Folder for gallery.html and the runs
+    #[arg(long, value_name = "DIR", default_value = "out/gallery")]
+    pub out: PathBuf,
+    /// Show no progress within a scene
     #[arg(long, short)]
     pub quiet: bool,
 }

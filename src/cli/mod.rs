@@ -14,6 +14,7 @@ mod bench;
 mod check;
 mod film;
 mod folder;
+mod gallery;
 mod interrupt;
 mod list;
 mod progress;
@@ -100,11 +101,12 @@ fn kind(error: &Error) -> &'static str {
 }
 
 fn execute(cli: &Cli) -> Result<()> {
-    let Some(command) = &cli.command else { return gallery(cli) };
+    let Some(command) = &cli.command else { return window(cli) };
     match command {
         Command::View(options) => view::view(Some(options), cli),
         Command::Run(options) => run::run(options, cli),
         Command::Render(options) => render::render(options, cli),
+        Command::Gallery(options) => gallery::gallery(options, cli),
         Command::Check(options) => check::check(options, cli),
         Command::Bench(options) => bench::bench(options, cli),
         Command::Verify(options) => verify::verify(options, cli),
@@ -123,8 +125,8 @@ fn execute(cli: &Cli) -> Result<()> {
     }
 }
 
-/// Without a verb: the gallery, or the help where there is no window.
-fn gallery(cli: &Cli) -> Result<()> {
+/// Without a verb: the window, or the help where there is none.
+fn window(cli: &Cli) -> Result<()> {
     view::view(None, cli).inspect_err(|error| {
         if matches!(error, Error::Usage(_)) && !cli.json {
             eprintln!("{}", Cli::command().render_help());

@@ -28,6 +28,11 @@ use crate::{Error, Result};
 /// Everything that can go wrong; what was computed before is on the disk, and the report says what happened.
 pub(super) fn run(options: &RunOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
+    perform(options, cli, cli.json)
+}
+
+/// The same, with or without the report on standard output.
+pub(super) fn perform(options: &RunOptions, cli: &Cli, json: bool) -> Result<()> {
     let start = Instant::now();
     let scene = scenes::load(&options.scene, &overrides(options))?;
     let gpu = open_device(cli)?;
@@ -35,7 +40,7 @@ pub(super) fn run(options: &RunOptions, cli: &Cli) -> Result<()> {
     let folder = options.out.clone().unwrap_or_else(|| Path::new("out").join(scene::stem(&options.scene.scene)));
     let mut run = Run::prepare(options, scene, &gpu, &plan, folder, start)?;
     let outcome = run.frames();
-    run.finish(outcome, cli.json)
+    run.finish(outcome, json)
 }
 
 /// Options that are keys of the scene.
@@ -241,6 +246,7 @@ impl<'a> Run<'a> {
             frames: written.frames,
             wall_seconds: self.start.elapsed().as_secs_f64(),
             device: device(&self.gpu),
+            particles: self.plan.particles,
             memory: self.plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
             timings: timings.map(seconds).into(),
             totals: totals(&self.summary, &end),

@@ -2,6 +2,7 @@
 //!
 //! To add a format: one file here with its [`Exporter`], and one line in [`FORMATS`].
 
+pub mod apng;
 pub mod atomic;
 pub mod csv;
 pub mod exr;

@@ -39,6 +39,8 @@ pub struct Report<S> {
     pub wall_seconds: f64,
     /// The device.
     pub device: DeviceReport,
+    /// Particles at the start.
+    pub particles: u64,
     /// Bytes of device memory by use.
     pub memory: BTreeMap<String, u64>,
     /// Seconds by activity or stage.

@@ -296,11 +296,26 @@ impl Check<'_> {
             self.add("expect.density_l1", "this scene has no exact solution", help);
         }
         let closed = self.scene.boundary.closed(self.scene.domain.dimension);
-        if !closed && (expect.gas_mass_drift.is_some() || expect.energy_drift.is_some()) {
-            let key = if expect.gas_mass_drift.is_some() { "gas_mass_drift" } else { "energy_drift" };
+        let drifts = [
+            ("gas_mass_drift", expect.gas_mass_drift.is_some()),
+            ("energy_drift", expect.energy_drift.is_some()),
+            ("energy_change", expect.energy_change.is_some()),
+        ];
+        if let Some((key, _)) = drifts.into_iter().find(|(_, given)| !closed && *given) {
             self.add(format!("expect.{key}"), "the domain is open", "remove the key, or make every side a \"wall\"");
         }
         self.expected_bodies();
+        self.expected_probes();
+    }
+
+    fn expected_probes(&mut self) {
+        for (index, expected) in self.scene.expect.probes.iter().enumerate() {
+            let given = expected.ranges().into_iter().filter_map(|(key, range)| Some((key, range?)));
+            for (key, [low, high]) in given.filter(|(_, [low, high])| low > high) {
+                let path = format!("expect.probes[{index}].{key}");
+                self.add(path, format!("[{low}, {high}] is empty"), "give the lower value first");
+            }
+        }
     }
 
     fn expected_bodies(&mut self) {

@@ -16,9 +16,15 @@ pub struct Expect {
     /// Largest relative change of the energy of gas and solids together; for closed domains.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_drift: Option<f64>,
+    /// Lowest and highest value allowed for that change with its sign; for closed domains.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_change: Option<[f64; 2]>,
     /// Largest speed of gas or particles, in units of the ambient speed of sound; for scenes at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_speed: Option<f64>,
+    /// Lowest and highest value allowed for the largest speed of the run, in units of the ambient speed of sound.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_speed: Option<[f64; 2]>,
     /// Largest L1 error of the density against the exact Riemann solution along x `[kg m^-2]`, in 1D.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_l1: Option<f64>,
@@ -156,12 +162,31 @@ pub struct ExpectedOrder {
     pub bodies: Vec<String>,
 }
 
-/// What a probe must have seen.
+/// What a probe must have seen in gas. Ranges are the lowest and the highest value allowed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedProbe {
     /// Name of the probe.
     pub probe: String,
-    /// Lowest and highest value allowed for the largest pressure `[Pa]`.
-    pub pressure: [f64; 2],
+    /// Largest pressure `[Pa]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<[f64; 2]>,
+    /// Pressure at the end of the run `[Pa]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure_at_end: Option<[f64; 2]>,
+    /// When the pressure first differs from that at the start by more than a twentieth `[s]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arrival: Option<[f64; 2]>,
+    /// From then until a body covers the probe `[s]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lead: Option<[f64; 2]>,
+}
+
+impl ExpectedProbe {
+    /// Its keys with their ranges.
+    #[must_use]
+    pub fn ranges(&self) -> [(&'static str, Option<[f64; 2]>); 4] {
+        let at_end = ("pressure_at_end", self.pressure_at_end);
+        [("pressure", self.pressure), at_end, ("arrival", self.arrival), ("lead", self.lead)]
+    }
 }

@@ -1,5 +1,7 @@
 //! From shapes to cells.
 
+use rayon::prelude::*;
+
 use super::{GasState, Scene};
 
 /// Sub-samples per axis in cells that the surface of a region crosses.
@@ -86,17 +88,10 @@ impl Scene {
     }
 
     /// One value per cell from its centre, x fastest.
-    fn each_cell<T>(&self, mut value: impl FnMut([f64; 3]) -> T) -> Vec<T> {
-        let [nx, ny, nz] = self.domain.cells;
-        let mut values = Vec::with_capacity(self.domain.cell_count());
-        for z in 0..nz {
-            for y in 0..ny {
-                for x in 0..nx {
-                    values.push(value(self.domain.cell_center([x, y, z])));
-                }
-            }
-        }
-        values
+    fn each_cell<T: Send>(&self, value: impl Fn([f64; 3]) -> T + Sync) -> Vec<T> {
+        let [nx, ny, _] = self.domain.cells.map(|n| n as usize);
+        let at = |cell: usize| [cell % nx, cell / nx % ny, cell / (nx * ny)].map(|n| n as u32);
+        (0..self.domain.cell_count()).into_par_iter().map(|cell| value(self.domain.cell_center(at(cell)))).collect()
     }
 
     /// Initial state at a point.

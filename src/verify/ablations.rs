@@ -173,7 +173,7 @@ fn quiet_shell(session: &mut Session<'_>) -> Result<()> {
         all.push(format!("materials.rubber.neo_hookean.young_modulus={young:?}"));
         // about as many elastic sub-steps for both
         all.push(format!("time.until={}", if young > 1e3 || session.suite == Suite::Quick { 1.5 } else { 6.0 }));
-        let run = session.run("coupled/shell_at_rest.toml", Setting::standard(32), &all)?;
+        let run = session.run("paper/fig13_ghost_update.toml", Setting::standard(32), &all)?;
         let name = format!("{}, E {young}", keys.join(" "));
         let row = session.check(&run, &format!("largest speed of the gas, {name}"), run.summary.max_speed);
         row.reference(0.0, "exact").pass(Limit::AtMost(1e-3));
@@ -199,7 +199,7 @@ fn blasted_ellipse(session: &mut Session<'_>) -> Result<()> {
     for keys in forms {
         let mut all = numerics(keys);
         all.push(format!("time.until={until}"));
-        let run = session.run("paper/blasted_ellipse.toml", Setting::standard(cells), &all)?;
+        let run = session.run("paper/fig14_ordering.toml", Setting::standard(cells), &all)?;
         let name = keys.join(" ");
         let [low, high] = ghost_range(&run);
         session.check(&run, &format!("lowest ghost pressure at the end, {name}"), low);
@@ -237,7 +237,7 @@ fn supernova(session: &mut Session<'_>) -> Result<()> {
     for blending in ["true", "false"] {
         let all = numerics(&[&format!("blending={blending}")]);
         let cells = if session.suite == Suite::Quick { 40 } else { 80 };
-        let run = session.run("paper/supernova_2d.toml", Setting::standard(cells), &all)?;
+        let run = session.run("paper/fig08_supernova_2d.toml", Setting::standard(cells), &all)?;
         let bodies = run.snapshot.bodies(run.scene.bodies.len());
         let floored: u32 = run.records.iter().map(|record| record.floored).sum();
         let of = |text: &str| format!("{text}, blending {blending}");

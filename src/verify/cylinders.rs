@@ -50,7 +50,7 @@ fn lifting(session: &mut Session<'_>) -> Result<()> {
     let mut plot = Plot::new("Lifting cylinder: path of the centre", "x", "y").with(CUT_CELLS, Style::Reference, exact);
     for (cells, height) in HEIGHTS.iter().take(count) {
         let times = PATH.iter().map(|station| station[0]);
-        let journey = session.follow("paper/lifting_cylinder.toml", Setting::standard(*cells), &[], times)?;
+        let journey = session.follow("paper/fig17_lifting_cylinder.toml", Setting::standard(*cells), &[], times)?;
         let path = journey.path(0);
         let [x, y, _] = path[PATH.len()].1.centroid;
         report_lift(session, &journey, [x, y], *height);

@@ -26,7 +26,7 @@ pub struct Head {
 }
 
 /// Looks of the page, also on paper.
-const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;color:#111;background:#fff;max-width:78rem;margin:2rem auto;padding:0 1rem}\
+pub(crate) const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;color:#111;background:#fff;max-width:78rem;margin:2rem auto;padding:0 1rem}\
 h1{font-size:1.6rem}h2{margin-top:2.2rem;border-bottom:1px solid #999}h3{margin-bottom:.2rem}\
 table{border-collapse:collapse;width:100%;font-size:.8rem;margin:.6rem 0}th,td{border-bottom:1px solid #ddd;padding:.15rem .5rem;\
 text-align:left;vertical-align:top}th{background:#f2f2f2}.good{color:#00591f;font-weight:600}.pass{color:#00591f}\

@@ -25,7 +25,7 @@ pub(super) const CASES: &[Case] = &[
         group: GROUP,
         quick: true,
         source: "Exact: a uniform state stays; Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Fig. 13.",
-        run: |session| rest(session, "coupled/shell_at_rest.toml", [2.0, 26.4]),
+        run: |session| rest(session, "paper/fig13_ghost_update.toml", [2.0, 26.4]),
     },
     Case {
         id: "translation",

@@ -53,7 +53,7 @@ fn circular(session: &mut Session<'_>) -> Result<()> {
         let (mut errors, mut deviations) = (Vec::new(), Vec::new());
         for &cells in cells {
             let setting = Setting { pair, integrator: Integrator::Predictor, cells };
-            let run = session.run("gas/circular_shock.toml", setting, &[])?;
+            let run = session.run("paper/fig16_convergence.toml", setting, &[])?;
             let radial = Arc::clone(reference.get_or_insert_with(|| Arc::new(muscl::solve_radial(&run.scene, FINE))));
             let [error, deviation] = density_errors(&run, &radial);
             let row = session.check(&run, "mean density error", error).source(RADIAL);

@@ -35,7 +35,7 @@ fn step(session: &mut Session<'_>) -> Result<()> {
         Suite::Full => vec![standard(Pair::B1b0, 120), standard(Pair::B1b0, 240), standard(Pair::B2b1, 240)],
     };
     for setting in settings {
-        let run = session.run("validation/forward_step.toml", setting, &[])?;
+        let run = session.run("paper/fig15_stair_flow.toml", setting, &[])?;
         report(session, &run);
         session.plot(along_tunnel(&run));
     }

@@ -47,7 +47,9 @@ mod tube_errors;
 mod tubes;
 mod waves;
 
+pub(crate) use document::STYLE;
 pub use document::{Head, html, json, markdown};
+pub(crate) use plot::escape;
 pub use plot::{Plot, Style};
 pub use profile::Profile;
 pub use row::{Limit, Row, Solver, Verdict, short};

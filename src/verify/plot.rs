@@ -197,7 +197,7 @@ fn draw_mark(svg: &mut String, [x, y]: [f64; 2], color: &str, kind: usize) {
 }
 
 /// Text for HTML and SVG.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

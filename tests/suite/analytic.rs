@@ -120,7 +120,7 @@ fn a_closed_box_keeps_mass_and_energy_for_long() {
 /// Gas in motion in a closed box: relative change of mass and energy.
 fn closed_box(until: f64) {
     let Some(gpu) = gpu_or_skip() else { return };
-    let mut scene = load("gas/circular_shock.toml", &[]).with_resolution(24).unwrap();
+    let mut scene = load("paper/fig16_convergence.toml", &[]).with_resolution(24).unwrap();
     scene.gas.regions[0].shape = disc_off_centre();
     scene.time.fixed_step = Some(0.01);
     let mut simulation = Simulation::new(&gpu, &scene).unwrap();
@@ -178,7 +178,7 @@ fn one_two_and_three_dimensions_agree_along_every_axis() {
 #[test]
 fn a_circular_shock_stays_symmetric() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let scene = load("gas/circular_shock.toml", &[]).with_resolution(48).unwrap();
+    let scene = load("paper/fig16_convergence.toml", &[]).with_resolution(48).unwrap();
     let mut simulation = Simulation::new(&gpu, &scene).unwrap();
     simulation.advance_to(0.25).unwrap();
     let density = simulation.snapshot().unwrap().density;
@@ -211,7 +211,7 @@ fn noise_at_rest(gpu: &Gpu, path: &str, cells: u32, steps: u32) -> [f64; 2] {
 #[test]
 fn bodies_at_rest_stay_at_rest() {
     let Some(gpu) = gpu_or_skip() else { return };
-    for (path, cells) in [("coupled/slab_at_rest.toml", 50), ("coupled/shell_at_rest.toml", 40)] {
+    for (path, cells) in [("coupled/slab_at_rest.toml", 50), ("paper/fig13_ghost_update.toml", 40)] {
         let [solid, gas] = noise_at_rest(&gpu, path, cells, 40);
         eprintln!("{path}: particles {solid:.1e}, gas {gas:.1e} of the speed of sound");
         assert!(solid < 1e-4 && gas < 1e-4, "{path}: {solid:e}, {gas:e}");

@@ -65,7 +65,7 @@ pub(crate) fn report(folder: &Path) -> serde_json::Value {
 #[test]
 fn help_and_usage() {
     let help = succeeds(&["--help"]);
-    for verb in ["run", "render", "check", "bench", "verify", "devices", "list", "schema"] {
+    for verb in ["run", "render", "gallery", "check", "bench", "verify", "devices", "list", "schema"] {
         assert!(help.contains(&format!("\n  {verb} ")), "{help}");
     }
     assert!(succeeds(&["--version"]).starts_with("brisance "));
@@ -144,7 +144,7 @@ fn check_draws_the_start_and_names_overlaps() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("start.png");
     let overlap = "bodies[2].shape={ sphere = { center = [1.0, 0.4], radius = 0.1 } }";
-    let arguments = ["check", "supernova_2d", "--set", overlap, "--picture", picture.to_str().unwrap()];
+    let arguments = ["check", "fig08_supernova_2d", "--set", overlap, "--picture", picture.to_str().unwrap()];
     let output = run(&arguments);
     assert!(
         out(&output).contains("# overlap    `outer` gives ") && out(&output).contains("to `middle`"),
@@ -208,7 +208,7 @@ fn too_large_scenes_are_refused_before_allocation() {
 #[test]
 fn the_memory_plan_is_what_is_allocated() {
     for (name, cells, per_cell) in
-        [("sod", 400, 148.0), ("circular_shock", 96, 158.0), ("bursting_shell_3d", 36, 190.0)]
+        [("sod", 400, 148.0), ("fig16_convergence", 96, 158.0), ("bursting_shell_3d", 36, 190.0)]
     {
         let Some(gpu) = gpu_or_skip() else { return };
         let shipped = succeeds(&["list", "--json"]);

@@ -8,6 +8,7 @@ mod cut;
 mod determinism;
 mod export;
 mod frames;
+mod gallery;
 mod gpu;
 mod images;
 mod kernels;

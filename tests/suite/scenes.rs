@@ -36,7 +36,8 @@ scenes! {
     strong_shock_tube: "gas/strong_shock_tube.toml";
     rarefactions: "gas/rarefactions.toml";
     blast: "gas/blast.toml";
-    circular_shock: "gas/circular_shock.toml";
+    circular_shock: "paper/fig16_convergence.toml", "variant=small", "variant=b1b0";
+    circular_shock_b2b1: "paper/fig16_convergence.toml", "variant=small", "variant=b2b1";
     modified_sod: "validation/modified_sod.toml";
     stationary_contact: "validation/stationary_contact.toml";
     shu_osher: "validation/shu_osher.toml";
@@ -47,7 +48,7 @@ scenes! {
     density_wave: "validation/density_wave.toml";
     sedov_cylindrical: "validation/sedov_cylindrical.toml";
     spherical_explosion: "validation/spherical_explosion.toml", "domain.cells=[16, 16, 16]", "expect.peak_density=[0.6, 1.02]";
-    forward_step: "validation/forward_step.toml", "domain.cells=[60, 20]", "time.until=1.0", "expect.peak_density=[5.0, 7.4]";
+    forward_step: "paper/fig15_stair_flow.toml", "domain.cells=[60, 20]", "time.until=1.0", "expect.peak_density=[5.0, 7.4]", "expect.probes=[]";
     wedge: "validation/wedge.toml", "domain.cells=[50, 30]";
     wedge_at_mach_2: "validation/wedge_mach2.toml", "domain.cells=[50, 40]";
     compression_corner: "validation/compression_corner.toml", "domain.cells=[50, 20]";
@@ -61,8 +62,8 @@ scenes! {
     hydrostatic_column: "validation/hydrostatic_column.toml", "time.until=20.0";
     hot_bubble: "validation/hot_bubble.toml", "domain.cells=[20, 40]", "time.until=20.0";
     kelvin_helmholtz: "gas/kelvin_helmholtz.toml", "domain.cells=[48, 48]", "time.until=0.5";
-    mach_diamond_of_the_paper: "paper/mach_diamond.toml", "domain.cells=[48, 48]", "time.until=0.5";
-    lifting_cylinder: "paper/lifting_cylinder.toml", "domain.cells=[50, 10]", "time.until=0.05", "expect.bodies=[]";
+    mach_diamond_of_the_paper: "paper/fig18_mach_diamond_2d.toml", "domain.cells=[48, 48]", "time.until=0.5", "expect.probes=[]";
+    lifting_cylinder: "paper/fig17_lifting_cylinder.toml", "domain.cells=[50, 10]", "time.until=0.05", "expect.bodies=[]";
     free_plate: "validation/free_plate.toml", "domain.cells=[205]";
     plate_in_tube: "validation/plate_in_tube.toml", "domain.cells=[155]";
     acoustic_plate: "validation/acoustic_plate.toml", "domain.cells=[180]";
@@ -86,8 +87,12 @@ scenes! {
     vibrating_bar: "validation/vibrating_bar.toml", "time.until=10.0";
     cantilever: "validation/cantilever.toml", "domain.cells=[40, 12]", "time.until=2.0";
     shocked_panel: "validation/shocked_panel.toml", "domain.cells=[300, 68]", "time.until=1e-6";
-    blasted_ellipse: "paper/blasted_ellipse.toml", "domain.cells=[32, 32]";
-    supernova_2d: "paper/supernova_2d.toml", "domain.cells=[40, 16]";
+    blasted_ellipse: "paper/fig14_ordering.toml", "domain.cells=[32, 32]";
+    #[ignore = "TIME14A"]
+    blasted_ellipse_coupling_first: "paper/fig14_ordering.toml", "variant=small", "variant=coupling_first";
+    #[ignore = "TIME14B"]
+    blasted_ellipse_elasticity_first: "paper/fig14_ordering.toml", "variant=small", "variant=coupling_last";
+    supernova_2d: "paper/fig08_supernova_2d.toml", "domain.cells=[40, 16]";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     car_over_a_mine: "paper/fig01_car_landmine.toml", "variant=small";
     #[ignore = "minutes on a software device; not yet seen to pass"]
@@ -118,9 +123,37 @@ scenes! {
     koalas_above_jets: "paper/fig19_koalas.toml", "variant=small";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";
-    shell_at_rest: "coupled/shell_at_rest.toml";
-    #[ignore = "minutes on a software device"]
-    bursting_shell_2d: "coupled/bursting_shell_2d.toml";
+    shell_at_rest: "paper/fig13_ghost_update.toml";
+    #[ignore = "TIME13A"]
+    shell_at_rest_by_forces: "paper/fig13_ghost_update.toml", "variant=small", "variant=forces";
+    #[ignore = "TIME13B"]
+    shell_at_rest_by_gradients: "paper/fig13_ghost_update.toml", "variant=small", "variant=gradients";
+    #[ignore = "TIME03"]
+    bursting_shell_2d: "paper/fig03_elastic_shell_2d.toml", "variant=small";
+    #[ignore = "TIME05A"]
+    heavy_bullet: "paper/fig05_bullets_2d.toml", "variant=small", "variant=heavy";
+    #[ignore = "TIME05B"]
+    light_bullet: "paper/fig05_bullets_2d.toml", "variant=small", "variant=light";
+    #[ignore = "TIME05C"]
+    light_bullet_with_silencer: "paper/fig05_bullets_2d.toml", "variant=small", "variant=light_silencer";
+    #[ignore = "TIME15"]
+    forward_step_to_its_end: "paper/fig15_stair_flow.toml", "variant=small";
+    #[ignore = "TIME17"]
+    lifting_cylinder_to_its_end: "paper/fig17_lifting_cylinder.toml", "variant=small";
+    #[ignore = "TIME18"]
+    mach_diamond_to_its_end: "paper/fig18_mach_diamond_2d.toml", "variant=small";
+    #[ignore = "TIMEGL"]
+    glass_front: "demos/glass_front_2d.toml";
+    #[ignore = "TIMESB"]
+    sonic_boom: "demos/sonic_boom_2d.toml";
+    #[ignore = "TIMESC"]
+    shaped_cavity: "demos/shaped_cavity_2d.toml";
+    #[ignore = "TIMEBD"]
+    bursting_diaphragm: "demos/bursting_diaphragm_2d.toml";
+    #[ignore = "TIMEME"]
+    meteor: "demos/meteor_3d.toml";
+    #[ignore = "TIMEPL"]
+    playground: "demos/playground_2d.toml";
     #[ignore = "minutes on a software device"]
     bursting_shell_3d: "demos/bursting_shell_3d.toml";
     gelatine_3d: "demos/gelatine_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";

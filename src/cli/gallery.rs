@@ -1,0 +1,179 @@
+//! `gallery`: scenes one after another, and one page that shows them all.
+
+mod page;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::time::Instant;
+
+use serde_json::{Value, json};
+
+use super::args::{Cli, GalleryOptions, RunOptions, Scale, SceneOptions};
+use super::interrupt::{self, Wish};
+use super::progress::clock;
+use super::run;
+use crate::export::atomic;
+use crate::scene::{self, Scene};
+use crate::{Error, Result};
+
+/// The variant that every large scene has for devices without a GPU.
+const SMALL: &str = "small";
+/// Folders of the scenes that are shown when nobody asks for others.
+const SHOWN: [&str; 2] = ["paper", "demos"];
+
+/// A scene in one of its variants.
+#[derive(Debug)]
+struct Entry {
+    /// Scene as `run` takes it.
+    scene: String,
+    /// Variants, the scale first.
+    variants: Vec<String>,
+    /// Name of its folder, and on the page.
+    id: String,
+}
+
+/// What became of an entry.
+struct Shown {
+    entry: Entry,
+    /// The error, if there was one.
+    error: Option<String>,
+    /// Wall time \[s\].
+    seconds: f64,
+    /// `report.json` of the run; null if it did not get so far.
+    report: Value,
+}
+
+/// Runs the scenes and writes the page, whatever becomes of them.
+///
+/// # Errors
+/// [`Error::Expectation`] if a scene failed, after all have run; [`Error::Usage`] for unknown names; [`Error::Interrupted`].
+pub(super) fn gallery(options: &GalleryOptions, cli: &Cli) -> Result<()> {
+    let entries = entries(options)?;
+    interrupt::listen();
+    let start = Instant::now();
+    let count = entries.len();
+    let mut shown = Vec::new();
+    for (index, entry) in entries.into_iter().enumerate() {
+        if interrupt::wish() >= Wish::AfterFrame {
+            break;
+        }
+        eprintln!("[{}/{count}] {}", index + 1, entry.id);
+        let one = show(entry, options, cli);
+        eprintln!("[{}/{count}] {}: {}", index + 1, one.entry.id, one.error.as_deref().unwrap_or("done"));
+        shown.push(one);
+        // after every scene, so that a long gallery can be looked at while it grows
+        write(&options.out, &shown, start, cli)?;
+    }
+    let seconds = start.elapsed();
+    let object = json!({ "scale": options.scale.name(), "seconds": seconds.as_secs_f64(),
+                         "scenes": shown.iter().map(Shown::json).collect::<Vec<_>>() });
+    if cli.json {
+        say!("{object}");
+    } else {
+        say!("{} scenes in {}: {}", shown.len(), clock(seconds), options.out.join("gallery.html").display());
+    }
+    if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { verdict(&shown, &options.out) }
+}
+
+/// What to run, in the order of the names.
+fn entries(options: &GalleryOptions) -> Result<Vec<Entry>> {
+    let names: Vec<String> =
+        if options.names.is_empty() { SHOWN.map(str::to_owned).into() } else { options.names.clone() };
+    let mut found = Vec::new();
+    for name in &names {
+        let below = format!("{}/", name.trim_start_matches("scenes/").trim_end_matches('/'));
+        let folder: Vec<_> = scene::shipped().into_iter().filter(|scene| scene.path.starts_with(&below)).collect();
+        for scene in &folder {
+            found.extend(variants_of(&scene.path, None, options.scale)?);
+        }
+        if folder.is_empty() {
+            let (scene, variant) = name.rsplit_once(':').map_or((name.as_str(), None), |(a, b)| (a, Some(b)));
+            found.extend(variants_of(scene, variant, options.scale)?);
+        }
+    }
+    Ok(found)
+}
+
+/// One entry for each variant of a scene beside its small size, or for the scene itself.
+fn variants_of(scene: &str, wanted: Option<&str>, scale: Scale) -> Result<Vec<Entry>> {
+    let read = Scene::find(scene, &[])?;
+    let size = (scale == Scale::Small && read.variants.contains_key(SMALL)).then(|| SMALL.to_owned());
+    let known: Vec<&str> = read.variants.keys().map(String::as_str).filter(|name| *name != SMALL).collect();
+    let chosen: Vec<Option<&str>> = match wanted {
+        Some(name) if known.contains(&name) => vec![Some(name)],
+        Some(name) => {
+            let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+            return Err(Error::Usage(format!("no variant `{name}` of `{scene}`; there are: {known}")));
+        }
+        None if known.is_empty() => vec![None],
+        None => known.into_iter().map(Some).collect(),
+    };
+    let stem = scene::stem(scene);
+    let entry = |variant: Option<&str>| Entry {
+        scene: scene.to_owned(),
+        variants: size.clone().into_iter().chain(variant.map(str::to_owned)).collect(),
+        id: variant.map_or_else(|| stem.clone(), |variant| format!("{stem}-{variant}")),
+    };
+    Ok(chosen.into_iter().map(entry).collect())
+}
+
+/// Runs one entry on a device of its own, so that a device that is lost takes no other scene with it.
+fn show(entry: Entry, options: &GalleryOptions, cli: &Cli) -> Shown {
+    let start = Instant::now();
+    let folder = options.out.join(&entry.id);
+    let scene = SceneOptions {
+        scene: entry.scene.clone(),
+        variant: entry.variants.clone(),
+        set: Vec::new(),
+        allow_outside: false,
+        resolution: None,
+    };
+    let quiet = cli.json || options.quiet;
+    let run = RunOptions { scene, out: Some(folder.clone()), quiet, ..RunOptions::default() };
+    // what an earlier gallery left must not stand for a run that does not get so far
+    let _ = std::fs::remove_file(folder.join("report.json"));
+    let outcome = catch_unwind(AssertUnwindSafe(|| run::perform(&run, cli, false)));
+    let error = match outcome {
+        Ok(Ok(())) => None,
+        Ok(Err(error)) => Some(error.to_string()),
+        Err(_) => Some("a bug of ours, said above".to_owned()),
+    };
+    let report = std::fs::read_to_string(folder.join("report.json")).ok();
+    let report = report.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
+    Shown { entry, error, seconds: start.elapsed().as_secs_f64(), report }
+}
+
+impl Shown {
+    fn json(&self) -> Value {
+        json!({ "id": self.entry.id, "scene": self.entry.scene, "variants": self.entry.variants,
+                "passed": self.error.is_none(), "error": self.error, "seconds": self.seconds })
+    }
+
+    /// The command that does the same.
+    fn command(&self) -> String {
+        let name = self.entry.scene.trim_end_matches(".toml");
+        let variants = self.entry.variants.iter().map(|variant| format!(" --variant {variant}"));
+        format!("brisance run {name}{}", variants.collect::<String>())
+    }
+}
+
+fn write(out: &Path, shown: &[Shown], start: Instant, cli: &Cli) -> Result<()> {
+    let page = page::html(out, shown, start.elapsed(), cli);
+    atomic::write(&out.join("gallery.html"), |file| file.write_all(page.as_bytes()))
+}
+
+/// The error of a gallery with scenes that failed.
+fn verdict(shown: &[Shown], out: &Path) -> Result<()> {
+    let failed: Vec<&str> = shown.iter().filter(|one| one.error.is_some()).map(|one| one.entry.id.as_str()).collect();
+    if failed.is_empty() {
+        return Ok(());
+    }
+    let page = out.join("gallery.html");
+    Err(Error::Expectation(format!(
+        "{} of {} scenes failed: {}; see {}",
+        failed.len(),
+        shown.len(),
+        failed.join(", "),
+        page.display()
+    )))
+}

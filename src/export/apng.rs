@@ -1,0 +1,99 @@
+//! A run of pictures as one moving picture: APNG, which every browser shows.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use ::png::{BitDepth, ColorType, Compression, Decoder, Encoder, Transformations};
+
+use crate::render::Frame;
+use crate::{Error, Result};
+
+/// Reads a picture that [`super::png::write`] has written.
+///
+/// # Errors
+/// [`Error::Io`] if there is none.
+pub fn read(path: &Path) -> Result<Frame> {
+    let wrong = |error: ::png::DecodingError| Error::io(path, std::io::Error::other(error));
+    let file = File::open(path).map_err(|source| Error::io(path, source))?;
+    let mut decoder = Decoder::new(BufReader::new(file));
+    decoder.set_transformations(Transformations::ALPHA | Transformations::STRIP_16);
+    let mut reader = decoder.read_info().map_err(wrong)?;
+    let mut rgba = vec![0; reader.output_buffer_size().unwrap_or(0)];
+    let info = reader.next_frame(&mut rgba).map_err(wrong)?;
+    rgba.truncate(info.buffer_size());
+    Ok(Frame { width: info.width, height: info.height, rgba })
+}
+
+/// The pictures in these files, at most `width` pixels wide, `delay` milliseconds each, over and over.
+///
+/// # Errors
+/// [`Error::Io`] if a picture cannot be read or differs in size from the first.
+pub fn moving(files: &[PathBuf], width: u32, delay: u16) -> Result<Vec<u8>> {
+    let Some(path) = files.first() else { return Ok(Vec::new()) };
+    let wrong = |error: ::png::EncodingError| Error::io(path, std::io::Error::other(error));
+    let first = shrunk(&read(path)?, width);
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, first.width, first.height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::High);
+    encoder.set_animated(u32::try_from(files.len()).unwrap_or(u32::MAX), 0).map_err(wrong)?;
+    encoder.set_frame_delay(delay, 1000).map_err(wrong)?;
+    let mut writer = encoder.write_header().map_err(wrong)?;
+    for file in files {
+        let frame = shrunk(&read(file)?, width);
+        let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        writer.write_image_data(&rgb).map_err(wrong)?;
+    }
+    writer.finish().map_err(wrong)?;
+    Ok(bytes)
+}
+
+/// A picture of at most `width` pixels per row; each of its pixels is the mean of a block.
+#[must_use]
+pub fn shrunk(frame: &Frame, width: u32) -> Frame {
+    let block = frame.width.div_ceil(width.max(1)).max(1);
+    let (wide, high) = ((frame.width / block).max(1), (frame.height / block).max(1));
+    let mut rgba = Vec::with_capacity(4 * (wide * high) as usize);
+    for y in 0..high {
+        for x in 0..wide {
+            let mut sum = [0u32; 4];
+            for (row, column) in (0..block).flat_map(|row| (0..block).map(move |column| (row, column))) {
+                let at = 4 * ((y * block + row) * frame.width + x * block + column) as usize;
+                for (total, channel) in sum.iter_mut().zip(&frame.rgba[at..at + 4]) {
+                    *total += u32::from(*channel);
+                }
+            }
+            rgba.extend(sum.map(|total| (total / (block * block)) as u8));
+        }
+    }
+    Frame { width: wide, height: high, rgba }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::png;
+
+    #[test]
+    fn pictures_move_and_shrink() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let files: Vec<PathBuf> = (0..3).map(|k| folder.path().join(format!("{k}.png"))).collect();
+        for (shade, file) in [10, 20, 250].into_iter().zip(&files) {
+            png::write(file, &Frame::filled(10, 6, [shade, 0, 255 - shade]), &[]).unwrap_or_else(|e| panic!("{e}"));
+        }
+        let bytes = moving(&files, 5, 80).unwrap_or_else(|error| panic!("{error}"));
+        let mut reader = Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap_or_else(|e| panic!("{e}"));
+        let info = reader.info();
+        assert_eq!((info.width, info.height), (5, 3));
+        assert_eq!(info.animation_control.map(|control| (control.num_frames, control.num_plays)), Some((3, 0)));
+        let mut pixels = vec![0; 45];
+        let shades = [10, 20, 250].map(|_| {
+            reader.next_frame(&mut pixels).unwrap_or_else(|error| panic!("{error}"));
+            pixels[0]
+        });
+        assert_eq!(shades, [10, 20, 250]);
+        assert!(moving(&[folder.path().join("none.png")], 5, 80).is_err());
+    }
+}

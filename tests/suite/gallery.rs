@@ -1,0 +1,86 @@
+//! `brisance gallery`: scenes one after another, one page, and scenes that fail.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::common::gpu_or_skip;
+
+/// A tube of eight cells with a variant that does not do what it promises, and two that differ in the density.
+const SCENE: &str = r#"
+title = "Tube & test"
+description = "Eight cells."
+[domain]
+dimension = 1
+cells = [8]
+size = [1.0]
+[gas]
+ambient = { density = 1.0, pressure = 1.0 }
+[time]
+until = 0.1
+frames = 2
+[render]
+size = [64, 48]
+[expect]
+min_pressure = 0.5
+[variants.small]
+domain.cells = [4]
+[variants.dense]
+gas.ambient.density = 2.0
+[variants.wrong]
+expect.min_pressure = 2.0
+"#;
+
+fn gallery(folder: &Path, names: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brisance"));
+    command.arg("gallery").args(names).args(["--out", "shown"]).current_dir(folder).output().unwrap()
+}
+
+#[test]
+fn a_gallery_shows_every_variant_and_says_which_failed() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("tube.toml"), SCENE).unwrap();
+    // the one that fails comes first: the other runs all the same
+    let output = gallery(folder.path(), &["tube.toml:wrong", "tube.toml:dense", "--json"]);
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(8), "{text}");
+    assert!(text.contains("1 of 2 scenes failed: tube-wrong"), "{text}");
+    let first = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned();
+    let object: serde_json::Value = serde_json::from_str(&first).unwrap_or_else(|error| panic!("{error}: {first}"));
+    let passed: Vec<_> = object["scenes"].as_array().unwrap().iter().map(|scene| &scene["passed"]).collect();
+    assert_eq!(passed, [false, true]);
+    assert_eq!(object["scenes"][1]["variants"], serde_json::json!(["small", "dense"]));
+
+    let page = std::fs::read_to_string(folder.path().join("shown/gallery.html")).unwrap();
+    for part in ["Tube &amp; test", "tube-wrong", "tube-dense", "min_pressure", "above 2", "density 2", "<td>4</td>"] {
+        assert!(page.contains(part), "no `{part}` in the page");
+    }
+    // nothing outside of the file: every picture is inside, and there is no other reference
+    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 4);
+    assert_eq!(page.matches("src=").count(), 4);
+    assert_eq!(page.matches("class=\"fail\"").count(), 3, "overview, error, check");
+    assert!(!page.contains("http") && !page.contains("<script") && !page.contains("url("));
+}
+
+#[test]
+fn a_gallery_takes_scenes_at_full_size_and_knows_its_names() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("tube.toml"), SCENE.replace("[variants.wrong]\nexpect.min_pressure = 2.0\n", ""))
+        .unwrap();
+    let output = gallery(folder.path(), &["tube.toml", "--scale", "full", "-q"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = std::fs::read_to_string(folder.path().join("shown/tube-dense/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["scene"]["domain"]["cells"][0], 8);
+
+    for (name, part) in [("tube.toml:thick", "dense"), ("nowhere", "no shipped scene")] {
+        let output = gallery(folder.path(), &[name]);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(matches!(output.status.code(), Some(2 | 3)) && text.contains(part), "{text}");
+    }
+}
