@@ -232,6 +232,12 @@ pub struct BenchOptions {
     /// Time every kernel instead of whole stages
     #[arg(long)]
     pub kernels: bool,
+    /// Compare with what `bench SCENE --json` printed into this file at an earlier time
+    #[arg(long, value_name = "FILE", conflicts_with = "sweep")]
+    pub compare: Option<PathBuf>,
+    /// Measure at several resolutions, cells along the longest axis, for example 32,64,128
+    #[arg(long, value_name = "CELLS", value_delimiter = ',', conflicts_with_all = ["resolution", "cells"])]
+    pub sweep: Vec<u32>,
 }
 
 impl BenchOptions {

@@ -1,15 +1,18 @@
-//! `bench`: how long the stages of a step take, and how many bytes they move.
+//! `bench`: how long the stages of a step take, how many bytes they move, and how fast that is beside a kernel that only copies.
 
+mod table;
+
+use std::path::Path;
 use std::time::Instant;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::args::{BenchOptions, Cli};
-use super::check::size;
 use super::{interrupt, open_device, scenes};
 use crate::diagnostics::StepRecord;
-use crate::expect::Summary;
-use crate::gpu::Detail;
+use crate::expect::{Budget, Summary};
+use crate::gpu::{Detail, Gpu};
+use crate::numerics::copy_bandwidth;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::stage::traffic::{self, Load};
@@ -20,8 +23,11 @@ use crate::{Error, Result};
 /// Time to run towards: far behind the end of any measurement \[s\].
 const NEVER: f64 = 1e30;
 
+/// Gas that a measured run may lose or gain, relative to all gas.
+const MASS_DRIFT: f64 = 1e-5;
+
 /// One line of the table.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct StageRow {
     stage: String,
     /// Per step.
@@ -32,12 +38,14 @@ struct StageRow {
     bytes: f64,
     /// Bytes over time \[GB/s\].
     gigabytes_per_second: f64,
+    /// The same over what a kernel that only copies reaches.
+    share_of_copy: f64,
 }
 
 /// Result of a measurement.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Measurement {
-    version: &'static str,
+    version: String,
     scene: String,
     device: String,
     software: bool,
@@ -55,27 +63,68 @@ struct Measurement {
     bytes_allocated: u64,
     bytes_per_cell_planned: f64,
     bytes_per_particle_planned: f64,
+    /// Bytes read and written by a kernel that only copies \[GB/s\].
+    copy_gigabytes_per_second: f64,
+    /// Gas lost or gained over all gas, with what crossed the sides.
+    mass_drift: f64,
     stages: Vec<StageRow>,
 }
 
-/// Measures a scene: warm-up, then steps as `run` makes them for the totals, then as many with a stopwatch for the table.
+/// Measures a scene, at one size or at several, and prints tables or JSON.
 ///
 /// # Errors
-/// Those of a run.
+/// Those of a run; a result that is not finite or lost mass; a file to compare with that is none.
 pub(super) fn bench(options: &BenchOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
-    let scene = load(options)?;
+    let before = options.compare.as_deref().map(earlier).transpose()?;
     let gpu = open_device(cli)?;
-    let plan = MemoryPlan::fitting(&scene, &gpu)?;
-    let mut simulation = Simulation::new(&gpu, &scene)?;
+    let copy = copy_bandwidth(&gpu)?;
+    if options.sweep.is_empty() {
+        let measured = measure(&load(options)?, &gpu, copy, options)?;
+        return show(cli, &measured, |m| table::print(m, before.as_ref()));
+    }
+    let mut sizes = Vec::new();
+    for cells in &options.sweep {
+        let scene = scenes::load(&options.scene, &[])?.with_resolution(*cells)?;
+        sizes.push(measure(&scene, &gpu, copy, options)?);
+    }
+    show(cli, &sizes, |sizes| table::print_sizes(sizes))
+}
+
+/// JSON for programs, text for people.
+fn show<T: Serialize>(cli: &Cli, result: &T, print: impl Fn(&T)) -> Result<()> {
+    if cli.json {
+        say!("{}", serde_json::to_string(result).unwrap_or_default());
+    } else {
+        print(result);
+    }
+    Ok(())
+}
+
+/// What `--json` printed at an earlier time.
+fn earlier(path: &Path) -> Result<Measurement> {
+    let text = std::fs::read_to_string(path).map_err(|error| Error::io(path, error))?;
+    serde_json::from_str(&text).map_err(|error| {
+        let name = path.display();
+        Error::Usage(format!("{name} is no measurement of `brisance bench SCENE --json`: {error}"))
+    })
+}
+
+/// Warm-up, then steps as `run` makes them for the totals, then as many with a stopwatch for the table.
+fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Result<Measurement> {
+    let plan = MemoryPlan::fitting(scene, gpu)?;
+    let mut simulation = Simulation::new(gpu, scene)?;
     simulation.set_target(NEVER)?;
     run_steps(&mut simulation, options.warmup)?;
     gpu.wait(None)?;
+    let mass = Budget::read(&simulation, scene, 0.0)?.gas_mass_with_crossed;
     let start = Instant::now();
     let whole = summary(&run_steps(&mut simulation, options.steps)?);
     let seconds = start.elapsed().as_secs_f64();
     let (records, times) = timed_steps(&mut simulation, options.steps, options.detail())?;
     let timed = summary(&records);
+    let mass_drift = (Budget::read(&simulation, scene, 0.0)?.gas_mass_with_crossed / mass - 1.0).abs();
+    sound(mass_drift)?;
     let load = Load {
         slots: simulation.state.grid.slots() as u64,
         particles: plan.particles,
@@ -85,8 +134,8 @@ pub(super) fn bench(options: &BenchOptions, cli: &Cli) -> Result<()> {
         carrier: scene.consistent(),
     };
     let per_second = |count: u64| count as f64 * whole.steps as f64 / seconds;
-    let measurement = Measurement {
-        version: env!("CARGO_PKG_VERSION"),
+    Ok(Measurement {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
         scene: options.scene.scene.clone(),
         device: gpu.info.name.clone(),
         software: gpu.is_software(),
@@ -103,14 +152,21 @@ pub(super) fn bench(options: &BenchOptions, cli: &Cli) -> Result<()> {
         bytes_allocated: gpu.allocated_bytes(),
         bytes_per_cell_planned: plan.per_cell(),
         bytes_per_particle_planned: plan.per_particle(),
-        stages: rows(&times, &load),
-    };
-    if cli.json {
-        say!("{}", serde_json::to_string(&measurement).unwrap_or_default());
-    } else {
-        print(&measurement);
+        copy_gigabytes_per_second: copy,
+        mass_drift,
+        stages: rows(&times, &load, copy),
+    })
+}
+
+/// Fast and wrong is no result. What is not finite has stopped the run before.
+fn sound(mass_drift: f64) -> Result<()> {
+    if mass_drift <= MASS_DRIFT {
+        return Ok(());
     }
-    Ok(())
+    Err(Error::Expectation(format!(
+        "no score: the measured steps lost or gained {mass_drift:.1e} of the gas, allowed are {MASS_DRIFT:.0e}; `brisance run` of the scene has \
+         the books in diagnostics.csv"
+    )))
 }
 
 /// The scene at the size asked for.
@@ -174,7 +230,7 @@ fn stop_if_asked() -> Result<()> {
 }
 
 /// Times and bytes per step of each stage.
-fn rows(times: &[(String, f64)], load: &Load) -> Vec<StageRow> {
+fn rows(times: &[(String, f64)], load: &Load, copy: f64) -> Vec<StageRow> {
     let total: f64 = times.iter().map(|(_, time)| time).sum();
     let steps = load.steps as f64;
     let row = |(stage, time): &(String, f64)| {
@@ -185,34 +241,8 @@ fn rows(times: &[(String, f64)], load: &Load) -> Vec<StageRow> {
             share: time / total,
             bytes: bytes / steps,
             gigabytes_per_second: bytes / (1e6 * time),
+            share_of_copy: bytes / (1e6 * time * copy),
         }
     };
     times.iter().map(row).collect()
-}
-
-fn print(m: &Measurement) {
-    say!("{} on {}: {} cells, {} particles", m.scene, m.device, m.cells, m.particles);
-    let width = m.stages.iter().map(|row| row.stage.len()).max().unwrap_or(0).max(24);
-    if m.stages.is_empty() {
-        say!("(this device has no timestamps: no table of stages)");
-    } else {
-        say!("\n{:width$} {:>10} {:>8} {:>12} {:>8}", "stage", "ms/step", "share", "MB/step", "GB/s");
-    }
-    for row in &m.stages {
-        let (share, megabytes) = (100.0 * row.share, row.bytes / 1e6);
-        let speed = row.gigabytes_per_second;
-        // Bytes are counted per stage, not per kernel.
-        let moved = if row.bytes > 0.0 { format!("{megabytes:12.3} {speed:8.2}") } else { String::new() };
-        say!("{:width$} {:10.4} {share:6.1} % {moved}", row.stage, row.milliseconds);
-    }
-    say!("\n{:24} {:>14}", "steps", m.steps);
-    say!("{:24} {:>14.4}", "milliseconds per step", m.milliseconds_per_step);
-    say!("{:24} {:>14.4e}", "cells/s", m.cells_per_second);
-    say!("{:24} {:>14.4e}", "particles/s", m.particles_per_second);
-    say!("{:24} {:>14.4e}", "particle sub-steps/s", m.particle_substeps_per_second);
-    say!("{:24} {:>14.2}", "PCG iterations per step", m.pcg_iterations_per_step);
-    say!("{:24} {:>14.2}", "sub-steps per step", m.substeps_per_step);
-    say!("{:24} {:>14}", "bytes allocated", size(m.bytes_allocated));
-    say!("{:24} {:>14.1}", "planned bytes per cell", m.bytes_per_cell_planned);
-    say!("{:24} {:>14.1}", "... per particle", m.bytes_per_particle_planned);
 }

@@ -12,6 +12,7 @@ macro_rules! sources {
 pub const SOURCES: &[(&str, &str)] = sources![
     "arrows.wgsl",
     "carrier.wgsl",
+    "copy.wgsl",
     "detonate.wgsl",
     "diagnostics.wgsl",
     "elastic_control.wgsl",

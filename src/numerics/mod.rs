@@ -1,9 +1,11 @@
-//! Algorithms on buffers, without physics: reduction, prefix sum, conjugate gradients.
+//! Algorithms on buffers, without physics: copy, reduction, prefix sum, conjugate gradients.
 
+mod copy;
 pub mod pcg;
 mod reduce;
 mod scan;
 
+pub use copy::copy_bandwidth;
 pub use pcg::{Pcg, PcgControl, PcgVectors, Width};
 pub use reduce::{Operator, Reduce};
 pub use scan::Scan;

@@ -43,7 +43,7 @@ const fn carrier(stage: &'static str, slot_with_carrier: u32) -> Traffic {
 /// The bytes of all stages; stages with several parts have several lines. Particle transfers are those of the gather form in
 /// 3D, whose nine colors each read and write the nodes.
 pub const TRAFFIC: [Traffic; 17] = [
-    row("time_step", Per::Step, 24, 0, 16),
+    row("time_step", Per::Step, 24, 0, 128),
     row("particle_sort", Per::Step, 0, 16, 88),
     row("particle_sort", Per::Substep, 0, 16, 88),
     row("p2g", Per::Substep, 0, 640, 108),

@@ -1,6 +1,7 @@
 //! The test suite: one binary, one module per subject.
 
 mod analytic;
+mod bench;
 mod boundaries;
 mod cli;
 mod common;

@@ -1,0 +1,12 @@
+// Copies an array: what a kernel that does nothing but move memory reaches, the yardstick of `brisance bench`.
+// Equation: to[i] = from[i]. Reads: from. Writes: to, of the same length.
+#include "shared/thread.wgsl"
+
+@group(0) @binding(0) var<storage, read> from_here: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> to_there: array<vec4f>;
+
+@compute @workgroup_size(WORKGROUP)
+fn copy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = thread_index(group, groups, lane);
+    if i < arrayLength(&to_there) { to_there[i] = from_here[i]; }
+}

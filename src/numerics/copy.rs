@@ -1,0 +1,37 @@
+//! How fast the device moves memory when it does nothing else.
+
+use std::time::Instant;
+
+use crate::error::Result;
+use crate::gpu::{Buffer, Constants, Extent, Gpu, Kernel, Pass};
+
+/// Length of each array, in vec4f: 64 MiB, more than caches hold; on GPUs, whose caches are larger, four times as much.
+const LENGTH: usize = 4 << 20;
+/// Copies per submission, so that its launch does not count.
+const COPIES: u32 = 8;
+/// Submissions, of which the fastest counts: others share the machine.
+const ROUNDS: u32 = 5;
+
+/// Bytes read and written per second by a kernel that copies an array `[GB/s]`.
+///
+/// # Errors
+/// If the device has no room for two arrays, or a driver error.
+pub fn copy_bandwidth(gpu: &Gpu) -> Result<f64> {
+    let length = if gpu.is_software() { LENGTH } else { 4 * LENGTH };
+    let from = Buffer::<[f32; 4]>::new(gpu, "copy source", length)?;
+    let to = Buffer::<[f32; 4]>::new(gpu, "copy target", length)?;
+    let kernel = Kernel::new(gpu, "copy.wgsl", "copy", &Constants::default())?;
+    let bound = kernel.bind(gpu, &[("from_here", from.raw()), ("to_there", to.raw())])?;
+    let mut fastest = f64::INFINITY;
+    for _ in 0..=ROUNDS {
+        let mut pass = Pass::new(gpu, "copy");
+        for _ in 0..COPIES {
+            pass.dispatch(&bound, &Extent::Threads(length as u64));
+        }
+        let start = Instant::now();
+        let submission = pass.submit()?;
+        gpu.wait(Some(submission))?;
+        fastest = fastest.min(start.elapsed().as_secs_f64());
+    }
+    Ok(f64::from(COPIES) * (from.size_bytes() + to.size_bytes()) as f64 / (1e9 * fastest))
+}

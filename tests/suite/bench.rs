@@ -1,0 +1,63 @@
+//! The bench: its yardstick, comparison with an earlier measurement, sizes, and what it refuses.
+
+use brisance::numerics::copy_bandwidth;
+use serde_json::Value;
+
+use crate::cli::{fails, succeeds};
+use crate::common::gpu_or_skip;
+
+const SHORT: &[&str] = &["bench", "sod", "--steps", "3", "--warmup", "1"];
+
+fn bench(more: &[&str]) -> String {
+    succeeds(&[SHORT, more].concat())
+}
+
+#[test]
+fn a_copy_is_faster_than_a_disk_and_slower_than_light() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let speed = copy_bandwidth(&gpu).unwrap();
+    assert!(speed > 0.2 && speed < 5e4, "{speed} GB/s");
+}
+
+#[test]
+fn an_earlier_measurement_stands_beside_a_new_one() {
+    let Some(_) = gpu_or_skip() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("before.json");
+    let name = file.to_str().unwrap();
+    let json = bench(&["--json"]);
+    let measured: Value = serde_json::from_str(&json).unwrap();
+    let copy = measured["copy_gigabytes_per_second"].as_f64().unwrap();
+    for row in measured["stages"].as_array().unwrap() {
+        let share = row["gigabytes_per_second"].as_f64().unwrap() / copy;
+        assert!((share - row["share_of_copy"].as_f64().unwrap()).abs() < 1e-6, "{row}");
+    }
+    assert!(measured["mass_drift"].as_f64().unwrap() < 1e-6);
+    // a thousand times slower then
+    let slow = measured["milliseconds_per_step"].as_f64().unwrap() * 1e3;
+    let mut before = measured.clone();
+    before["milliseconds_per_step"] = slow.into();
+    std::fs::write(&file, before.to_string()).unwrap();
+    let text = bench(&["--compare", name]);
+    let line = text.lines().find(|line| line.starts_with("milliseconds per step")).unwrap();
+    let ratio: f64 = line.split_whitespace().last().unwrap().parse().unwrap();
+    assert!(ratio < 0.1, "{line}");
+    assert!(text.contains("now/before") && !text.contains("another measurement"), "{text}");
+    before["cells"] = 7.into();
+    std::fs::write(&file, before.to_string()).unwrap();
+    assert!(bench(&["--compare", name]).contains("another measurement"));
+    std::fs::write(&file, "{}").unwrap();
+    let error = fails(2, &[SHORT, &["--compare", name]].concat());
+    assert!(error.contains("before.json") && error.contains("--json"), "{error}");
+    fails(9, &[SHORT, &["--compare", "/nowhere/before.json"]].concat());
+}
+
+#[test]
+fn sizes_stand_one_below_the_other() {
+    let Some(_) = gpu_or_skip() else { return };
+    let json = bench(&["--sweep", "50,100", "--json"]);
+    let sizes: Value = serde_json::from_str(&json).unwrap();
+    let cells: Vec<u64> = sizes.as_array().unwrap().iter().map(|m| m["cells"].as_u64().unwrap()).collect();
+    assert_eq!(cells, [50, 100]);
+    assert_eq!(bench(&["--sweep", "50,100"]).lines().count(), 5);
+}
