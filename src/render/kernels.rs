@@ -23,6 +23,9 @@ pub(super) const SHADOW_TEXELS: u32 = 768;
 /// Cells along each axis of the grid of the light of hot gas.
 pub(super) const GLOW_CELLS: u32 = 12;
 
+/// Cells along each axis of the grid of bodies that the light of hot gas meets.
+pub(super) const BLOCK_CELLS: u32 = 2 * GLOW_CELLS;
+
 /// Rows of samples above and below a band that smoothing may look at.
 pub(super) const SAMPLE_MARGIN: u32 = 48;
 
@@ -44,7 +47,7 @@ pub fn constants() -> String {
     let _ = writeln!(text, "const NO_VALUE: f32 = {NO_VALUE:e};\nconst SAMPLE_MARGIN: u32 = {SAMPLE_MARGIN}u;");
     let _ = writeln!(text, "const COLOR_COUNT: u32 = {TABLE_LENGTH}u;\nconst BRICK: u32 = {BRICK}u;");
     let _ = writeln!(text, "const LIGHT_CELLS: u32 = {LIGHT_CELLS}u;\nconst SHADOW_TEXELS: u32 = {SHADOW_TEXELS}u;");
-    let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;");
+    let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;\nconst BLOCK_CELLS: u32 = {BLOCK_CELLS}u;");
     let _ = writeln!(text, "const TONE_ACES: u32 = {TONE_ACES}u;\nconst OPTICS_SHADOWGRAPH: u32 = {}u;", OPTICS[1]);
     let _ = writeln!(text, "const BACKGROUND_TOP: vec3f = {top};\nconst BACKGROUND_BOTTOM: vec3f = {bottom};");
     let count = BODY_COLORS.len();

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::gas::Gas;
-use super::kernels::{self, GLOW_CELLS, LIGHT_CELLS, SHADOW_TEXELS};
+use super::kernels::{self, BLOCK_CELLS, GLOW_CELLS, LIGHT_CELLS, SHADOW_TEXELS};
 use super::particles::Particles;
 use super::view::View;
 use crate::Result;
@@ -27,7 +27,18 @@ pub(super) struct Light {
     splat_shadow: Option<(u64, Bound)>,
     trace_shadow: Option<Bound>,
     cast_light: Bound,
-    glow: [Bound; 2],
+    glow: Glow,
+}
+
+/// The kernels of the light of hot gas on surfaces.
+#[derive(Debug)]
+struct Glow {
+    /// Share of each cell that bodies fill.
+    blocks: Buffer<u32>,
+    gather: Bound,
+    block_bodies: Option<(u64, Bound)>,
+    block_walls: Option<Bound>,
+    spread: Bound,
 }
 
 impl Light {
@@ -40,10 +51,7 @@ impl Light {
             kernels::bind(gpu, "light.wgsl", entry, &[&shared[..], own].concat())
         };
         let look = [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("colors", gas.colors.raw())];
-        let coarse = GLOW_CELLS.pow(3) as usize;
-        let sources: Buffer<[f32; 4]> = Buffer::new(gpu, "glow sources", coarse)?;
-        let glow_grid: Buffer<[f32; 4]> = Buffer::new(gpu, "glow grid", 2 * coarse)?;
-        let glowing = [shared[0], ("sources", sources.raw()), ("glow_grid", glow_grid.raw())];
+        let glow_grid: Buffer<[f32; 4]> = Buffer::new(gpu, "glow grid", 2 * GLOW_CELLS.pow(3) as usize)?;
         let splat = |own: &Particles| {
             let bound = bind("splat_shadow", &[("balls", own.balls.raw())])?;
             Ok::<_, crate::Error>((own.count, bound))
@@ -54,10 +62,7 @@ impl Light {
             splat_shadow: particles.map(splat).transpose()?,
             trace_shadow: (distance.fineness > 0).then(trace).transpose()?,
             cast_light: bind("cast_light", &[&look[..], &[("light_grid", grid.raw())]].concat())?,
-            glow: [
-                kernels::bind(gpu, "glow.wgsl", "gather_glow", &[&look[..], &glowing[..2]].concat())?,
-                kernels::bind(gpu, "glow.wgsl", "spread_glow", &glowing)?,
-            ],
+            glow: Glow::new(gpu, gas, (particles, distance), &glow_grid)?,
             shadow_map,
             grid,
             glow_grid,
@@ -72,9 +77,7 @@ impl Light {
     /// Records the light of hot gas, and the shadows of particles, obstacles and gas.
     pub(super) fn record(&self, pass: &mut Pass, view: &View) {
         if view.heat_opacity > 0.0 {
-            for kernel in &self.glow {
-                pass.dispatch(kernel, &Extent::Threads(u64::from(GLOW_CELLS.pow(3))));
-            }
+            self.glow.record(pass, view);
         }
         if view.shadows == 0 {
             return;
@@ -88,6 +91,49 @@ impl Light {
             pass.dispatch(trace_shadow, &texels);
         }
         pass.dispatch(&self.cast_light, &Extent::Threads(u64::from(LIGHT_CELLS * LIGHT_CELLS)));
+    }
+}
+
+impl Glow {
+    fn new(
+        gpu: &Gpu,
+        gas: &Gas,
+        (particles, distance): (Option<&Particles>, &Distance),
+        glow_grid: &Buffer<[f32; 4]>,
+    ) -> Result<Self> {
+        let sources: Buffer<[f32; 4]> = Buffer::new(gpu, "glow sources", GLOW_CELLS.pow(3) as usize)?;
+        let blocks: Buffer<u32> = Buffer::new(gpu, "glow blocks", BLOCK_CELLS.pow(3) as usize)?;
+        let of_view = ("view", gas.view.raw());
+        let (of_sources, of_blocks) = (("sources", sources.raw()), ("blocks", blocks.raw()));
+        let look = [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("colors", gas.colors.raw())];
+        let bind = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
+            kernels::bind(gpu, "glow.wgsl", entry, &[&[of_view], own].concat())
+        };
+        let bodies = |own: &Particles| {
+            let bound = bind("block_bodies", &[of_blocks, ("balls", own.balls.raw())])?;
+            Ok::<_, crate::Error>((own.count, bound))
+        };
+        let walls = || bind("block_walls", &[of_blocks, ("distance", distance.nodes.raw())]);
+        Ok(Self {
+            gather: bind("gather_glow", &[&look[..], &[of_sources]].concat())?,
+            block_bodies: particles.map(bodies).transpose()?,
+            block_walls: (distance.fineness > 0).then(walls).transpose()?,
+            spread: bind("spread_glow", &[of_sources, of_blocks, ("glow_grid", glow_grid.raw())])?,
+            blocks,
+        })
+    }
+
+    fn record(&self, pass: &mut Pass, view: &View) {
+        let cells = Extent::Threads(u64::from(GLOW_CELLS.pow(3)));
+        pass.dispatch(&self.gather, &cells);
+        pass.clear(&self.blocks);
+        if let Some((count, block_bodies)) = self.block_bodies.as_ref().filter(|_| view.particles > 0) {
+            pass.dispatch(block_bodies, &Extent::Threads(*count));
+        }
+        if let Some(block_walls) = &self.block_walls {
+            pass.dispatch(block_walls, &Extent::Threads(u64::from(BLOCK_CELLS.pow(3))));
+        }
+        pass.dispatch(&self.spread, &cells);
     }
 }
 

@@ -105,7 +105,9 @@ fn clock(ui: &mut Ui, view: &View, status: &Status) {
         _ if status.playing => "running".to_owned(),
         _ => "paused".to_owned(),
     };
-    let recorded = status.recorded.map_or_else(String::new, |count| format!("   recording: {count} pictures"));
+    let recorded = status.recorded.map_or_else(String::new, |count| {
+        format!("   recording: {count} {}", if count == 1 { "picture" } else { "pictures" })
+    });
     let text = format!("t = {:.4e} s   step {}   {rate}{recorded}", status.time, status.step);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.label(RichText::new(text).monospace());

@@ -1,16 +1,17 @@
 //! What the worker does: obeys commands, steps the scene within its budget, draws, and leaves the outcome in the outbox.
 
+mod files;
+
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::budget::{Budget, Rate, paced_steps};
 use super::model::{Command, Look, Note, Opened, Outbox, Pace, Phase, Request, Shown, Status, Strike, Weight};
-use super::record::{self, Recording};
+use super::record::Recording;
 use super::session::Session;
 use super::worker::lock;
 use crate::diagnostics::StepRecord;
-use crate::export::Origin;
 use crate::gpu::{Gpu, GpuOptions};
 use crate::scene::{Scene, stem};
 use crate::{Error, Result};
@@ -315,37 +316,6 @@ impl Desk {
         let place = blast.center.map(|x| format!("{x:.4}"))[..session.scene().domain.axes()].join(", ");
         self.note(Weight::Fine, format!("{:.3e} J at ({place}) m", blast.energy));
         Ok(())
-    }
-
-    /// The picture as it stands in the window, in all its pixels.
-    fn screenshot(&mut self) -> Result<()> {
-        if self.coarse || self.stale {
-            (self.moving, self.stale) = (false, true);
-            let playing = std::mem::replace(&mut self.playing, false);
-            let drawn = self.draw();
-            self.playing = playing;
-            drawn?;
-        }
-        let (Some(shown), Some(session)) = (&self.shown, &self.session) else { return Ok(()) };
-        let path = record::save(&self.folder, shown, &Origin::of(session.scene()))?;
-        self.note(Weight::Fine, format!("saved {}", path.display()));
-        Ok(())
-    }
-
-    fn record(&mut self, on: bool) -> Result<()> {
-        self.finish_recording();
-        if let (true, Some(session)) = (on, &self.session) {
-            self.recording = Some(Recording::start(&self.folder, Origin::of(session.scene()))?);
-        }
-        Ok(())
-    }
-
-    fn finish_recording(&mut self) {
-        match self.recording.take().map(Recording::finish) {
-            Some(Ok(text)) => self.note(Weight::Fine, text),
-            Some(Err(error)) => self.note(Weight::Wrong, error.to_string()),
-            None => {}
-        }
     }
 
     fn note(&self, weight: Weight, text: String) {

@@ -1,5 +1,8 @@
 //! The user interface: gallery or scene, the bars around it, messages. Keeps the worker's handle; knows nothing of windows.
 
+#[cfg(test)]
+mod tests;
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 

@@ -6,7 +6,7 @@ use brisance::export;
 use brisance::render::{Frame, Picture, Renderer};
 use brisance::scene::Field;
 
-use crate::synthetic::{State, brightness, gpu, pixel, scene};
+use crate::synthetic::{State, brightness, every_cell, gpu, pixel, scene};
 
 /// Mean difference of a channel that drivers may make, of 255.
 const MEAN_ERROR: f64 = 1.0;
@@ -132,6 +132,64 @@ fn hot_gas_shines_and_transparent_gas_is_not_there() {
     assert!(bright > dark + 60.0, "{dark} {bright}");
     let cold = draw(3, Field::Density, &format!("{plain}render.emission = {{ ambient_kelvin = 200.0 }}"));
     assert_eq!(cold.frame, nothing.frame, "cold gas does not shine");
+}
+
+/// Brightness of the floor below the shell, seen from above, where only hot gas shines: behind the shell and below its gap.
+fn floor_in_glow(shadows: bool) -> [f64; 2] {
+    let light = format!("render.light = {{ strength = 0, ambient = 0, shadows = {shadows} }}\n");
+    let below = "render.camera = { eye = [0.5, 0.5, 4], target = [0.5, 0.5, 0], up = [0, 1, 0], height = 1.4 }\n\
+                 render.ground = true\nrender.overlays = { color_bar = false }\nrender.opacity = [[0, 0], [1, 0]]\n\
+                 render.emission = { ambient_kelvin = 600.0, strength = 20.0 }\nrender.range = [0, 1]\n";
+    let picture = draw(3, Field::Density, &format!("{below}{light}"));
+    error(&format!("floor_in_glow_{shadows}"), &picture.frame, &colors(&picture.frame));
+    [mean(&picture, 20..40, 20..60), mean(&picture, 100..118, 90..108)]
+}
+
+#[test]
+fn bodies_stand_in_the_light_of_hot_gas() {
+    let ([hidden, seen], [open, plain]) = (floor_in_glow(true), floor_in_glow(false));
+    assert!(hidden < 0.6 * open && seen > 0.7 * plain, "behind {hidden} of {open}, below the gap {seen} of {plain}");
+}
+
+/// A shadowgraph across a gas whose density depends on x alone, so much of it from top to bottom \[m\]: brightness along a row
+/// through the middle.
+fn shadowgraph_of(height: f64, density: impl Fn(f64) -> f64) -> Vec<i32> {
+    let gpu = gpu();
+    let look = format!(
+        "render.mode = \"shadowgraph\"\nrender.particles = false\n\
+         render.overlays = {{ edges = false, title = false, time = false, scale_bar = false }}\n\
+         render.camera = {{ eye = [0.5, -4, 0.5], target = [0.5, 0.5, 0.5], height = {height} }}"
+    );
+    let scene = scene(3, 24, [192, 192], &look);
+    let state = State::new(&gpu, &scene);
+    let ring = state.grid.padding().map(|n| n as i32);
+    let mut flow = vec![[1.0, 0.0, 0.0, 0.0]; state.grid.slots()];
+    let mut kinds = vec![2_u32; state.grid.slots()];
+    for (slot, cell) in every_cell(&state.grid, ring) {
+        flow[slot][0] = density(f64::from(state.grid.centre(cell)[0])) as f32;
+        kinds[slot] = if (0..3).all(|axis| (0..24).contains(&cell[axis])) { 0 } else { 2 };
+    }
+    state.conserved.write(&gpu, 0, &flow);
+    state.cells.write(&gpu, 0, &kinds);
+    let picture =
+        Renderer::new(&gpu, &scene, &state.buffers()).unwrap().draw(&scene.render, Field::Density, 0.0).unwrap();
+    (50..142).map(|x| pixel(&picture, x, 96)[1]).collect()
+}
+
+/// The second derivative of the line-of-sight integral: nothing for an even slope, the same everywhere for a parabola.
+#[test]
+fn a_shadowgraph_is_a_second_derivative() {
+    // half of grey, squared, in sRGB
+    let middle = 137;
+    let even = shadowgraph_of(1.2, |x| 2.0 + x);
+    assert!(even.iter().all(|value| (value - middle).abs() <= 2), "{even:?}");
+    for (sign, brighter) in [(4.0, false), (-4.0, true)] {
+        // a cell is 16 pixels wide, and the sides are out of sight
+        let bent = shadowgraph_of(0.5, |x| 3.0 + sign * (x - 0.5) * (x - 0.5));
+        let mean = bent.iter().sum::<i32>() / bent.len() as i32;
+        assert!(if brighter { mean > middle + 15 } else { mean < middle - 15 }, "{sign}: {bent:?}");
+        assert!(bent.iter().all(|value| (value - mean).abs() <= 3), "{sign}: {bent:?}");
+    }
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! What may change while a simulation runs: blasts, and the parameters of a step.
 
+use brisance::Error;
 use brisance::expect::Budget;
+use brisance::gpu::{Gpu, GpuOptions};
+use brisance::render::{Renderer, SceneBuffers};
 use brisance::scene::Scene;
 use brisance::simulation::{Blast, Simulation};
 
@@ -175,4 +178,26 @@ fn a_tighter_tolerance_costs_iterations_and_blending_changes_faces() {
     let (loose, tight) = (run(&|to| to.numerics.tolerance = 1e-2), run(&|to| to.numerics.tolerance = 1e-6));
     assert!(tight.0 > loose.0, "{} and {} iterations", loose.0, tight.0);
     assert_ne!(run(&|_| {}).1, run(&|to| to.numerics.blending = false).1, "blending acts");
+}
+
+/// A device that goes away is an error that says so, and another one takes its place.
+#[test]
+fn a_lost_device_is_no_panic() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let scene = scene(3, BODY);
+    let gpu = Gpu::new(&GpuOptions::default()).unwrap();
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+    simulation.set_target(0.1).unwrap();
+    let mut renderer = Renderer::new(&gpu, &scene, &SceneBuffers::of(&simulation.state)).unwrap();
+    gpu.device.destroy();
+    let stepped = simulation.advance_batch(&mut Vec::new()).map(|_| ()).unwrap_err();
+    let drawn = renderer.render(0.0).map(|_| ()).unwrap_err();
+    for error in [stepped, drawn] {
+        assert!(matches!(error, Error::Gpu(_)), "{error}");
+    }
+    let mut again = Simulation::new(&Gpu::new(&GpuOptions::default()).unwrap(), &scene).unwrap();
+    again.set_target(0.1).unwrap();
+    again.advance_batch(&mut Vec::new()).unwrap();
 }

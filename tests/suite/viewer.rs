@@ -131,6 +131,30 @@ fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
     wait(&worker, &mut seen, "scene", |seen| seen.status.phase == Phase::Ready && seen.shown.is_some());
 }
 
+/// A recording begins with the picture in the window and counts every picture of steps.
+#[test]
+fn a_recording_counts_its_pictures() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    // Recordings go to a folder of this name below `out`.
+    let name = format!("recorded_{}", std::process::id());
+    let file = folder.path().join(format!("{name}.toml"));
+    std::fs::write(&file, format!("{SPACE}[render]\nsize = [64, 48]")).unwrap();
+    let worker = Worker::start(GpuOptions::default(), || {});
+    let mut seen = Outbox::default();
+    worker.send(Command::Open(Request::of(file.to_str().unwrap()), None));
+    worker.send(Command::Record(true));
+    wait(&worker, &mut seen, "first picture", |seen| seen.status.recorded == Some(1));
+    worker.send(Command::Steps(1));
+    wait(&worker, &mut seen, "picture of a step", |seen| seen.status.recorded == Some(2));
+    worker.send(Command::Record(false));
+    wait(&worker, &mut seen, "end", |seen| seen.status.recorded.is_none() && !seen.notes.is_empty());
+    assert!(seen.notes[0].text.starts_with("2 pictures in "), "{:?}", seen.notes);
+    std::fs::remove_dir_all(std::path::Path::new("out").join(name)).unwrap();
+}
+
 fn origin() -> Origin {
     Origin { title: "charge".to_owned(), hash: "cafe".to_owned() }
 }
