@@ -88,9 +88,9 @@ scenes! {
     cantilever: "validation/cantilever.toml", "domain.cells=[40, 12]", "time.until=2.0";
     shocked_panel: "validation/shocked_panel.toml", "domain.cells=[300, 68]", "time.until=1e-6";
     blasted_ellipse: "paper/fig14_ordering.toml", "domain.cells=[32, 32]";
-    #[ignore = "TIME14A"]
+    #[ignore = "17 s in software on a busy machine"]
     blasted_ellipse_coupling_first: "paper/fig14_ordering.toml", "variant=small", "variant=coupling_first";
-    #[ignore = "TIME14B"]
+    #[ignore = "78 s in software on a busy machine"]
     blasted_ellipse_elasticity_first: "paper/fig14_ordering.toml", "variant=small", "variant=coupling_last";
     supernova_2d: "paper/fig08_supernova_2d.toml", "domain.cells=[40, 16]";
     #[ignore = "minutes on a software device; not yet seen to pass"]
@@ -124,35 +124,34 @@ scenes! {
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";
     shell_at_rest: "paper/fig13_ghost_update.toml";
-    #[ignore = "TIME13A"]
     shell_at_rest_by_forces: "paper/fig13_ghost_update.toml", "variant=small", "variant=forces";
-    #[ignore = "TIME13B"]
+    #[ignore = "17 s in software on a busy machine"]
     shell_at_rest_by_gradients: "paper/fig13_ghost_update.toml", "variant=small", "variant=gradients";
-    #[ignore = "TIME03"]
+    #[ignore = "215 s in software on a busy machine"]
     bursting_shell_2d: "paper/fig03_elastic_shell_2d.toml", "variant=small";
-    #[ignore = "TIME05A"]
+    #[ignore = "235 s in software on a busy machine"]
     heavy_bullet: "paper/fig05_bullets_2d.toml", "variant=small", "variant=heavy";
-    #[ignore = "TIME05B"]
+    #[ignore = "229 s in software on a busy machine"]
     light_bullet: "paper/fig05_bullets_2d.toml", "variant=small", "variant=light";
-    #[ignore = "TIME05C"]
+    #[ignore = "233 s in software on a busy machine"]
     light_bullet_with_silencer: "paper/fig05_bullets_2d.toml", "variant=small", "variant=light_silencer";
-    #[ignore = "TIME15"]
+    #[ignore = "57 s in software on a busy machine"]
     forward_step_to_its_end: "paper/fig15_stair_flow.toml", "variant=small";
-    #[ignore = "TIME17"]
+    #[ignore = "31 s in software on a busy machine"]
     lifting_cylinder_to_its_end: "paper/fig17_lifting_cylinder.toml", "variant=small";
-    #[ignore = "TIME18"]
+    #[ignore = "76 s in software on a busy machine"]
     mach_diamond_to_its_end: "paper/fig18_mach_diamond_2d.toml", "variant=small";
-    #[ignore = "TIMEGL"]
+    #[ignore = "182 s in software on a busy machine"]
     glass_front: "demos/glass_front_2d.toml";
-    #[ignore = "TIMESB"]
+    #[ignore = "173 s in software on a busy machine"]
     sonic_boom: "demos/sonic_boom_2d.toml";
-    #[ignore = "TIMESC"]
+    #[ignore = "154 s in software on a busy machine"]
     shaped_cavity: "demos/shaped_cavity_2d.toml";
-    #[ignore = "TIMEBD"]
+    #[ignore = "112 s in software on a busy machine"]
     bursting_diaphragm: "demos/bursting_diaphragm_2d.toml";
-    #[ignore = "TIMEME"]
+    #[ignore = "277 s in software on a busy machine"]
     meteor: "demos/meteor_3d.toml";
-    #[ignore = "TIMEPL"]
+    #[ignore = "237 s in software on a busy machine"]
     playground: "demos/playground_2d.toml";
     #[ignore = "minutes on a software device"]
     bursting_shell_3d: "demos/bursting_shell_3d.toml";
