@@ -3,10 +3,18 @@
 
 fn stops_at(side: u32) -> bool { return ((params.wall_sides >> side) & 1u) == 1u; }
 
+// Whether the obstacle ends beside a slot, below or above along an axis.
+fn ends_at(slot: u32, a: u32) -> vec2<bool> {
+    return vec2<bool>(kind_of(cells[slot - step_of(a)]) != WALL, kind_of(cells[slot + step_of(a)]) != WALL);
+}
+
 fn stopped_at_wall(c: vec3i, v: vec3f) -> vec3f {
     var out = v;
     let slot = slot_of(c);
     let here = kind_of(cells[slot]) == WALL;
+    // In a flat surface the obstacle goes on along it: what it stops is the way across. Deep inside it stops everything.
+    var surface = false;
+    for (var a = 0u; a < DIM; a++) { surface = surface || (here && inside(c) && any(ends_at(slot, a))); }
     for (var a = 0u; a < DIM; a++) {
         if c[a] < 0 {
             if stops_at(2u * a) { out[a] = max(out[a], 0.0); }
@@ -14,8 +22,10 @@ fn stopped_at_wall(c: vec3i, v: vec3f) -> vec3f {
             if stops_at(2u * a + 1u) { out[a] = min(out[a], 0.0); }
         } else if here && inside(c) {
             // Inside an obstacle: outward is where the wall ends.
-            if kind_of(cells[slot + step_of(a)]) == WALL { out[a] = min(out[a], 0.0); }
-            if kind_of(cells[slot - step_of(a)]) == WALL { out[a] = max(out[a], 0.0); }
+            let ends = ends_at(slot, a);
+            if surface && !any(ends) { continue; }
+            if !ends.y { out[a] = min(out[a], 0.0); }
+            if !ends.x { out[a] = max(out[a], 0.0); }
         }
     }
     return out;

@@ -127,6 +127,20 @@ fn a_sliding_block_slows_down_by_its_friction() {
     assert!(stuck.abs() < 0.2, "{stuck}");
 }
 
+/// The same on an obstacle, whose surface lets slip what moves along it.
+#[test]
+fn a_block_slides_along_the_surface_of_an_obstacle() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let body = "density = 1.0\nvelocity = [1.0, 0.0]\nshape = { box = { center = [0.35, 0.2], size = [0.4, 0.2] } }\n\
+                [[obstacles]]\nname = \"table\"\nshape = { half_space = { point = [0.0, 0.1], normal = [0.0, 1.0] } }";
+    let domain = "dimension = 2\ncells = [60, 20]\nsize = [1.5, 0.5]";
+    let scene = scene(domain, THIN, body, "gravity = [0.0, -1.0]\n[time]\nuntil = 0.5\n");
+    let [_, after] = run(&gpu, &scene);
+    let speed = after.particles.iter().map(|p| f64::from(p.velocity[0])).sum::<f64>() / after.particles.len() as f64;
+    let height = after.particles.iter().map(|p| p.position[1]).fold(1.0, f32::min);
+    assert!((speed - 1.0).abs() < 2e-3 && height > 0.095, "{speed} {height}");
+}
+
 /// A soft column on the floor in a stream at Mach 3: its root is held, and takes pressures like those of the gas, not more and more.
 #[test]
 fn the_ghost_pressure_of_a_held_root_stays_that_of_the_gas() {

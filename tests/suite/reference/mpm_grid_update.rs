@@ -54,6 +54,7 @@ pub(crate) fn walls(problem: &Problem, cells: &[u32], velocity: &mut [[f64; 3]])
     for c in grid.all() {
         let slot = grid.slot(c);
         let wall = |at: [i32; 3]| grid.stored(at) && cells[grid.slot(at)] == WALL;
+        let surface = (0..grid.dimension).any(|axis| !wall(shift(c, axis, -1)) || !wall(shift(c, axis, 1)));
         for axis in 0..grid.dimension {
             let v = &mut velocity[slot][axis];
             if c[axis] < 0 || c[axis] >= grid.cells[axis] {
@@ -65,8 +66,8 @@ pub(crate) fn walls(problem: &Problem, cells: &[u32], velocity: &mut [[f64; 3]])
                 match (wall(shift(c, axis, -1)), wall(shift(c, axis, 1))) {
                     (false, true) => *v = v.min(0.0),
                     (true, false) => *v = v.max(0.0),
-                    (true, true) => *v = 0.0,
-                    (false, false) => {}
+                    (true, true) if !surface => *v = 0.0,
+                    _ => {}
                 }
             }
         }
