@@ -97,11 +97,11 @@ scenes! {
     car_over_a_mine: "paper/fig01_car_landmine.toml", "variant=small";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     three_rabbits: "paper/fig02_tribunny.toml", "variant=small";
-    #[ignore = "minutes on a software device; not yet seen to pass"]
+    #[ignore = "638 s in software on a busy machine"]
     strong_truck: "paper/fig04_trucks.toml", "variant=small", "variant=strong";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     weak_truck: "paper/fig04_trucks.toml", "variant=small", "variant=weak";
-    #[ignore = "minutes on a software device; not yet seen to pass"]
+    #[ignore = "306 s in software on a busy machine"]
     elastic_pumpkin: "paper/fig06_pumpkin.toml", "variant=small", "variant=elastic";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     plastic_pumpkin: "paper/fig06_pumpkin.toml", "variant=small", "variant=plastic";
@@ -109,7 +109,7 @@ scenes! {
     supernova: "paper/fig08_supernova.toml", "variant=small";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     stiff_elastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=stiff_elastic";
-    #[ignore = "minutes on a software device; not yet seen to pass"]
+    #[ignore = "184 s in software on a busy machine"]
     soft_elastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=soft_elastic";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     stiff_plastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=stiff_plastic";
@@ -117,7 +117,7 @@ scenes! {
     soft_plastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=soft_plastic";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     aeroplane_in_a_wind_tunnel: "paper/fig11_airplane.toml", "variant=small";
-    #[ignore = "minutes on a software device; not yet seen to pass"]
+    #[ignore = "496 s in software on a busy machine"]
     cactus_forest: "paper/fig12_cactus_forest.toml", "variant=small";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     koalas_above_jets: "paper/fig19_koalas.toml", "variant=small";

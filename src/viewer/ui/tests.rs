@@ -24,7 +24,8 @@ impl egui::DroppedFile for Dropped {
 fn frame(ui: &mut Ui, context: &egui::Context, dropped: &[&str]) {
     let files = dropped.iter().map(|path| Arc::new(Dropped(PathBuf::from(path))) as egui::DroppedFileHandle);
     let input = egui::RawInput { dropped_files: files.collect(), ..egui::RawInput::default() };
-    let _ = context.run_ui(input, |root| ui.show(root));
+    // nothing is drawn here
+    context.run_ui(input, |root| ui.show(root)).textures_delta.clear();
 }
 
 /// No device is needed: what is no scene is told before one is opened.
