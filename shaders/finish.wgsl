@@ -1,10 +1,12 @@
 // From light to pixels.
 // finish: reads light; writes pixels, red in the lowest byte, alpha opaque: the mean of each pixel's rays.
-// finish_linear, finish_toned: read light; write deep, the mean of each pixel's rays before the tone map, and behind it.
+// finish_deep: reads light; writes deep, the mean of each pixel's rays before the tone map, or behind it where TONED.
 
 #include "shared/thread.wgsl"
 #include "shared/view.wgsl"
 #include "shared/color.wgsl"
+
+override TONED: bool = true;      // of finish_deep
 
 @group(0) @binding(1) var<storage, read> light: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> pixels: array<u32>;
@@ -54,20 +56,11 @@ fn mean_light(i: u32, behind: bool) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn finish_linear(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) local: u32) {
+fn finish_deep(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
+               @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, groups, local);
     if (i < band_pixels()) {
-        deep[i] = vec4f(mean_light(i, false), 1.0);
-    }
-}
-
-@compute @workgroup_size(WORKGROUP)
-fn finish_toned(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
-    if (i < band_pixels()) {
-        deep[i] = vec4f(mean_light(i, true), 1.0);
+        deep[i] = vec4f(mean_light(i, TONED), 1.0);
     }
 }
 

@@ -246,3 +246,16 @@ fn rows(times: &[(String, f64)], load: &Load, copy: f64) -> Vec<StageRow> {
     };
     times.iter().map(row).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_loses_gas_has_no_score() {
+        assert!(sound(0.5 * MASS_DRIFT).is_ok());
+        for drift in [2.0 * MASS_DRIFT, f64::INFINITY, f64::NAN] {
+            assert!(sound(drift).unwrap_err().to_string().contains("no score"), "{drift}");
+        }
+    }
+}

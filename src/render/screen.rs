@@ -51,8 +51,8 @@ pub(super) struct Screen {
 #[derive(Debug)]
 struct Deep {
     light: Buffer<[f32; 4]>,
-    finish_linear: Bound,
-    finish_toned: Bound,
+    linear: Bound,
+    toned: Bound,
 }
 
 /// The kernels that draw particles, in order.
@@ -186,10 +186,9 @@ impl Screen {
             drawn.pixels.extend(readback::read_range(gpu, &self.pixels, 0, count as usize)?);
             if let Some(deep) = &self.deep {
                 let wanted = self.key.depth;
-                for (kernel, of, into) in [
-                    (&deep.finish_linear, wanted.linear, &mut drawn.linear),
-                    (&deep.finish_toned, wanted.fine, &mut drawn.toned),
-                ] {
+                for (kernel, of, into) in
+                    [(&deep.linear, wanted.linear, &mut drawn.linear), (&deep.toned, wanted.fine, &mut drawn.toned)]
+                {
                     if of {
                         into.extend(deep.read(gpu, kernel, count as usize)?);
                     }
@@ -219,8 +218,8 @@ impl Deep {
     fn new(gpu: &Gpu, shared: &[(&str, &wgpu::Buffer)], pixels: usize) -> Result<Self> {
         let light: Buffer<[f32; 4]> = Buffer::new(gpu, "deep pixels", pixels)?;
         let own = [shared, &[("deep", light.raw())]].concat();
-        let bind = |entry: &str| bind(gpu, "finish.wgsl", entry, &own);
-        Ok(Self { finish_linear: bind("finish_linear")?, finish_toned: bind("finish_toned")?, light })
+        let bind = |toned: bool| bind_with(gpu, "finish.wgsl", "finish_deep", &[("TONED", toned)], &own);
+        Ok(Self { linear: bind(false)?, toned: bind(true)?, light })
     }
 
     /// What one of the kernels makes of the band drawn last.

@@ -220,6 +220,17 @@ mod tests {
         assert!(before.distance(after) < 1e-4 && before.length() > 0.5, "{before} {after}");
     }
 
+    /// Between inner keys a constant acceleration is kept, whatever the times of the keys.
+    #[test]
+    fn a_parabola_stays_a_parabola() {
+        let fall = |t: f64| [t, 0.0, 3.0 - t * t];
+        let path = CameraPath { orbit: 0.0, keys: [0.0, 0.3, 1.3, 1.5].map(|t| key(t, fall(t))).to_vec() };
+        for t in [0.4, 0.7, 1.2] {
+            let eye = DVec3::from(path.at(t, &base()).eye);
+            assert!(eye.distance(fall(t).into()) < 1e-12, "{eye} at {t}");
+        }
+    }
+
     /// Keys on a circle keep their distance in between, which keys by their places would not.
     #[test]
     fn keys_around_a_target_stay_around_it() {

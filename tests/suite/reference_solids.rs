@@ -121,7 +121,7 @@ fn slab_in_a_tube() {
 }
 
 #[test]
-#[ignore = "minutes"]
+#[ignore = "prints a table of slabs on three grids; minutes in f64 on the processor"]
 fn slab_in_a_tube_all() {
     let cases: [(f64, f64, &[f64]); 4] = [
         (50.0, 1e4, &[0.00034, 0.00014, 0.00007]),
@@ -194,7 +194,7 @@ fn exploding_shell() {
 }
 
 #[test]
-#[ignore = "minutes"]
+#[ignore = "the 64 and 96 grids of `exploding_shell`; minutes in f64 on the processor"]
 fn exploding_shell_fine() {
     for n in [64, 96] {
         let (mass, energy, centre, volume, iterations) = explode(n, 0.35, |_| {});
@@ -225,7 +225,7 @@ fn cylinder(n: i32, configure: impl Fn(&mut Problem)) -> (f64, f64, f64) {
 }
 
 #[test]
-#[ignore = "minutes"]
+#[ignore = "prints the lifted cylinder beside its table; minutes in f64 on the processor"]
 fn cylinder_lift() {
     let (x, y, iterations) = cylinder(100, |p| p.numerics.predictor = false);
     println!("without predictor: x {x:.4}, y {y:.4}, PCG {iterations:.1}; table 0.660, 0.1249, 4 to 5");

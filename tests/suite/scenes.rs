@@ -36,7 +36,7 @@ scenes! {
     strong_shock_tube: "gas/strong_shock_tube.toml";
     rarefactions: "gas/rarefactions.toml";
     blast: "gas/blast.toml";
-    circular_shock: "paper/fig16_convergence.toml", "variant=small", "variant=b1b0";
+    circular_shock: "paper/fig16_convergence.toml", "domain.cells=[128, 128]", "variant=b1b0";
     circular_shock_b2b1: "paper/fig16_convergence.toml", "variant=small", "variant=b2b1";
     modified_sod: "validation/modified_sod.toml";
     stationary_contact: "validation/stationary_contact.toml";
