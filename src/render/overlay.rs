@@ -173,6 +173,10 @@ pub(crate) fn color_bar(
         canvas.fill(Rectangle { x: bar.right(), y, width: advance / 2, height: unit }, FAINT, 1.0);
         canvas.text(bar.right() + advance, y, Anchor::Left, &label, INK);
     }
-    let room = canvas.frame.width as i32 - advance - canvas.lettering.width(caption);
-    canvas.text(bar.x.min(room), bar.y - 5 * line / 4, Anchor::Left, caption, INK);
+    let width = canvas.lettering.width(caption);
+    let (x, y) = (bar.x.min(canvas.frame.width as i32 - advance - width), bar.y - 5 * line / 4);
+    // A long caption reaches over the picture, which may be bright.
+    let behind = Rectangle { x: x - unit, y: y - line / 2, width: width + 2 * unit, height: line };
+    canvas.fill(behind, BACKGROUND, 0.6);
+    canvas.text(x, y, Anchor::Left, caption, INK);
 }
