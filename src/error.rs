@@ -21,14 +21,14 @@ pub enum Error {
     #[error("{0}")]
     DoesNotFit(String),
     /// A stage met a value it cannot continue from.
-    #[error("diverged in step {step}, stage {stage}, cell {cell:?}: {reason}")]
+    #[error("diverged in step {step}, stage {stage}, {place}: {reason}")]
     Diverged {
         /// Step number, from 1.
         step: u64,
         /// Name of the stage that raised the flag.
         stage: &'static str,
-        /// Cell index, or the particle index in the first entry for particle stages.
-        cell: [i32; 3],
+        /// Cell or particle, `cell [3, 4, 0]`, or what else is at fault.
+        place: String,
         /// What was seen and what to try.
         reason: String,
     },

@@ -37,8 +37,10 @@ struct Jacobi {
 // Stable form of the rotation: t = sgn(theta) / (|theta| + sqrt(theta^2 + 1)), theta = (yy - xx) / (2 xy). [Golub & Van Loan, 8.5.2]
 fn jacobi_rotate(a: Jacobi) -> Jacobi {
     let theta = 0.5 * (a.diagonal.y - a.diagonal.x);
-    // theta / xy overflows when xy is far below it; scaled by xy nothing does
-    let reach = abs(theta) + sqrt(theta * theta + a.off.x * a.off.x);
+    // theta / xy overflows when xy is far below it; scaled by xy nothing does, and scaled by the larger of both no square vanishes
+    let largest = max(abs(theta), abs(a.off.x));
+    let share = vec2f(theta, a.off.x) / select(1.0, largest, largest > 0.0);
+    let reach = abs(theta) + largest * length(share);
     let t = select(0.0, select(-a.off.x, a.off.x, theta >= 0.0) / reach, reach > 0.0);
     let c = inverseSqrt(1.0 + t * t);
     let s = t * c;

@@ -248,6 +248,24 @@ fn metals_flow_down_to_the_grown_yield_stress() {
     }
 }
 
+/// Squares of such strains are below the smallest numbers of single precision.
+#[test]
+fn the_slightest_strains_are_no_fault() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let strained = |step: i32| {
+        let e = 10.0_f64.powf(-0.05 * f64::from(step));
+        DMat3::from_cols(DVec3::X, DVec3::new(e, 1.0, 2.0 * e), DVec3::new(3.0 * e, 0.0, 1.0))
+    };
+    let given: Vec<DMat3> = (300..600).map(strained).collect();
+    for material in all() {
+        for (f, found) in given.iter().zip(ask(&gpu, &material, &given)) {
+            assert!(found.kept.is_finite() && found.stress.is_finite(), "{material:?}: {f} became {}", found.kept);
+            assert!(largest(found.kept - *f) < 1e-6, "{material:?}: {f} became {}", found.kept);
+            assert!(largest(found.stress) < 1e-3 && found.energy.abs() < 1e-6, "{material:?}: {f}");
+        }
+    }
+}
+
 #[test]
 fn soil_bears_pressure_by_friction_and_no_tension() {
     let Some(gpu) = gpu_or_skip() else { return };
