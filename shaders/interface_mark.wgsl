@@ -1,5 +1,5 @@
 // interface, second half: kinds, blocked fractions and flags of every slot from the solid volume of the cells, then the list
-// of vertices that keep gas, interface and ghost pressure apart.
+// of vertices that keep gas, interface and ghost pressure apart, then the list of slots that are not INTERIOR.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
@@ -7,7 +7,7 @@
 @group(0) @binding(1) var<storage, read_write> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> fill: array<vec2f>;
 @group(0) @binding(3) var<storage, read> cell_start: array<u32>;
-@group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // 1 where a vertex wants P, h, Q apart
+@group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // 1 where a vertex wants P, h, Q apart; then 1 where a slot comes first in the list
 @group(0) @binding(5) var<storage, read> place: array<u32>;         // scan of wanted
 @group(0) @binding(6) var<storage, read_write> extra: array<atomic<u32>>;   // place in the extra block, or NO_EXTRA; then the lists
 @group(0) @binding(7) var<storage, read_write> control: Control;
@@ -142,49 +142,6 @@ fn shares_pressure(v: vec3i) -> bool {
     return volume >= 2.0 * pow(4.0, f32(DIM) - 2.0) * cell_volume();
 }
 
-// INTERIOR: every stencil of cell, node and vertex stays deep inside the gas. The nodes of the vertex have only gas around them,
-// so do the next ones up: gas in the 4^DIM cells around the vertex and two cells along each axis.
-@compute @workgroup_size(WORKGROUP)
-fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
-    if slot >= params.slots { return; }
-    let c = cell_of(slot);
-    var interior = inside(c) && away_from_seam(c, -2, 2);
-    if interior {
-        for (var k = 0u; k < corner_count(); k++) {
-            interior = interior && has(cells[slot_of(c - corner_offset(k))], NODE_INTERIOR);
-        }
-        for (var a = 0u; a < DIM; a++) { interior = interior && has(cells[slot_of(c + axis(a))], NODE_INTERIOR); }
-    }
-    edge[slot] = u32(!interior && !is_alias(c));
-}
-
-// INTERIOR slots whose node a listed vertex rests on, B1B0: the vertices of a node lie at its own slot and above.
-fn on_frontier(slot: u32) -> bool {
-    for (var k = 1u; k < corner_count(); k++) {
-        let o = vec3u(corner_offset(k));
-        if edge[slot + o.x + params.stride.x * (o.y + params.stride.y * o.z)] == 1u { return true; }
-    }
-    return false;
-}
-
-// After the scan of `edge`: the mark and the list of all slots that are not INTERIOR, the frontier in any order, and their lengths.
-@compute @workgroup_size(WORKGROUP)
-fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
-    if slot >= params.slots { return; }
-    let interior = edge[slot] == 0u && !is_alias(cell_of(slot));
-    if edge[slot] == 1u { atomicStore(&extra[params.slots + edge_place[slot]], slot); }
-    if interior { cells[slot] |= INTERIOR; }
-    if interior && !QUADRATIC && on_frontier(slot) {
-        let at = atomicAdd(&extra[2u * params.slots + 1u], 1u);
-        atomicStore(&extra[2u * params.slots - 1u - at], slot);
-    }
-    if slot == params.slots - 1u { atomicStore(&extra[2u * params.slots], edge_place[slot] + edge[slot]); }
-}
-
 // After the scan of `wanted`.
 @compute @workgroup_size(WORKGROUP)
 fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -199,4 +156,55 @@ fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     }
     atomicStore(&extra[slot], at);
     if slot == params.slots - 1u { control.extra = place[slot] + wanted[slot]; }
+}
+
+// INTERIOR: every stencil of cell, node and vertex stays deep inside the gas. The nodes of the vertex have only gas around them,
+// so do the next ones up: gas in the 4^DIM cells around the vertex and two cells along each axis.
+// `wanted` from here on: the slots whose stencils take by far the longest, those between gas and body or obstacle.
+@compute @workgroup_size(WORKGROUP)
+fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let c = cell_of(slot);
+    var interior = inside(c) && away_from_seam(c, -2, 2);
+    if interior {
+        for (var k = 0u; k < corner_count(); k++) {
+            interior = interior && has(cells[slot_of(c - corner_offset(k))], NODE_INTERIOR);
+        }
+        for (var a = 0u; a < DIM; a++) { interior = interior && has(cells[slot_of(c + axis(a))], NODE_INTERIOR); }
+    }
+    edge[slot] = u32(!interior && !is_alias(c));
+    wanted[slot] = u32(!is_alias(c) && is_mixed(cells[slot]));
+}
+
+// INTERIOR slots whose node a listed vertex rests on, B1B0: the vertices of a node lie at its own slot and above.
+fn on_frontier(slot: u32) -> bool {
+    for (var k = 1u; k < corner_count(); k++) {
+        let o = vec3u(corner_offset(k));
+        if edge[slot + o.x + params.stride.x * (o.y + params.stride.y * o.z)] == 1u { return true; }
+    }
+    return false;
+}
+
+// After the scans of `edge` and `wanted`: the mark and the list of all slots that are not INTERIOR, mixed ones first so that threads that
+// run in step have the same to do; the frontier in any order; and the lengths of both.
+@compute @workgroup_size(WORKGROUP)
+fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let interior = edge[slot] == 0u && !is_alias(cell_of(slot));
+    let last = params.slots - 1u;
+    if edge[slot] == 1u {
+        let first = place[last] + wanted[last];
+        let at = select(first + edge_place[slot] - place[slot], place[slot], wanted[slot] == 1u);
+        atomicStore(&extra[params.slots + at], slot);
+    }
+    if interior { cells[slot] |= INTERIOR; }
+    if interior && !QUADRATIC && on_frontier(slot) {
+        let at = atomicAdd(&extra[2u * params.slots + 1u], 1u);
+        atomicStore(&extra[2u * params.slots - 1u - at], slot);
+    }
+    if slot == last { atomicStore(&extra[2u * params.slots], edge_place[slot] + edge[slot]); }
 }

@@ -5,6 +5,7 @@
 #include "shared/cell.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
+#include "shared/mixed.wgsl"
 #include "shared/cut.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
@@ -59,72 +60,78 @@ fn regular_force(slot: u32, c: vec3i) -> vec3f {
     return vec3f(ez.x * low.yz + ez.y * high.yz, ez.z * (high.x - low.x));
 }
 
-// One axis of an element as one of its nodes sees it, at the low and the high vertex: mean across, slope along, and the slope that
-// acts on h instead of the element's pressure. A closed face adds 1/2 to the slope of its vertices.
-struct Pair { mean: vec2f, slope: vec2f, face: vec2f }
-
-fn pair_of(n: u32, kinds: vec2u, offset: vec3i, solid: bool) -> Pair {
-    var pair: Pair;
-    pair.mean = vec2f(1.0, 0.0);
-    if n >= DIM { return pair; }
-    let quadratic = solid || QUADRATIC;
-    let node = -offset[n];
-    let low = closed_share(n, kinds, offset, solid, false);
-    let high = closed_share(n, kinds, offset, solid, true);
-    pair.mean = vec2f(mean_entry(quadratic, node, false), mean_entry(quadratic, node, true));
-    pair.slope = vec2f(gradient_entry(quadratic, node, false), gradient_entry(quadratic, node, true)) + vec2f(low.x, high.x);
-    pair.face = vec2f(low.y, high.y);
-    return pair;
+// Kinds of the 3^DIM cells around a node in the order of block_offset(). Beyond the ring: closed. `count`: block_size() or 0.
+fn kinds_of_block(c: vec3i, count: u32) -> Kinds {
+    var kinds: Kinds;
+    for (var k = 0u; k < count; k++) {
+        let near = c + block_offset(k);
+        var kind = WALL;
+        if in_ring(near) { kind = kind_of(cells[slot_of(near)]); }
+        add_kind(&kinds, kind, k);
+    }
+    return kinds;
 }
 
-// What a face of the element adds to the slope of its vertices, and the part of that which is h's.
-fn closed_share(n: u32, kinds: vec2u, offset: vec3i, solid: bool, up: bool) -> vec2f {
-    let beyond = kind_in_block(kinds, select(offset - axis(n), offset + axis(n), up));
-    let body = select(beyond == SOLID, beyond == GAS, solid);
-    let bare = !solid && (beyond == WALL || beyond == GHOST);
-    let share = select(-0.5, 0.5, up) * f32(face_holds(-offset, n, up));
-    return select(vec2f(0.0), vec2f(share, select(0.0, share, body)), body || bare);
+// Rows of the block around the line of vertices at (y, z) of the node; none beyond the block.
+fn rows_of_block(block: u32, y: i32, z: i32) -> vec4u {
+    let end = reach();
+    let row_y = vec2u(select(0u, 7u, y > -end.y), select(0u, 7u, y <= end.y));
+    let row_z = vec2u(select(0u, 7u, z > -end.z), select(0u, 7u, z <= end.z));
+    let place = 3 * (y + end.y) + 9 * (z + end.z);
+    return (vec4u(block) >> (vec4u(place + vec4i(-12, -9, -3, 0)) & vec4u(31u))) & row_y.xyxy & row_z.xxyy;
 }
 
-// Unknown of an element at a vertex, and how far h lies above it.
-fn unknown_at(v: vec3i, solid: bool) -> vec2f {
-    let slot = slot_of(v);
-    let h = interface_index(slot);
-    let value = x[select(slot, h + params.extra_capacity, solid && h != slot)];
-    return vec2f(value, select(0.0, x[h] - value, h != slot));
+// Unknowns of the vertices at -1 .. 2 along x: those of the gas, of bodies, and h.
+struct Unknowns { gas: vec4f, solid: vec4f, h: vec4f }
+
+fn unknowns_at(first: vec3i) -> Unknowns {
+    let at = vec4u(slot_of(first), slot_of(first + vec3i(1, 0, 0)), slot_of(first + vec3i(2, 0, 0)), slot_of(first + vec3i(3, 0, 0)));
+    let own = vec4f(x[at.x], x[at.y], x[at.z], x[at.w]);
+    var line = Unknowns(own, own, own);
+    if !SOLIDS { return line; }
+    let place = vec4u(extra[at.x], extra[at.y], extra[at.z], extra[at.w]);
+    let apart = place != vec4u(NO_EXTRA);
+    for (var turn = 0u; turn < u32(any(apart)); turn++) {
+        let h = select(at, params.slots + place, apart);
+        let q = select(at, params.slots + params.extra_capacity + place, apart);
+        line.h = vec4f(x[h.x], x[h.y], x[h.z], x[h.w]);
+        line.solid = vec4f(x[q.x], x[q.y], x[q.z], x[q.w]);
+    }
+    return line;
 }
 
-fn mean_of(pair: Pair, low: vec2f, high: vec2f) -> vec2f { return pair.mean.x * low + pair.mean.y * high; }
-fn slope_of(pair: Pair, low: vec2f, high: vec2f) -> f32 {
-    return dot(pair.slope, vec2f(low.x, high.x)) + dot(pair.face, vec2f(low.y, high.y));
+// Weights of the faces between cells of one kind and another: along x at the two vertices, across y and z per cell.
+struct Faces { x: vec2f, y: vec3f, z: vec3f }
+
+fn faces_between(own: mat3x4f, other: mat3x4f, weights: Weights, y: Step, z: Step) -> Faces {
+    return Faces(0.5 * vec2f(dot(weights.x, own[0] * other[1] - own[1] * other[0]),
+            dot(weights.x, own[1] * other[2] - own[2] * other[1])),
+        y.face * vec3f(dot(z.mean, faces_y(own[0], other[0])), dot(z.mean, faces_y(own[1], other[1])),
+            dot(z.mean, faces_y(own[2], other[2]))),
+        z.face * vec3f(dot(y.mean, faces_z(own[0], other[0])), dot(y.mean, faces_z(own[1], other[1])),
+            dot(y.mean, faces_z(own[2], other[2]))));
 }
 
-// Mean of the unknowns along the axes taken so far, and the slopes of those axes.
-struct Part { mean: vec2f, slope: vec2f }
+fn columns_of(rows: vec4u) -> mat3x4f { return mat3x4f(column(rows, 0u), column(rows, 1u), column(rows, 2u)); }
 
-fn line_part(v: vec3i, solid: bool, along_x: Pair) -> Part {
-    let low = unknown_at(v, solid);
-    let high = unknown_at(v + axis(0u), solid);
-    return Part(mean_of(along_x, low, high), vec2f(slope_of(along_x, low, high), 0.0));
-}
+fn mean_of(entries: Split, u: vec4f) -> vec3f { return entries.mean_above.xyz * u.xyz + entries.mean_below.yzw * u.yzw; }
 
-fn layer_part(v: vec3i, solid: bool, along_x: Pair, along_y: Pair) -> Part {
-    let low = line_part(v, solid, along_x);
-    if DIM == 1u { return low; }
-    let high = line_part(v + axis(1u), solid, along_x);
-    return Part(mean_of(along_y, low.mean, high.mean),
-        vec2f(dot(along_y.mean, vec2f(low.slope.x, high.slope.x)), slope_of(along_y, low.mean, high.mean)));
-}
-
-// One element's force on one of its nodes: a product of the three axes, taken one after the other.
-fn element_force(c: vec3i, kinds: vec2u, offset: vec3i, solid: bool) -> vec3f {
-    let along_x = pair_of(0u, kinds, offset, solid);
-    let along_y = pair_of(1u, kinds, offset, solid);
-    let low = layer_part(c + offset, solid, along_x, along_y);
-    if DIM < 3u { return vec3f(low.slope, 0.0); }
-    let along_z = pair_of(2u, kinds, offset, solid);
-    let high = layer_part(c + offset + axis(2u), solid, along_x, along_y);
-    return vec3f(along_z.mean.x * low.slope + along_z.mean.y * high.slope, slope_of(along_z, low.mean, high.mean));
+// What a line of vertices does to a node through the elements of one kind: `u` acts on the elements and, at sides of the domain and
+// obstacles, on the faces of gas; `h` on the faces between gas and body.
+fn line_force(own: vec4u, body: vec4u, closed: vec4u, line: vec3i, u: vec4f, h: vec4f, quadratic: bool) -> vec3f {
+    let along_x = split_entries(0u, quadratic);
+    let y = step_at(split_entries(1u, quadratic), line.y);
+    let z = step_at(split_entries(2u, quadratic), line.z);
+    let weights = weights_of(y, z);
+    let elements = columns_of(own);
+    let shared_faces = faces_between(elements, columns_of(body), weights, y, z);
+    let bare = faces_between(elements, columns_of(closed), weights, y, z);
+    let slope = along_x.slope_above.xyz * u.xyz + along_x.slope_below.yzw * u.yzw;
+    let mean = mean_of(along_x, u);
+    let film = mean_of(along_x, h);
+    return vec3f(dot(weights.x * elements, slope) + dot(bare.x, u.yz) + dot(shared_faces.x, h.yz),
+        dot(weights.y * elements + bare.y, mean) + dot(shared_faces.y, film),
+        dot(weights.z * elements + bare.z, mean) + dot(shared_faces.z, film));
 }
 
 // Force on the gas of a cluster next to an obstacle. Differences, so that a constant pressure moves nothing.
@@ -142,17 +149,26 @@ fn cut_force(slot: u32) -> vec3f {
 
 struct Forces { gas: vec3f, solid: vec3f }
 
-// Sum over the elements around a node between gas and body; `count`: block_size(), or 0 elsewhere.
+// Sum over the lines of vertices around a node between gas and body; `count`: block_size(), or 0 elsewhere.
 fn mixed_force(c: vec3i, count: u32) -> Forces {
     var forces: Forces;
-    let kinds = kinds_around_node(c);
-    for (var k = 0u; k < count; k++) {
-        let offset = block_offset(k);
-        let kind = kind_in_block(kinds, offset);
-        if !inside(c + offset) || (kind != GAS && kind != SOLID) { continue; }
-        let solid = kind == SOLID;
-        let force = element_force(c, kinds, offset, solid);
-        if solid { forces.solid += force; } else { forces.gas += force; }
+    let kinds = kinds_of_block(c, count);
+    for (var z = -reach().z; z <= select(-2, 2 * reach().z, count > 0u); z++) {
+        for (var y = -reach().y; y <= select(-2, 2 * reach().y, count > 0u); y++) {
+            let gas = rows_of_block(kinds.gas, y, z);
+            let solid = rows_of_block(kinds.solid, y, z);
+            let near = QUADRATIC || (y >= 0 && y <= 1 && z >= 0 && z <= 1);
+            let by_gas = near && any(gas != vec4u(0u));
+            let by_solid = SOLIDS && any(solid != vec4u(0u));
+            for (var turn = 0u; turn < u32(by_gas || by_solid); turn++) {
+                let line = vec3i(-1, y, z);
+                let unknowns = unknowns_at(c + line);
+                for (var again = 0u; again < u32(by_gas); again++) {
+                    forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), line, unknowns.gas, unknowns.h, QUADRATIC);
+                }
+                if SOLIDS { forces.solid += line_force(solid, gas, vec4u(0u), line, unknowns.solid, unknowns.h, true); }
+            }
+        }
     }
     return forces;
 }
@@ -177,8 +193,7 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         return;
     }
     let deep = SOLIDS && has(word, NODE_DEEP);
-    let mixed = has(word, NODE_GAS | NODE_SOLID) && !regular && !deep;
-    var forces = mixed_force(c, select(0u, block_size(), mixed));
+    var forces = mixed_force(c, select(0u, block_size(), is_mixed(word)));
     for (var turn = 0u; turn < u32(regular); turn++) { forces.gas = regular_force(slot, c); }
     work[slot] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass);
     if !SOLIDS || !has(word, NODE_SOLID) { return; }

@@ -3,6 +3,10 @@
 // the place of their rule, in WALL slots the friction of the bodies there, in thousandths.
 
 fn kind_of(word: u32) -> u32 { return word & 3u; }
+// Whether the node has gas and body, or gas and obstacle, around it.
+fn is_mixed(word: u32) -> bool {
+    return has(word, NODE_GAS | NODE_SOLID) && !has(word, NODE_REGULAR) && !(SOLIDS && has(word, NODE_DEEP));
+}
 fn previous_kind_of(word: u32) -> u32 { return (word >> 2u) & 3u; }
 fn has(word: u32, flag: u32) -> bool { return (word & flag) != 0u; }
 fn blocked_of(word: u32) -> f32 { return f32(word >> 16u) / 65535.0; }

@@ -1,17 +1,9 @@
 // Transpose of the forces: C^T of a node field, at one vertex. Needs the bindings cells, extra and work (gas nodes, solid nodes).
 
+#include "shared/mixed.wgsl"
+
 // Rows of one vertex: its own unknown, and h and Q where they are apart.
 struct Rows { own: f32, h: f32, q: f32 }
-
-fn add_rows(rows: ptr<function, Rows>, slot: u32, r: Rows) {
-    if interface_index(slot) == slot {
-        (*rows).own += r.own + r.h + r.q;
-    } else {
-        (*rows).own += r.own;
-        (*rows).h += r.h;
-        (*rows).q += r.q;
-    }
-}
 
 // The transpose of wide_force. `base`: where the nodes of gas or solid start.
 fn wide_rows(slot: u32, v: vec3i, base: u32, solid: bool) -> f32 {
@@ -66,65 +58,74 @@ fn regular_rows(slot: u32, v: vec3i) -> f32 {
     return low.y * below.x + high.x * above.x + low.z * below.y - high.z * above.y;
 }
 
-// One axis of an element as one of its vertices sees it, at the nodes -1, 0, 1: mean across, slope along, and the slope that acts on h.
-struct Triple { mean: vec3f, slope: vec3f, face: vec3f }
-
-fn triple_of(n: u32, quadratic: bool, up: bool, closed: f32, shared_face: f32) -> Triple {
-    var triple: Triple;
-    triple.mean = vec3f(0.0, 1.0, 0.0);
-    if n >= DIM { return triple; }
-    triple.mean = vec3f(mean_entry(quadratic, -1, up), mean_entry(quadratic, 0, up), mean_entry(quadratic, 1, up));
-    let holds = select(vec3f(1.0, 1.0, 0.0), vec3f(0.0, 1.0, 1.0), up);
-    triple.slope = vec3f(gradient_entry(quadratic, -1, up), gradient_entry(quadratic, 0, up), gradient_entry(quadratic, 1, up))
-        + closed * holds;
-    triple.face = shared_face * holds;
-    return triple;
+// Kinds of the cells around a vertex: the one below it along x, y and z at place 0, above them at 7. `count`: corner_count() or 0.
+fn kinds_beside(v: vec3i, count: u32) -> Kinds {
+    var kinds: Kinds;
+    for (var k = 0u; k < count; k++) { add_kind(&kinds, kind_of(cells[slot_of(v - corner_offset(k))]), 7u - k); }
+    return kinds;
 }
 
-// Entry at the node k = -1, 0, 1.
-fn pick(v: vec3f, k: i32) -> f32 { return select(select(v.y, v.x, k < 0), v.z, k > 0); }
+// The two cells along x in each of the four rows.
+fn columns_beside(bits: u32) -> mat2x4f {
+    let rows = vec4u(bits) >> vec4u(0u, 2u, 4u, 6u);
+    return mat2x4f(column(rows, 0u), column(rows, 1u));
+}
 
-// The transpose of element_force: one element's nodes as one of its vertices sees them, line by line along x.
-fn element_rows(slot: u32, v: vec3i, kinds: u32, corner: vec3i, solid: bool) -> Rows {
-    let quadratic = solid || QUADRATIC;
-    let base = select(0u, params.slots, solid);
-    let apart = interface_index(slot) != slot;
-    var closed = vec3f(0.0);    // +-1/2 where the face on this corner's side acts on the element's own pressure
-    var shared_face = vec3f(0.0);   // the same where it acts on h
-    for (var n = 0u; n < DIM; n++) {
-        let beyond = kind_across(kinds, corner, n);
-        let share = select(-0.5, 0.5, corner[n] == 1);
-        let body = select(beyond == SOLID, beyond == GAS, solid);
-        if body && apart { shared_face[n] = share; }
-        else if body || (!solid && (beyond == WALL || beyond == GHOST)) { closed[n] = share; }
-    }
-    let tx = triple_of(0u, quadratic, corner.x == 1, closed.x, shared_face.x);
-    let ty = triple_of(1u, quadratic, corner.y == 1, closed.y, shared_face.y);
-    let tz = triple_of(2u, quadratic, corner.z == 1, closed.z, shared_face.z);
-    var own = 0.0;
-    var h = 0.0;
-    // B1B0 couples a vertex to the nodes on its own side only.
-    let first = select(corner - reach(), -reach(), quadratic);
-    let last = select(corner, reach(), quadratic);
-    for (var z = first.z; z <= last.z; z++) {
-        let mz = pick(tz.mean, z);
-        for (var y = first.y; y <= last.y; y++) {
-            let my = pick(ty.mean, y);
-            let along = my * mz;
-            let slope_yz = vec2f(pick(ty.slope, y) * mz, my * pick(tz.slope, z));
-            let face_yz = vec2f(pick(ty.face, y) * mz, my * pick(tz.face, z));
-            for (var x = first.x; x <= last.x; x++) {
-                let velocity = work[base + slot_of(v - corner + vec3i(x, y, z))].xyz;
-                let mean = pick(tx.mean, x);
-                own += dot(velocity, vec3f(pick(tx.slope, x) * along, mean * slope_yz));
-                h += dot(velocity, vec3f(pick(tx.face, x) * along, mean * face_yz));
+// Places of the cells below and above along y, and along z.
+const BELOW = vec2u(0x33u, 0x0fu);
+const ABOVE = vec2u(0xccu, 0xf0u);
+
+// Whether the nodes at k = vertex - node along y and z belong to one of these cells.
+fn touches(bits: u32, y: i32, z: i32) -> bool {
+    let k = vec2i(y, z);
+    let near = select(vec2u(0u), BELOW, k >= vec2i(0)) | select(vec2u(0u), ABOVE, k <= vec2i(1));
+    return (bits & near.x & near.y) != 0u;
+}
+
+fn velocity_at(base: u32, j: vec3i) -> vec3f { return work[base + slot_of(j)].xyz; }
+
+// What a line of nodes gives to a vertex through the faces between cells of one kind and another: the transpose of faces_between.
+fn rows_of_faces(own: mat2x4f, other: mat2x4f, weights: Weights, y: Step, z: Step, ends: f32, mean_y: vec2f, mean_z: vec2f) -> f32 {
+    return 0.5 * ends * dot(weights.x, own[0] * other[1] - own[1] * other[0])
+        + y.face * (mean_y.x * dot(z.mean, faces_y(own[0], other[0])) + mean_y.y * dot(z.mean, faces_y(own[1], other[1])))
+        + z.face * (mean_z.x * dot(y.mean, faces_z(own[0], other[0])) + mean_z.y * dot(y.mean, faces_z(own[1], other[1])));
+}
+
+// The transpose of line_force, over all lines of nodes: rows of the element's own pressure, and of h.
+fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, base: u32, quadratic: bool) -> vec2f {
+    let along_x = split_entries(0u, quadratic);
+    let elements = columns_beside(own);
+    let bodies = columns_beside(body);
+    let sides = columns_beside(closed);
+    let last = select(vec3i(-2), select(reach(), 2 * reach(), quadratic), own != 0u);
+    let first = select(vec3i(0), -reach(), quadratic);
+    var rows = vec2f(0.0);
+    for (var k = first.z; k <= last.z; k++) {
+        let z = step_at(split_entries(2u, quadratic), k);
+        for (var j = first.y; j <= last.y; j++) {
+            let y = step_at(split_entries(1u, quadratic), j);
+            for (var turn = 0u; turn < u32(touches(own, j, k)); turn++) {
+                let at = v - vec3i(0, j, k);
+                let b = velocity_at(base, at);
+                let c = velocity_at(base, at - vec3i(1, 0, 0));
+                var a = vec3f(0.0);
+                var d = vec3f(0.0);
+                if quadratic {
+                    a = velocity_at(base, at + vec3i(1, 0, 0));
+                    d = velocity_at(base, at - vec3i(2, 0, 0));
+                }
+                let velocity = transpose(mat4x3f(a, b, c, d));
+                let slope = vec2f(dot(along_x.slope_below, velocity[0]), dot(along_x.slope_above, velocity[0]));
+                let mean_y = vec2f(dot(along_x.mean_below, velocity[1]), dot(along_x.mean_above, velocity[1]));
+                let mean_z = vec2f(dot(along_x.mean_below, velocity[2]), dot(along_x.mean_above, velocity[2]));
+                let weights = weights_of(y, z);
+                rows += vec2f(dot(weights.x * elements, slope) + dot(weights.y * elements, mean_y) + dot(weights.z * elements, mean_z)
+                    + rows_of_faces(elements, sides, weights, y, z, b.x + c.x, mean_y, mean_z),
+                    rows_of_faces(elements, bodies, weights, y, z, b.x + c.x, mean_y, mean_z));
             }
         }
     }
-    var r: Rows;
-    r.h = h;
-    if solid { r.q = own; } else { r.own = own; }
-    return r;
+    return rows;
 }
 
 // The vertex near an obstacle.
@@ -151,12 +152,15 @@ fn gather_rows(slot: u32, word: u32) -> Rows {
     let deep = SOLIDS && has(word, VERTEX_DEEP);
     let mixed = has(word, VERTEX_GAS | VERTEX_SOLID) && !regular && !deep;
     for (var turn = 0u; turn < u32(deep); turn++) { rows.own = wide_rows(slot, v, params.slots, true); }
-    let kinds = kinds_around_vertex(select(vec3i(0), v, mixed));
-    for (var k = 0u; k < select(0u, corner_count(), mixed); k++) {
-        let corner = corner_offset(k);
-        let kind = (kinds >> (2u * k)) & 3u;
-        if !inside(v - corner) || (kind != GAS && kind != SOLID) { continue; }
-        add_rows(&rows, slot, element_rows(slot, v, kinds, corner, kind == SOLID));
+    let kinds = kinds_beside(v, select(0u, corner_count(), mixed));
+    let gas = mixed_rows(v, kinds.gas, kinds.solid, kinds.closed, 0u, QUADRATIC);
+    rows.own += gas.x;
+    rows.h = gas.y;
+    if SOLIDS {
+        let solid = mixed_rows(v, kinds.solid, kinds.gas, 0u, params.slots, true);
+        rows.h += solid.y;
+        rows.q = solid.x;
+        if interface_index(slot) == slot { rows = Rows(rows.own + rows.h + rows.q, 0.0, 0.0); }
     }
     return rows;
 }

@@ -79,6 +79,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/listed.wgsl",
     "shared/material.wgsl",
     "shared/matrix.wgsl",
+    "shared/mixed.wgsl",
     "shared/motion.wgsl",
     "shared/opening.wgsl",
     "shared/params.wgsl",

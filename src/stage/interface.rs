@@ -13,8 +13,10 @@ use crate::state::constants::Entry;
 #[derive(Debug)]
 pub struct InterfaceStage {
     flags: Bound,
+    /// Over the flags of the extra list, then over those of the slots that come first in the list.
+    scan: Scan,
     edge: Bound,
-    list_scan: Scan,
+    edge_scan: Scan,
     list: Bound,
     solids: Option<Solids>,
 }
@@ -24,7 +26,6 @@ struct Solids {
     fill: Bound,
     ghost: Bound,
     kind: Bound,
-    scan: Scan,
     extra: Bound,
     start: Bound,
     ledger: [Bound; 3],
@@ -48,7 +49,6 @@ impl InterfaceStage {
                 fill: fill("interface_fill")?,
                 ghost: fill("interface_ghost")?,
                 kind: mark("interface_kind")?,
-                scan: Scan::over(gpu, wanted, place, state.params.slots, state.params.slots + 1)?,
                 extra: mark("interface_extra")?,
                 start: ledger("ledger_start")?,
                 ledger: [ledger("ledger_uncover")?, ledger("ledger_share")?, ledger("ledger_settle")?],
@@ -58,8 +58,9 @@ impl InterfaceStage {
         };
         Ok(Self {
             flags: mark("interface_flags")?,
+            scan: Scan::over(gpu, wanted, place, state.params.slots, state.params.slots + 1)?,
             edge: mark("interface_edge")?,
-            list_scan: Scan::over(gpu, edge, edge_place, state.params.slots, state.params.slots + 1)?,
+            edge_scan: Scan::over(gpu, edge, edge_place, state.params.slots, state.params.slots + 1)?,
             list: mark("interface_list")?,
             solids,
         })
@@ -72,14 +73,16 @@ impl InterfaceStage {
                 pass.dispatch(kernel, &slots(state, "BEGIN"));
             }
         }
-        self.record_flags(pass, state);
+        pass.dispatch(&self.flags, &slots(state, "BEGIN"));
+        self.record_list(pass, state);
     }
 
-    /// Flags and the list that follow from the kinds.
-    fn record_flags(&self, pass: &mut Pass, state: &State) {
-        pass.dispatch(&self.flags, &slots(state, "BEGIN"));
+    /// The list that follows from the flags.
+    fn record_list(&self, pass: &mut Pass, state: &State) {
         pass.dispatch(&self.edge, &slots(state, "BEGIN"));
-        self.list_scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
+        for scan in [&self.edge_scan, &self.scan] {
+            scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
+        }
         pass.dispatch(&self.list, &slots(state, "BEGIN"));
     }
 
@@ -90,9 +93,10 @@ impl InterfaceStage {
         pass.dispatch(&solids.fill, &slots(state, "BEGIN"));
         pass.dispatch(&solids.ghost, &extent(state, "BEGIN", Entry::Marched));
         pass.dispatch(&solids.kind, &slots(state, "BEGIN"));
-        self.record_flags(pass, state);
-        solids.scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
+        pass.dispatch(&self.flags, &slots(state, "BEGIN"));
+        self.scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
         pass.dispatch(&solids.extra, &slots(state, "BEGIN"));
+        self.record_list(pass, state);
         for kernel in &solids.ledger {
             pass.dispatch(kernel, &slots(state, "BEGIN"));
         }

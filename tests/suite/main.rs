@@ -15,6 +15,7 @@ mod images;
 mod kernels;
 mod layering;
 mod layouts;
+mod listed_operator;
 mod live;
 mod materials;
 mod numerics;

@@ -18,7 +18,7 @@ use crate::reference::time_step::time_step;
 use crate::reference::{self as twin, GAS, Particle, Problem, SOLID, Shared, Side, State};
 
 /// The fixed parts of a scene for the twin.
-fn problem_of(scene: &Scene) -> Problem {
+pub(crate) fn problem_of(scene: &Scene) -> Problem {
     let axes = scene.domain.axes();
     let cells: Vec<i32> = scene.domain.cells[..axes].iter().map(|n| *n as i32).collect();
     let grid = Grid::new(&cells, scene.domain.origin, scene.domain.spacing());

@@ -1,0 +1,50 @@
+// Stencils between gas and body: every vertex, or node, once, and the elements that it shares with the other by their kinds.
+// Cells come as bits, one word per kind; rows of cells along x, four of which lie around a line of vertices or nodes along x, in the order
+// y below and z below, y above and z below, y below and z above, both above.
+
+// Cells of one kind each, one bit per cell.
+struct Kinds { gas: u32, solid: u32, closed: u32 }
+
+fn add_kind(kinds: ptr<function, Kinds>, kind: u32, place: u32) {
+    (*kinds).gas |= u32(kind == GAS) << place;
+    (*kinds).solid |= u32(kind == SOLID) << place;
+    (*kinds).closed |= u32(kind == WALL || kind == GHOST) << place;
+}
+
+// One axis of the two elements beside a vertex: entries of the nodes at k = vertex - node = -1 .. 2. An inactive axis has the one above.
+struct Split { mean_below: vec4f, mean_above: vec4f, slope_below: vec4f, slope_above: vec4f, face: vec4f }
+
+fn split_entries(a: u32, quadratic: bool) -> Split {
+    let none = vec4f(0.0);
+    if a >= DIM { return Split(none, vec4f(0.0, 1.0, 0.0, 0.0), none, none, none); }
+    let face = vec4f(0.0, 0.5, 0.5, 0.0);
+    if quadratic {
+        return Split(vec4f(0.0, 3.0, 8.0, 1.0) / 24.0, vec4f(1.0, 8.0, 3.0, 0.0) / 24.0,
+            vec4f(0.0, -2.0, 1.0, 1.0) / 6.0, vec4f(-1.0, -1.0, 2.0, 0.0) / 6.0, face);
+    }
+    return Split(vec4f(0.0, 0.125, 0.375, 0.0), vec4f(0.0, 0.375, 0.125, 0.0),
+        vec4f(0.0, -0.5, 0.5, 0.0), vec4f(0.0, -0.5, 0.5, 0.0), face);
+}
+
+// The same of one k: below, above.
+struct Step { mean: vec2f, slope: vec2f, face: f32 }
+
+fn step_at(entries: Split, k: i32) -> Step {
+    let i = u32(k + 1);
+    return Step(vec2f(entries.mean_below[i], entries.mean_above[i]), vec2f(entries.slope_below[i], entries.slope_above[i]),
+        entries.face[i]);
+}
+
+// Products of the entries along y and z in the four rows.
+struct Weights { x: vec4f, y: vec4f, z: vec4f }
+
+fn weights_of(y: Step, z: Step) -> Weights {
+    return Weights(y.mean.xyxy * z.mean.xxyy, y.slope.xyxy * z.mean.xxyy, y.mean.xyxy * z.slope.xxyy);
+}
+
+// Whether the cells at place i of the four rows are of a kind.
+fn column(rows: vec4u, i: u32) -> vec4f { return vec4f((rows >> vec4u(i)) & vec4u(1u)); }
+
+// +1 where a cell has one of the other kind above it, -1 where below: y and z faces of four cells around a line.
+fn faces_y(own: vec4f, other: vec4f) -> vec2f { return own.xz * other.yw - own.yw * other.xz; }
+fn faces_z(own: vec4f, other: vec4f) -> vec2f { return own.xy * other.zw - own.zw * other.xy; }
