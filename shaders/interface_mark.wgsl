@@ -7,7 +7,7 @@
 @group(0) @binding(1) var<storage, read_write> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> fill: array<vec2f>;
 @group(0) @binding(3) var<storage, read> cell_start: array<u32>;
-@group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // 1 where a vertex wants P, h, Q apart; then 1 where a slot comes first in the list
+@group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // 1 where a vertex wants P, h, Q apart; then where a slot is mixed
 @group(0) @binding(5) var<storage, read> place: array<u32>;         // scan of wanted
 @group(0) @binding(6) var<storage, read_write> extra: array<atomic<u32>>;   // place in the extra block, or NO_EXTRA; then the lists
 @group(0) @binding(7) var<storage, read_write> control: Control;

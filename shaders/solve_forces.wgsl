@@ -118,14 +118,16 @@ fn mean_of(entries: Split, u: vec4f) -> vec3f { return entries.mean_above.xyz * 
 
 // What a line of vertices does to a node through the elements of one kind: `u` acts on the elements and, at sides of the domain and
 // obstacles, on the faces of gas; `h` on the faces between gas and body.
-fn line_force(own: vec4u, body: vec4u, closed: vec4u, line: vec3i, u: vec4f, h: vec4f, quadratic: bool) -> vec3f {
+fn line_force(own: vec4u, body: vec4u, closed: vec4u, line: vec3i, u: vec4f, h: vec4f, solid: bool) -> vec3f {
+    let quadratic = solid || QUADRATIC;
     let along_x = split_entries(0u, quadratic);
     let y = step_at(split_entries(1u, quadratic), line.y);
     let z = step_at(split_entries(2u, quadratic), line.z);
     let weights = weights_of(y, z);
     let elements = columns_of(own);
     let shared_faces = faces_between(elements, columns_of(body), weights, y, z);
-    let bare = faces_between(elements, columns_of(closed), weights, y, z);
+    var bare: Faces;
+    if !solid { bare = faces_between(elements, columns_of(closed), weights, y, z); }
     let slope = along_x.slope_above.xyz * u.xyz + along_x.slope_below.yzw * u.yzw;
     let mean = mean_of(along_x, u);
     let film = mean_of(along_x, h);
@@ -149,12 +151,14 @@ fn cut_force(slot: u32) -> vec3f {
 
 struct Forces { gas: vec3f, solid: vec3f }
 
-// Sum over the lines of vertices around a node between gas and body; `count`: block_size(), or 0 elsewhere.
+// Sum over the lines of vertices around a node between gas and body; `count`: block_size(), or 0 elsewhere. The bounds of the loops
+// depend on it so that no driver unrolls them: in software the unrolled form takes twice as long.
 fn mixed_force(c: vec3i, count: u32) -> Forces {
     var forces: Forces;
     let kinds = kinds_of_block(c, count);
-    for (var z = -reach().z; z <= select(-2, 2 * reach().z, count > 0u); z++) {
-        for (var y = -reach().y; y <= select(-2, 2 * reach().y, count > 0u); y++) {
+    let last = select(vec3i(-2), 2 * reach(), count > 0u);
+    for (var z = -reach().z; z <= last.z; z++) {
+        for (var y = -reach().y; y <= last.y; y++) {
             let gas = rows_of_block(kinds.gas, y, z);
             let solid = rows_of_block(kinds.solid, y, z);
             let near = QUADRATIC || (y >= 0 && y <= 1 && z >= 0 && z <= 1);
@@ -164,7 +168,7 @@ fn mixed_force(c: vec3i, count: u32) -> Forces {
                 let line = vec3i(-1, y, z);
                 let unknowns = unknowns_at(c + line);
                 for (var again = 0u; again < u32(by_gas); again++) {
-                    forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), line, unknowns.gas, unknowns.h, QUADRATIC);
+                    forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), line, unknowns.gas, unknowns.h, false);
                 }
                 if SOLIDS { forces.solid += line_force(solid, gas, vec4u(0u), line, unknowns.solid, unknowns.h, true); }
             }

@@ -91,7 +91,8 @@ fn rows_of_faces(own: mat2x4f, other: mat2x4f, weights: Weights, y: Step, z: Ste
         + z.face * (mean_z.x * dot(y.mean, faces_z(own[0], other[0])) + mean_z.y * dot(y.mean, faces_z(own[1], other[1])));
 }
 
-// The transpose of line_force, over all lines of nodes: rows of the element's own pressure, and of h.
+// The transpose of line_force, over all lines of nodes: rows of the element's own pressure, and of h. The bounds of the loops depend on
+// `own` so that no driver unrolls them.
 fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, base: u32, quadratic: bool) -> vec2f {
     let along_x = split_entries(0u, quadratic);
     let elements = columns_beside(own);

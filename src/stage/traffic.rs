@@ -47,7 +47,7 @@ pub const TRAFFIC: [Traffic; 17] = [
     row("particle_sort", Per::Step, 0, 16, 88),
     row("particle_sort", Per::Substep, 0, 16, 88),
     row("p2g", Per::Substep, 0, 640, 108),
-    row("interface", Per::Step, 0, 332, 264),
+    row("interface", Per::Step, 0, 360, 264),
     row("gas_advection", Per::Step, 116, 32, 0),
     carrier("gas_advection", 96),
     carrier("intermediate_pressure", 4),

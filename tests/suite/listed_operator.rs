@@ -79,6 +79,10 @@ impl Marks {
         self.capacity > 0 && self.extra[vertex] != u32::MAX
     }
 
+    fn unknown_count(&self) -> usize {
+        self.cells.len() + 2 * self.capacity
+    }
+
     /// Unknowns that a vertex has for a kind of element: of the element itself, and of its faces to the other kind.
     fn unknowns(&self, vertex: usize, kind: u32) -> [usize; 2] {
         let slots = self.cells.len();
@@ -140,6 +144,61 @@ fn run(gpu: &Gpu, state: &State, shader: &str, entry: &str, renamed: &[(&str, &w
     pass.submit().unwrap();
 }
 
+fn noise(length: usize) -> Vec<f32> {
+    let mut random = Random(5);
+    (0..length).map(|_| random.between(-1.0, 1.0)).collect()
+}
+
+/// Error of the forces at listed nodes. What an unknown has no use for must not matter, so all are random.
+fn error_of_forces(gpu: &Gpu, state: &State, marks: &Marks, entries: &[Entry]) -> f64 {
+    let slots = marks.cells.len();
+    let x = noise(marks.unknown_count());
+    let x_buffer = Buffer::from_slice(gpu, "x", &x).unwrap();
+    let work = Buffer::from_slice(gpu, "work", &vec![[0.0, 0.0, 0.0, 1.0_f32]; 2 * slots]).unwrap();
+    let inertia = Buffer::from_slice(gpu, "inertia", &vec![1.0_f32; slots]).unwrap();
+    let named = [("x", x_buffer.raw()), ("work", work.raw()), ("inertia", inertia.raw())];
+    run(gpu, state, "solve_forces.wgsl", "solve_forces", &named);
+    let found = readback::read(gpu, &work).unwrap();
+    let mut expected = vec![[0.0; 3]; 2 * slots];
+    for entry in entries {
+        expected[entry.node][entry.axis] += entry.value * f64::from(x[entry.unknown]);
+    }
+    let nodes: Vec<usize> = marks.listed.iter().flat_map(|slot| [*slot, slots + slot]).collect();
+    worst(
+        &nodes.iter().flat_map(|node| [0, 1, 2].map(|d| f64::from(found[*node][d]))).collect::<Vec<_>>(),
+        &nodes.iter().flat_map(|node| expected[*node]).collect::<Vec<_>>(),
+    )
+}
+
+/// Error of the rows at listed vertices, without stiffness and with dt = 1.
+fn error_of_rows(gpu: &Gpu, state: &State, marks: &Marks, entries: &[Entry]) -> f64 {
+    let length = marks.unknown_count();
+    let velocity = noise(8 * marks.cells.len());
+    let velocity: Vec<[f32; 4]> = velocity.chunks_exact(4).map(|v| [v[0], v[1], v[2], 1.0]).collect();
+    let mut control = readback::read(gpu, &state.control).unwrap();
+    control[0].dt = 1.0;
+    state.control.write(gpu, 0, &control);
+    let work = Buffer::from_slice(gpu, "work", &velocity).unwrap();
+    let zero = Buffer::from_slice(gpu, "stiffness", &vec![0.0_f32; length]).unwrap();
+    let y = Buffer::from_slice(gpu, "y", &vec![0.0_f32; length]).unwrap();
+    let named = [("x", zero.raw()), ("y", y.raw()), ("work", work.raw()), ("stiffness", zero.raw())];
+    run(gpu, state, "solve_operator.wgsl", "solve_operator", &named);
+    let found = readback::read(gpu, &y).unwrap();
+    let mut expected = vec![0.0; length];
+    for entry in entries {
+        expected[entry.unknown] += entry.value * f64::from(velocity[entry.node][entry.axis]);
+    }
+    let places = |slot: &usize| {
+        let [own, h] = marks.unknowns(*slot, SOLID);
+        if own == *slot { vec![own] } else { vec![*slot, h, own] }
+    };
+    let unknowns: Vec<usize> = marks.listed.iter().flat_map(places).collect();
+    worst(
+        &unknowns.iter().map(|place| f64::from(found[*place])).collect::<Vec<_>>(),
+        &unknowns.iter().map(|place| expected[*place]).collect::<Vec<_>>(),
+    )
+}
+
 /// Returns how many vertices keep their pressures apart, none without a device.
 fn compare(overrides: &[&str]) -> Option<usize> {
     let gpu = gpu_or_skip()?;
@@ -151,53 +210,8 @@ fn compare(overrides: &[&str]) -> Option<usize> {
     let state = &simulation.state;
     let marks = Marks::of(&gpu, state);
     let entries = entries(&problem_of(&scene), &marks);
-    let (slots, length) = (marks.cells.len(), marks.cells.len() + 2 * marks.capacity);
-    let mut random = Random(5);
-    let mut noise = |length: usize| -> Vec<f32> { (0..length).map(|_| random.between(-1.0, 1.0)).collect() };
-
-    // Forces: what an unknown has no use for must not matter, so all are random.
-    let x = noise(length);
-    let x_buffer = Buffer::from_slice(&gpu, "x", &x).unwrap();
-    let work = Buffer::from_slice(&gpu, "work", &vec![[0.0, 0.0, 0.0, 1.0_f32]; 2 * slots]).unwrap();
-    let inertia = Buffer::from_slice(&gpu, "inertia", &vec![1.0_f32; slots]).unwrap();
-    let named = [("x", x_buffer.raw()), ("work", work.raw()), ("inertia", inertia.raw())];
-    run(&gpu, state, "solve_forces.wgsl", "solve_forces", &named);
-    let found = readback::read(&gpu, &work).unwrap();
-    let mut expected = vec![[0.0; 3]; 2 * slots];
-    for entry in &entries {
-        expected[entry.node][entry.axis] += entry.value * f64::from(x[entry.unknown]);
-    }
-    let nodes: Vec<usize> = marks.listed.iter().flat_map(|slot| [*slot, slots + slot]).collect();
-    let forces = worst(
-        &nodes.iter().flat_map(|node| [0, 1, 2].map(|d| f64::from(found[*node][d]))).collect::<Vec<_>>(),
-        &nodes.iter().flat_map(|node| expected[*node]).collect::<Vec<_>>(),
-    );
-
-    // Rows, without stiffness and with dt = 1.
-    let velocity = noise(8 * slots);
-    let velocity: Vec<[f32; 4]> = velocity.chunks_exact(4).map(|v| [v[0], v[1], v[2], 1.0]).collect();
-    let mut control = readback::read(&gpu, &state.control).unwrap();
-    control[0].dt = 1.0;
-    state.control.write(&gpu, 0, &control);
-    let work = Buffer::from_slice(&gpu, "work", &velocity).unwrap();
-    let zero = Buffer::from_slice(&gpu, "stiffness", &vec![0.0_f32; length]).unwrap();
-    let y = Buffer::from_slice(&gpu, "y", &vec![0.0_f32; length]).unwrap();
-    let named = [("x", x_buffer.raw()), ("y", y.raw()), ("work", work.raw()), ("stiffness", zero.raw())];
-    run(&gpu, state, "solve_operator.wgsl", "solve_operator", &named);
-    let found = readback::read(&gpu, &y).unwrap();
-    let mut expected = vec![0.0; length];
-    for entry in &entries {
-        expected[entry.unknown] += entry.value * f64::from(velocity[entry.node][entry.axis]);
-    }
-    let places = |slot: &usize| {
-        let [own, h] = marks.unknowns(*slot, SOLID);
-        if own == *slot { vec![own] } else { vec![*slot, h, own] }
-    };
-    let unknowns: Vec<usize> = marks.listed.iter().flat_map(places).collect();
-    let rows = worst(
-        &unknowns.iter().map(|place| f64::from(found[*place])).collect::<Vec<_>>(),
-        &unknowns.iter().map(|place| expected[*place]).collect::<Vec<_>>(),
-    );
+    let forces = error_of_forces(&gpu, state, &marks, &entries);
+    let rows = error_of_rows(&gpu, state, &marks, &entries);
     let mut sorted = marks.listed.clone();
     sorted.sort_unstable();
     sorted.dedup();
@@ -252,4 +266,24 @@ fn listed_operator_2d() {
         "bodies[2].shape={ box = { center = [1.3, 1.0], size = [0.2, 0.2] } }",
         "bodies[3].shape={ box = { center = [0.85, 0.85], size = [0.1, 0.1] } }",
     ]);
+}
+
+/// Along a line every body is resolved.
+#[test]
+fn listed_operator_1d() {
+    for (pair, rule) in [("b1b0", "h"), ("b2b1", "h"), ("b1b0", "resolved"), ("b2b1", "single")] {
+        let (pair, rule) = (format!("numerics.pair={pair}"), format!("numerics.interface={rule}"));
+        compare(&[
+            "domain.dimension=1",
+            "domain.cells=[14]",
+            "domain.size=[1.4]",
+            "obstacles[0].shape={ box = { center = [1.0], size = [0.2] } }",
+            "bodies[0].shape={ box = { center = [0.45], size = [0.3] } }",
+            "bodies[1].shape={ box = { center = [0.05], size = [0.1] } }",
+            "bodies[2].shape={ box = { center = [1.3], size = [0.2] } }",
+            "bodies[3].shape={ box = { center = [0.75], size = [0.1] } }",
+            &pair,
+            &rule,
+        ]);
+    }
 }
