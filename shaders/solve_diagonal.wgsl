@@ -146,7 +146,9 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     for (var turn = 0u; turn < u32(deep); turn++) { squares.own = wide_square(v, params.slots, true); }
     inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);
     if apart {
-        inverse_diagonal[interface_index(slot)] = inverse(scale * squares.h);
+        // where h has a row, the preconditioner of the surface stands in for the diagonal
+        let alone = extra[slot] >= params.surface_rows;
+        inverse_diagonal[interface_index(slot)] = select(0.0, inverse(scale * squares.h), alone);
         inverse_diagonal[ghost_index(slot)] = inverse(stiffness[ghost_index(slot)] + scale * squares.q);
     }
 }

@@ -50,6 +50,7 @@ struct Params {
     wall_sides: u32,            // sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
     blending: u32,              // 1: faces of partly filled cells are blocked by their share
     least_entropy: f32,         // p / rho^gamma that no gas falls below
+    surface_rows: u32,          // vertices whose interface pressure has a row in the preconditioner
     scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 

@@ -111,6 +111,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "solve_open.wgsl",
     "solve_operator.wgsl",
     "solve_setup.wgsl",
+    "solve_surface.wgsl",
     "step_control.wgsl",
     "supports.wgsl",
     "time_step.wgsl",

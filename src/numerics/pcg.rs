@@ -1,4 +1,4 @@
-//! Conjugate gradients with a diagonal preconditioner, matrix-free, all scalars on the device.
+//! Conjugate gradients with a diagonal preconditioner, and one of its own for a block of unknowns, matrix-free, all scalars on the device.
 //!
 //! The operator is given as dispatches that turn `direction` into `product` and leave the partial sums of their dot product
 //! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. [Saad 2003, algorithm 9.1]
@@ -96,6 +96,15 @@ pub struct Pcg {
     direction: Bound,
 }
 
+/// A block of unknowns with a preconditioner of its own; their inverse diagonal is 0. All kernels run with groups that stride.
+#[derive(Debug, Default)]
+pub struct Block<'a> {
+    /// Turn the residual into z, in order; the last one adds z . r to the partial sums.
+    pub terms: Vec<&'a Bound>,
+    /// Adds z to the direction.
+    pub direction: Option<&'a Bound>,
+}
+
 /// Which extents of an iteration an operator kernel runs with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
@@ -173,22 +182,34 @@ impl Pcg {
         })
     }
 
-    /// Takes `residual` as right-hand side and opens the iteration. `partial` and `single` gate the two dispatches.
-    pub fn begin(&self, pass: &mut Pass, partial: &Extent<'_>, single: &Extent<'_>) {
+    /// Takes `residual` as right-hand side and opens the iteration. `partial` and `single` gate the dispatches.
+    pub fn begin(&self, pass: &mut Pass, partial: &Extent<'_>, single: &Extent<'_>, block: &Block<'_>) {
         pass.dispatch(&self.begin[0], partial);
+        for term in &block.terms {
+            pass.dispatch(term, partial);
+        }
         pass.dispatch(&self.begin[1], single);
+        if let Some(direction) = block.direction {
+            pass.dispatch(direction, partial);
+        }
     }
 
     /// Records one iteration: nothing happens on the device once the solve is done.
-    pub fn iterate(&self, pass: &mut Pass, operator: &[(&Bound, Width)]) {
+    pub fn iterate(&self, pass: &mut Pass, operator: &[(&Bound, Width)], block: &Block<'_>) {
         let extent = |entry: u64| Extent::Indirect(&self.extents, entry * 16);
         for (kernel, width) in operator {
             pass.dispatch(kernel, &extent(*width as u64));
         }
         pass.dispatch(&self.alpha, &extent(2));
         pass.dispatch(&self.update, &extent(1));
+        for term in &block.terms {
+            pass.dispatch(term, &extent(1));
+        }
         pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
         pass.dispatch(&self.direction, &extent(1));
+        if let Some(direction) = block.direction {
+            pass.dispatch(direction, &extent(1));
+        }
     }
 }
 

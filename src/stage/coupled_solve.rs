@@ -1,14 +1,17 @@
 //! `coupled_solve`: which pressure and velocity satisfy both sides? One symmetric positive definite system for gas, interface
 //! and ghost pressure, matrix-free, by conjugate gradients with a Jacobi preconditioner. [Cao et al. 2022, eqs. 34-37]
 
+mod surface;
+
 use super::time_step::slots;
 use super::{Parts, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::numerics::{Pcg, Width};
+use crate::numerics::{Block, Pcg, Width};
 use crate::scene::SolidUpdate;
 use crate::state::State;
 use crate::state::constants::Entry;
+use surface::Surface;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -22,6 +25,7 @@ pub struct CoupledSolve {
     forces_of_pressure: [Bound; 2],
     velocities: [Bound; 2],
     vertices: Vertices,
+    surface: Option<Surface>,
     reference: Bound,
     forces: [Bound; 2],
     add: Bound,
@@ -91,6 +95,7 @@ impl CoupledSolve {
             forces_of_pressure: forces(state.pressure.raw())?,
             velocities: setup("solve_velocities")?,
             vertices: Vertices::new(parts)?,
+            surface: Surface::new(parts)?,
             reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
             add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[], &[])?,
@@ -123,8 +128,16 @@ impl CoupledSolve {
         for (kernel, entry) in &self.vertices.setup {
             pass.dispatch(kernel, &extent(state, phase, *entry));
         }
+        if let Some(surface) = &self.surface {
+            surface.record_rows(pass, state, phase);
+        }
         pass.dispatch(&self.reference, &extent(state, phase, Entry::Reduce));
-        self.pcg.begin(pass, &extent(state, phase, Entry::Reduce), &extent(state, phase, Entry::Single));
+        let (partial, single) = (extent(state, phase, Entry::Reduce), extent(state, phase, Entry::Single));
+        self.pcg.begin(pass, &partial, &single, &self.block());
+    }
+
+    fn block(&self) -> Block<'_> {
+        self.surface.as_ref().map(Surface::block).unwrap_or_default()
     }
 
     /// Iterations; those after convergence do nothing.
@@ -132,6 +145,7 @@ impl CoupledSolve {
         pass.stage("coupled_solve");
         let [forces, listed_forces] = &self.forces;
         let [operator, listed_operator] = &self.vertices.operator;
+        let block = self.block();
         for _ in 0..count {
             self.pcg.iterate(
                 pass,
@@ -142,6 +156,7 @@ impl CoupledSolve {
                     (listed_operator, Width::Partial),
                     (operator, Width::Partial),
                 ],
+                &block,
             );
         }
     }

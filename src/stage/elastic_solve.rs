@@ -5,7 +5,7 @@ use super::p2g::Force;
 use super::{Parts, Transfer, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
-use crate::numerics::{Pcg, PcgVectors, Width};
+use crate::numerics::{Block, Pcg, PcgVectors, Width};
 use crate::scene::{Elasticity, Scene};
 use crate::state::State;
 use crate::state::constants::Entry;
@@ -86,12 +86,17 @@ impl ElasticSolve {
         self.force.record(pass, state, "ROUND");
         pass.dispatch(&self.diagonal, &extent(state, "ROUND", Entry::Slots));
         pass.dispatch(&self.residual, &extent(state, "ROUND", Entry::Slots));
-        self.pcg.begin(pass, &extent(state, "ROUND", Entry::Reduce), &extent(state, "ROUND", Entry::Single));
+        self.pcg.begin(
+            pass,
+            &extent(state, "ROUND", Entry::Reduce),
+            &extent(state, "ROUND", Entry::Single),
+            &Block::default(),
+        );
         for _ in 0..iterations {
             pass.dispatch(iteration, &single);
             pass.dispatch(&self.strain, &extent(state, "ITERATION", Entry::Particles));
             self.change.record(pass, state, "ITERATION");
-            self.pcg.iterate(pass, &[(&self.operator, Width::Partial)]);
+            self.pcg.iterate(pass, &[(&self.operator, Width::Partial)], &Block::default());
         }
         pass.dispatch(balanced, &single);
         pass.dispatch(&self.add, &extent(state, "ROUND", Entry::Slots));

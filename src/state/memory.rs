@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, constants, control::Control,
-    elastic_solve, extra_capacity,
+    elastic_solve, extra_capacity, surface,
 };
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
@@ -74,6 +74,9 @@ impl MemoryPlan {
         plan.add("pressure", &[("pressure", unknowns, 4), ("stiffness", unknowns, 4), ("solution", unknowns, 4)]);
         plan.add("pressure", &[("residual", unknowns, 4), ("direction", unknowns, 4), ("product", unknowns, 4)]);
         plan.add("pressure", &[("inverse_diagonal", unknowns, 4)]);
+        let rows = surface::rows(slots as usize, capacity as usize) as u64;
+        let row_length = surface::row_length(dimension as usize) as u64;
+        plan.add("pressure", &[("surface rows", rows * row_length, 8), ("surface", rows, 16)]);
         plan.add("particles", &[("position", count, 16), ("velocity", count, 16), ("affine", 3 * count, 16)]);
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);
         plan.add(

@@ -12,6 +12,7 @@ pub mod openings;
 pub mod params;
 pub mod particles;
 pub mod supports;
+pub(crate) mod surface;
 
 pub use control::Control;
 pub use elastic_solve::ElasticBuffers;

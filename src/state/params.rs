@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{Grid, constants};
+use super::{Grid, constants, surface};
 use crate::gpu::WORKGROUP;
 use crate::numerics::Scan;
 use crate::scene::{Boundary, Ghost, Integrator, InterfacePressure, Pair, Scene};
@@ -71,8 +71,10 @@ pub struct Params {
     pub blending: u32,
     /// p / rho^gamma that no gas falls below.
     pub least_entropy: f32,
+    /// Vertices whose interface pressure has a row in the preconditioner.
+    pub surface_rows: u32,
     /// Fills the last 16 bytes.
-    pub unused: [u32; 2],
+    pub unused: u32,
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -159,7 +161,8 @@ impl Params {
             wall_sides: wall_sides(scene),
             blending: u32::from(numerics.blending),
             least_entropy: 0.0,
-            unused: [0; 2],
+            surface_rows: surface::rows(grid.slots(), limits.extra_capacity as usize) as u32,
+            unused: 0,
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {

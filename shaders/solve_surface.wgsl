@@ -1,0 +1,210 @@
+// coupled_solve, preconditioner of the interface pressures h: they have no compliance, and patterns that change sign from vertex to
+// vertex hardly move the nodes, so that a diagonal alone leaves fragments ill-conditioned. Here their own block of the system stands
+// row by row, and a Chebyshev polynomial of it comes close to its inverse. [Saad 2003, algorithm 12.1]
+// A row: the inverse of its diagonal, its length, then places and coefficients of the neighbours within two vertices; what lies
+// beyond is small and strengthens the diagonal, so that the block stays positive definite.
+#include "shared/index.wgsl"
+#include "shared/listed.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/control.wgsl"
+#include "shared/element.wgsl"
+#include "shared/system.wgsl"
+#include "shared/reduce4.wgsl"
+
+struct Turn { number: u32, count: u32 }
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> extra: array<u32>;
+@group(0) @binding(4) var<storage, read> work: array<vec4f>;            // w: inverse masses of gas and solid nodes
+@group(0) @binding(5) var<storage, read_write> rows: array<vec2u>;
+@group(0) @binding(6) var<storage, read_write> surface: array<vec4f>;   // result, residual, two directions in turn
+@group(0) @binding(7) var<storage, read_write> bound: atomic<u32>;      // of the eigenvalues, bits of a float
+@group(0) @binding(8) var<storage, read> residual: array<f32>;
+@group(0) @binding(9) var<storage, read_write> partials: array<vec4f>;
+@group(0) @binding(10) var<storage, read_write> direction: array<f32>;
+@group(0) @binding(11) var<uniform> turn: Turn;
+
+// Between the largest eigenvalue and the least one that the polynomial takes care of.
+const SPREAD = 150.0;
+const NEAR = 2;
+const FAR = 3;
+
+fn row_length() -> u32 {
+    var length = 1u;
+    for (var a = 0u; a < DIM; a++) { length *= u32(2 * NEAR + 1); }
+    return length + 1u;
+}
+
+fn row_count() -> u32 { return min(control.extra, params.surface_rows); }
+
+// How gas pushes on the four faces across axis a at a vertex, half of each: from below +, from above -. Solids feel the opposite.
+fn faces_at(kinds: u32, a: u32) -> vec4f {
+    let b = (a + 1u) % 3u;
+    let c = (a + 2u) % 3u;
+    var push = vec4f(0.0);
+    for (var t = 0u; t < 4u; t++) {
+        if (b >= DIM && (t & 1u) == 1u) || (c >= DIM && (t >> 1u) == 1u) { continue; }
+        var corner = vec3i(0);
+        corner[b] = i32(t & 1u);
+        corner[c] = i32(t >> 1u);
+        let above = (kinds >> (2u * corner_index(corner))) & 3u;
+        corner[a] = 1;
+        let below = (kinds >> (2u * corner_index(corner))) & 3u;
+        push[t] = select(0.0, 0.5, below == GAS && above == SOLID) - select(0.0, 0.5, below == SOLID && above == GAS);
+    }
+    return push;
+}
+
+// Means along one tangential axis of a node d from the vertex, in the cells at and below the vertex.
+fn means(quadratic: bool, n: u32, d: i32) -> vec2f {
+    if n >= DIM { return vec2f(1.0, 0.0); }
+    let at = select(0.0, mean_entry(quadratic, d, false), abs(d) <= 1);
+    let below = select(0.0, mean_entry(quadratic, d + 1, true), abs(d + 1) <= 1);
+    return vec2f(at, below);
+}
+
+fn coefficient_at(push: vec4f, b: vec2f, c: vec2f) -> f32 {
+    return dot(push, vec4f(b.x * c.x, b.y * c.x, b.x * c.y, b.y * c.y));
+}
+
+// Sum over the nodes of one phase of the product of the coefficients of the vertices v and v + w across axis a, over the masses.
+fn coupled(v: vec3i, w: vec3i, a: u32, push: vec4f, other: vec4f, solid: bool) -> f32 {
+    let quadratic = solid || QUADRATIC;
+    let b = (a + 1u) % 3u;
+    let c = (a + 2u) % 3u;
+    let low = select(-1, -2, quadratic);
+    let high = select(0, 1, quadratic);
+    let base = select(0u, params.slots, solid);
+    var sum = 0.0;
+    for (var db = select(0, low, b < DIM); db <= select(0, high, b < DIM); db++) {
+        let own_b = means(quadratic, b, db);
+        let other_b = means(quadratic, b, db - w[b]);
+        for (var dc = select(0, low, c < DIM); dc <= select(0, high, c < DIM); dc++) {
+            let product = coefficient_at(push, own_b, means(quadratic, c, dc))
+                * coefficient_at(other, other_b, means(quadratic, c, dc - w[c]));
+            for (var da = max(-1, w[a] - 1); da <= min(0, w[a]); da++) {
+                var d = vec3i(0);
+                d[a] = da;
+                d[b] = db;
+                d[c] = dc;
+                if !in_ring(v + d) { continue; }
+                let at = slot_of(v + d);
+                let counts = !solid || has(cells[at], NODE_SOLID);
+                sum += select(0.0, work[base + at].w, counts) * product;
+            }
+        }
+    }
+    return sum;
+}
+
+fn coupling(v: vec3i, w: vec3i, kinds: u32) -> f32 {
+    let others = kinds_around_vertex(v + w);
+    var sum = 0.0;
+    for (var a = 0u; a < DIM; a++) {
+        let push = faces_at(kinds, a);
+        let other = faces_at(others, a);
+        let meet = abs(w[a]) <= 1 && any(push != vec4f(0.0)) && any(other != vec4f(0.0));
+        for (var k = 0u; k < select(0u, 1u, meet); k++) {
+            sum += coupled(v, w, a, push, other, false) + coupled(v, w, a, push, other, true);
+        }
+    }
+    let scale = control.dt * face_area();
+    return scale * scale * sum;
+}
+
+@compute @workgroup_size(1)
+fn surface_begin() { atomicStore(&bound, 0u); }
+
+@compute @workgroup_size(WORKGROUP)
+fn surface_rows(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, groups, lane));
+    if slot >= params.slots { return; }
+    let row = extra[slot];
+    let v = cell_of(slot);
+    let first = row * row_length();
+    let kinds = kinds_around_vertex(select(vec3i(0), v, row < params.surface_rows));
+    var length = 1u;
+    var diagonal = 0.0;
+    var beside = 0.0;
+    let far = FAR * reach();
+    let last = select(vec3i(-FAR - 1), far, row < params.surface_rows);
+    for (var z = -far.z; z <= last.z; z++) {
+        for (var y = -far.y; y <= last.y; y++) {
+            for (var x = -far.x; x <= last.x; x++) {
+                let w = vec3i(x, y, z);
+                if !in_ring(v + w) { continue; }
+                let other = extra[slot_of(v + w)];
+                var value = 0.0;
+                for (var k = 0u; k < u32(other < params.surface_rows); k++) { value = coupling(v, w, kinds); }
+                if all(w == vec3i(0)) { diagonal += value; }
+                else if any(abs(w) > vec3i(NEAR)) { diagonal += abs(value); }
+                else if value != 0.0 {
+                    beside += abs(value);
+                    rows[first + length] = vec2u(other, bitcast<u32>(value));
+                    length += 1u;
+                }
+            }
+        }
+    }
+    if row >= params.surface_rows { return; }
+    let inverse = select(0.0, 1.0 / diagonal, diagonal > 0.0);
+    rows[first] = vec2u(length, bitcast<u32>(inverse));
+    atomicMax(&bound, bitcast<u32>(1.0 + beside * inverse));
+}
+
+// One term of the polynomial; the last one adds z . r to the partial sums.
+@compute @workgroup_size(WORKGROUP)
+fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                @builtin(local_invocation_index) lane: u32) {
+    let high = 1.01 * bitcast<f32>(atomicLoad(&bound));
+    let low = high / SPREAD;
+    let middle = 0.5 * (high + low);
+    let width = 0.5 * (high - low);
+    var before = 0.0;
+    var weight = width / middle;
+    for (var k = 0u; k < turn.number; k++) {
+        before = weight;
+        weight = 1.0 / (2.0 * middle / width - weight);
+    }
+    let now = 2u + (turn.number & 1u);
+    let then = 5u - now;
+    var product = 0.0;
+    for (var at = thread_index(group, groups, lane); at < row_count(); at += groups.x * groups.y * WORKGROUP) {
+        let head = rows[at * row_length()];
+        let inverse = bitcast<f32>(head.y);
+        let given = residual[params.slots + at];
+        var step = given * inverse / middle;
+        var result = 0.0;
+        var left = given;
+        if turn.number > 0u {
+            let old = surface[at][then];
+            var image = select(0.0, old / inverse, inverse > 0.0);
+            for (var k = 1u; k < head.x; k++) {
+                let entry = rows[at * row_length() + k];
+                image += bitcast<f32>(entry.y) * surface[entry.x][then];
+            }
+            result = surface[at].x + old;
+            left = surface[at].y - image;
+            step = weight * before * old + 2.0 * weight / width * inverse * left;
+        }
+        surface[at].y = left;
+        surface[at][now] = step;
+        let last = turn.number + 1u == turn.count;
+        surface[at].x = result + select(0.0, step, last);
+        product += select(0.0, (result + step) * given, last);
+    }
+    if turn.number + 1u < turn.count { return; }
+    let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
+    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }
+}
+
+// The new direction's share of h, whose inverse diagonal is 0.
+@compute @workgroup_size(WORKGROUP)
+fn surface_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                     @builtin(local_invocation_index) lane: u32) {
+    for (var at = thread_index(group, groups, lane); at < row_count(); at += groups.x * groups.y * WORKGROUP) {
+        direction[params.slots + at] += surface[at].x;
+    }
+}

@@ -1,0 +1,73 @@
+//! The preconditioner of the interface pressures: their own block of the system, inverted nearly by a Chebyshev polynomial.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::error::Result;
+use crate::gpu::{Bound, Buffer, Pass};
+use crate::numerics::Block;
+use crate::stage::{Parts, extent};
+use crate::state::State;
+use crate::state::constants::Entry;
+use crate::state::surface::row_length;
+
+/// Terms of the polynomial.
+const TERMS: u32 = 10;
+
+/// Mirror of `Turn` in `shaders/solve_surface.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Turn {
+    number: u32,
+    count: u32,
+}
+
+/// Kernels of the preconditioner.
+#[derive(Debug)]
+pub(super) struct Surface {
+    begin: Bound,
+    rows: Bound,
+    terms: Vec<Bound>,
+    direction: Bound,
+}
+
+impl Surface {
+    /// Binds, in scenes with bodies.
+    pub(super) fn new(parts: Parts<'_>) -> Result<Option<Self>> {
+        let Parts { gpu, state } = parts;
+        let count = state.params.surface_rows as usize;
+        if count == 0 {
+            return Ok(None);
+        }
+        let rows: Buffer<[u32; 2]> =
+            Buffer::new(gpu, "surface rows", count * row_length(state.grid.dimension as usize))?;
+        let surface: Buffer<[f32; 4]> = Buffer::new(gpu, "surface", count)?;
+        let bound: Buffer<u32> = Buffer::new(gpu, "surface bound", 1)?;
+        let shared = [("rows", rows.raw()), ("surface", surface.raw()), ("bound", bound.raw())];
+        let bind = |entry: &str, more: &[(&str, &wgpu::Buffer)]| {
+            let named = [&shared[..], more].concat();
+            state.bind(gpu, "solve_surface.wgsl", entry, &named, &[("LISTED", 1.0)])
+        };
+        let term = |number: u32| {
+            let turn = Buffer::uniform(gpu, "turn", 1)?;
+            turn.write(gpu, 0, &[Turn { number, count: TERMS }]);
+            bind("surface_term", &[("turn", turn.raw())])
+        };
+        Ok(Some(Self {
+            begin: bind("surface_begin", &[])?,
+            rows: bind("surface_rows", &[])?,
+            terms: (0..TERMS).map(term).collect::<Result<_>>()?,
+            direction: bind("surface_direction", &[])?,
+        }))
+    }
+
+    /// The rows of a solve, in a phase; masses of the nodes must be there.
+    pub(super) fn record_rows(&self, pass: &mut Pass, state: &State, phase: &str) {
+        pass.dispatch(&self.begin, &extent(state, phase, Entry::Single));
+        pass.dispatch(&self.rows, &extent(state, phase, Entry::Listed));
+    }
+
+    /// The block that it preconditions.
+    pub(super) fn block(&self) -> Block<'_> {
+        Block { terms: self.terms.iter().collect(), direction: Some(&self.direction) }
+    }
+}
