@@ -26,7 +26,7 @@ struct Turn { number: u32, count: u32 }
 @group(0) @binding(11) var<uniform> turn: Turn;
 
 // Between the largest eigenvalue and the least one that the polynomial takes care of.
-const SPREAD = 150.0;
+const SPREAD = 300.0;
 const NEAR = 2;
 const FAR = 3;
 

@@ -52,8 +52,6 @@ impl MemoryPlan {
         let slots = padded(0) * padded(1) * padded(2);
         let count = particles as u64;
         let solid = if particles == 0 { 1 } else { slots };
-        let capacity = extra_capacity(slots as usize, particles, dimension) as u64;
-        let unknowns = slots + 2 * capacity;
         let kept = u64::from(scene.solves() == 2);
         let table = super::cut::WIDTH as u64 * cut_cells;
         let mut plan = Self {
@@ -71,12 +69,7 @@ impl MemoryPlan {
             "interface",
             &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", 2 * slots + 2 + table, 4)],
         );
-        plan.add("pressure", &[("pressure", unknowns, 4), ("stiffness", unknowns, 4), ("solution", unknowns, 4)]);
-        plan.add("pressure", &[("residual", unknowns, 4), ("direction", unknowns, 4), ("product", unknowns, 4)]);
-        plan.add("pressure", &[("inverse_diagonal", unknowns, 4)]);
-        let rows = surface::rows(slots as usize, capacity as usize) as u64;
-        let row_length = surface::row_length(dimension as usize) as u64;
-        plan.add("pressure", &[("surface rows", rows * row_length, 8), ("surface", rows, 16)]);
+        plan.add_pressure(slots as usize, extra_capacity(slots as usize, particles, dimension), dimension as usize);
         plan.add("particles", &[("position", count, 16), ("velocity", count, 16), ("affine", 3 * count, 16)]);
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);
         plan.add(
@@ -108,6 +101,16 @@ impl MemoryPlan {
         plan.add("fixed", &[("motions", motions, size_of::<super::MotionAt>() as u64)]);
         plan.add_fixed(scene.probes.len() as u64);
         plan
+    }
+
+    /// Buffers of the pressure system.
+    fn add_pressure(&mut self, slots: usize, capacity: usize, dimension: usize) {
+        let unknowns = (slots + 2 * capacity) as u64;
+        let names = ["pressure", "stiffness", "solution", "residual", "direction", "product", "inverse_diagonal"];
+        self.add("pressure", &names.map(|name| (name, unknowns, 4)));
+        let rows = surface::rows(slots, capacity);
+        let entries = (rows * surface::row_length(dimension)) as u64;
+        self.add("pressure", &[("surface rows", entries, 8), ("surface", rows as u64, 16)]);
     }
 
     /// Buffers whose size does not depend on cells and particles.

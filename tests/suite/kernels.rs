@@ -223,7 +223,12 @@ fn ball_whose_elastic_step_comes_first() {
 /// Stiff enough for sub-steps, so that what the solve gives is spread.
 #[test]
 fn ball_that_shares_its_volume() {
-    let stiff = ["numerics.ghost=shared_volume", "materials.rubber.neo_hookean.young_modulus=1000.0"];
+    // at 1e-6 the stiff ball's ghost pressure is off by the tolerance of the solve
+    let stiff = [
+        "numerics.ghost=shared_volume",
+        "materials.rubber.neo_hookean.young_modulus=1000.0",
+        "numerics.tolerance=3e-7",
+    ];
     body(3, &stiff);
     body(3, &[&AT_THE_SIDES[..], &["numerics.ghost=shared_volume"]].concat());
 }

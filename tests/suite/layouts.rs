@@ -68,6 +68,7 @@ fn params() {
             wall_sides,
             blending,
             least_entropy,
+            surface_rows,
             scan,
         ]
     );

@@ -30,6 +30,7 @@ mod scenes;
 mod shaders;
 mod solids;
 mod supports;
+mod surface;
 mod synthetic;
 mod twins;
 mod verify;

@@ -11,7 +11,7 @@ use crate::state::constants::Entry;
 use crate::state::surface::row_length;
 
 /// Terms of the polynomial.
-const TERMS: u32 = 10;
+const TERMS: u32 = 12;
 
 /// Mirror of `Turn` in `shaders/solve_surface.wgsl`.
 #[repr(C)]
