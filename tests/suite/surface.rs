@@ -11,7 +11,7 @@ title = "Pieces"
 domain = { dimension = 3, cells = [12, 12, 12], size = [1.0, 1.0, 1.0] }
 boundary = { x_min = "outlet", x_max = "outlet", y_min = "outlet", y_max = "outlet", z_min = "outlet", z_max = "outlet" }
 materials.shell.von_mises = { young_modulus = 1000.0, poisson_ratio = 0.3, yield_stress = 30.0 }
-time = { until = 0.08, frames = 1 }
+time = { until = 0.14, frames = 1 }
 [gas]
 ambient = { density = 1.0, pressure = 1.0 }
 regions = [{ shape = { sphere = { center = [0.5, 0.5, 0.5], radius = 0.26 } }, density = 4.0, pressure = 40.0 }]
@@ -30,11 +30,11 @@ box = { center = [0.5, 0.5, 0.5], size = [1.0, 0.08, 1.0] }
 box = { center = [0.5, 0.5, 0.5], size = [1.0, 1.0, 0.08] }
 "#;
 
-/// Jacobi alone: up to 45 iterations with B1B0.
+/// The diagonal alone takes up to 30 with B1B0.
 #[test]
 fn pieces_cost_few_iterations() {
     let Some(gpu) = gpu_or_skip() else { return };
-    for (overrides, most) in [(&[][..], 20), (&["numerics.pair=b2b1".to_owned()][..], 20)] {
+    for (overrides, most) in [(&[][..], 15), (&["numerics.pair=b2b1".to_owned()][..], 15)] {
         let scene = Scene::parse(PIECES, "pieces.toml", overrides).unwrap();
         let mut simulation = Simulation::new(&gpu, &scene).unwrap();
         let records = simulation.advance_to(scene.time.until).unwrap();
