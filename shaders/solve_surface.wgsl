@@ -1,8 +1,9 @@
 // coupled_solve, preconditioner of the interface pressures h: they have no compliance, and patterns that change sign from vertex to
 // vertex hardly move the nodes, so that a diagonal alone leaves fragments ill-conditioned. Here their own block of the system stands
 // row by row, and a Chebyshev polynomial of it comes close to its inverse. [Saad 2003, algorithm 12.1]
-// A row: the inverse of its diagonal, its length, then places and coefficients of the neighbours within two vertices; what lies
-// beyond is small and strengthens the diagonal, so that the block stays positive definite.
+// A row: what the polynomial works with (result, residual, two directions in turn), the vertex, the inverse of its diagonal, and the
+// coefficients of the neighbours before it, one vertex away at most; those behind it have theirs in their own rows. What is left out
+// between bodies is small; the polynomial is positive below its upper bound, so the preconditioner is positive definite all the same.
 #include "shared/index.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
@@ -17,25 +18,26 @@ struct Turn { number: u32, count: u32 }
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
 @group(0) @binding(4) var<storage, read> work: array<vec4f>;            // w: inverse masses of gas and solid nodes
-@group(0) @binding(5) var<storage, read_write> rows: array<vec2u>;
-@group(0) @binding(6) var<storage, read_write> surface: array<vec4f>;   // result, residual, two directions in turn
-@group(0) @binding(7) var<storage, read_write> bound: atomic<u32>;      // of the eigenvalues, bits of a float
-@group(0) @binding(8) var<storage, read> residual: array<f32>;
-@group(0) @binding(9) var<storage, read_write> partials: array<vec4f>;
-@group(0) @binding(10) var<storage, read_write> direction: array<f32>;
-@group(0) @binding(11) var<uniform> turn: Turn;
+@group(0) @binding(5) var<storage, read_write> rows: array<f32>;
+@group(0) @binding(6) var<storage, read_write> bound: atomic<u32>;      // of the eigenvalues, bits of a float
+@group(0) @binding(7) var<storage, read> residual: array<f32>;
+@group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
+@group(0) @binding(9) var<storage, read_write> direction: array<f32>;
+@group(0) @binding(10) var<uniform> turn: Turn;
 
 // Between the largest eigenvalue and the least one that the polynomial takes care of.
 const SPREAD = 300.0;
-const NEAR = 2;
-const FAR = 3;
 
-fn row_length() -> u32 {
-    var length = 1u;
-    for (var a = 0u; a < DIM; a++) { length *= u32(2 * NEAR + 1); }
-    return length + 1u;
-}
+// Places in a row.
+const RESULT = 0u;
+const RESIDUAL = 1u;
+const DIRECTION = 2u;       // and the next one
+const VERTEX = 4u;
+const INVERSE = 5u;
+const COUPLINGS = 6u;
 
+fn before() -> u32 { return block_size() / 2u; }
+fn row_length() -> u32 { return COUPLINGS + before(); }
 fn row_count() -> u32 { return min(control.extra, params.surface_rows); }
 
 // How gas pushes on the four faces across axis a at a vertex, half of each: from below +, from above -. Solids feel the opposite.
@@ -124,34 +126,41 @@ fn surface_rows(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let row = extra[slot];
     let v = cell_of(slot);
     let first = row * row_length();
-    let kinds = kinds_around_vertex(select(vec3i(0), v, row < params.surface_rows));
-    var length = 1u;
+    let count = select(0u, block_size(), row < params.surface_rows);
+    let kinds = kinds_around_vertex(select(vec3i(0), v, count > 0u));
     var diagonal = 0.0;
     var beside = 0.0;
-    let far = FAR * reach();
-    let last = select(vec3i(-FAR - 1), far, row < params.surface_rows);
-    for (var z = -far.z; z <= last.z; z++) {
-        for (var y = -far.y; y <= last.y; y++) {
-            for (var x = -far.x; x <= last.x; x++) {
-                let w = vec3i(x, y, z);
-                if !in_ring(v + w) { continue; }
-                let other = extra[slot_of(v + w)];
-                var value = 0.0;
-                for (var k = 0u; k < u32(other < params.surface_rows); k++) { value = coupling(v, w, kinds); }
-                if all(w == vec3i(0)) { diagonal += value; }
-                else if any(abs(w) > vec3i(NEAR)) { diagonal += abs(value); }
-                else if value != 0.0 {
-                    beside += abs(value);
-                    rows[first + length] = vec2u(other, bitcast<u32>(value));
-                    length += 1u;
-                }
-            }
-        }
+    for (var k = 0u; k < count; k++) {
+        let near = v + block_offset(k);
+        let meets = in_ring(near) && extra[slot_of(near)] < params.surface_rows;
+        var value = 0.0;
+        for (var once = 0u; once < u32(meets); once++) { value = coupling(v, near - v, kinds); }
+        if k == before() { diagonal = value; } else { beside += abs(value); }
+        if k < before() { rows[first + COUPLINGS + k] = value; }
     }
-    if row >= params.surface_rows { return; }
+    if count == 0u { return; }
     let inverse = select(0.0, 1.0 / diagonal, diagonal > 0.0);
-    rows[first] = vec2u(length, bitcast<u32>(inverse));
+    rows[first + VERTEX] = bitcast<f32>(slot);
+    rows[first + INVERSE] = inverse;
     atomicMax(&bound, bitcast<u32>(1.0 + beside * inverse));
+}
+
+// The block times one of the directions, at a row.
+fn image_at(first: u32, direction_place: u32) -> f32 {
+    let v = cell_of(bitcast<u32>(rows[first + VERTEX]));
+    let inverse = rows[first + INVERSE];
+    var image = select(0.0, rows[first + direction_place] / inverse, inverse > 0.0);
+    for (var k = 0u; k < block_size(); k++) {
+        let near = v + block_offset(k);
+        if k == before() || !in_ring(near) { continue; }
+        let row = extra[slot_of(near)];
+        if row >= params.surface_rows { continue; }
+        let other = row * row_length();
+        // the matrix is symmetric: a neighbour behind has the coefficient at the mirrored place
+        let value = select(rows[other + COUPLINGS + block_size() - 1u - k], rows[first + COUPLINGS + k], k < before());
+        image += value * rows[other + direction_place];
+    }
+    return image;
 }
 
 // One term of the polynomial; the last one adds z . r to the partial sums.
@@ -162,40 +171,35 @@ fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let low = high / SPREAD;
     let middle = 0.5 * (high + low);
     let width = 0.5 * (high - low);
-    var before = 0.0;
+    var last_weight = 0.0;
     var weight = width / middle;
     for (var k = 0u; k < turn.number; k++) {
-        before = weight;
+        last_weight = weight;
         weight = 1.0 / (2.0 * middle / width - weight);
     }
-    let now = 2u + (turn.number & 1u);
-    let then = 5u - now;
+    let now = DIRECTION + (turn.number & 1u);
+    let then = DIRECTION + 1u - (turn.number & 1u);
+    let last = turn.number + 1u == turn.count;
     var product = 0.0;
     for (var at = thread_index(group, groups, lane); at < row_count(); at += groups.x * groups.y * WORKGROUP) {
-        let head = rows[at * row_length()];
-        let inverse = bitcast<f32>(head.y);
+        let first = at * row_length();
+        let inverse = rows[first + INVERSE];
         let given = residual[params.slots + at];
         var step = given * inverse / middle;
         var result = 0.0;
         var left = given;
-        if turn.number > 0u {
-            let old = surface[at][then];
-            var image = select(0.0, old / inverse, inverse > 0.0);
-            for (var k = 1u; k < head.x; k++) {
-                let entry = rows[at * row_length() + k];
-                image += bitcast<f32>(entry.y) * surface[entry.x][then];
-            }
-            result = surface[at].x + old;
-            left = surface[at].y - image;
-            step = weight * before * old + 2.0 * weight / width * inverse * left;
+        for (var once = 0u; once < u32(turn.number > 0u); once++) {
+            let old = rows[first + then];
+            result = rows[first + RESULT] + old;
+            left = rows[first + RESIDUAL] - image_at(first, then);
+            step = weight * last_weight * old + 2.0 * weight / width * inverse * left;
         }
-        surface[at].y = left;
-        surface[at][now] = step;
-        let last = turn.number + 1u == turn.count;
-        surface[at].x = result + select(0.0, step, last);
+        rows[first + RESIDUAL] = left;
+        rows[first + now] = step;
+        rows[first + RESULT] = result + select(0.0, step, last);
         product += select(0.0, (result + step) * given, last);
     }
-    if turn.number + 1u < turn.count { return; }
+    if !last { return; }
     let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
     if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }
 }
@@ -205,6 +209,6 @@ fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
 fn surface_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                      @builtin(local_invocation_index) lane: u32) {
     for (var at = thread_index(group, groups, lane); at < row_count(); at += groups.x * groups.y * WORKGROUP) {
-        direction[params.slots + at] += surface[at].x;
+        direction[params.slots + at] += rows[at * row_length() + RESULT];
     }
 }

@@ -110,7 +110,10 @@ impl MemoryPlan {
         self.add("pressure", &names.map(|name| (name, unknowns, 4)));
         let rows = surface::rows(slots, capacity);
         let entries = (rows * surface::row_length(dimension)) as u64;
-        self.add("pressure", &[("surface rows", entries, 8), ("surface", rows as u64, 16)]);
+        if rows > 0 {
+            self.add("pressure", &[("surface rows", entries, 4)]);
+            self.add("fixed", &[("surface bound", 1, 4), ("turns", surface::TERMS.into(), 8)]);
+        }
     }
 
     /// Buffers whose size does not depend on cells and particles.

@@ -34,7 +34,7 @@ box = { center = [0.5, 0.5, 0.5], size = [1.0, 1.0, 0.08] }
 #[test]
 fn pieces_cost_few_iterations() {
     let Some(gpu) = gpu_or_skip() else { return };
-    for (overrides, most) in [(&[][..], 15), (&["numerics.pair=b2b1".to_owned()][..], 15)] {
+    for (overrides, most) in [(&[][..], 15), (&["numerics.pair=b2b1".to_owned()][..], 20)] {
         let scene = Scene::parse(PIECES, "pieces.toml", overrides).unwrap();
         let mut simulation = Simulation::new(&gpu, &scene).unwrap();
         let records = simulation.advance_to(scene.time.until).unwrap();

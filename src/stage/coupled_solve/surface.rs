@@ -8,10 +8,7 @@ use crate::numerics::Block;
 use crate::stage::{Parts, extent};
 use crate::state::State;
 use crate::state::constants::Entry;
-use crate::state::surface::row_length;
-
-/// Terms of the polynomial.
-const TERMS: u32 = 12;
+use crate::state::surface::{TERMS, row_length};
 
 /// Mirror of `Turn` in `shaders/solve_surface.wgsl`.
 #[repr(C)]
@@ -38,11 +35,9 @@ impl Surface {
         if count == 0 {
             return Ok(None);
         }
-        let rows: Buffer<[u32; 2]> =
-            Buffer::new(gpu, "surface rows", count * row_length(state.grid.dimension as usize))?;
-        let surface: Buffer<[f32; 4]> = Buffer::new(gpu, "surface", count)?;
+        let rows: Buffer<f32> = Buffer::new(gpu, "surface rows", count * row_length(state.grid.dimension as usize))?;
         let bound: Buffer<u32> = Buffer::new(gpu, "surface bound", 1)?;
-        let shared = [("rows", rows.raw()), ("surface", surface.raw()), ("bound", bound.raw())];
+        let shared = [("rows", rows.raw()), ("bound", bound.raw())];
         let bind = |entry: &str, more: &[(&str, &wgpu::Buffer)]| {
             let named = [&shared[..], more].concat();
             state.bind(gpu, "solve_surface.wgsl", entry, &named, &[("LISTED", 1.0)])
