@@ -90,9 +90,9 @@ impl MemoryPlan {
             plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 20, 4)]);
         }
         let scan = Scan::planned_bytes(slots as u32 + 1);
-        plan.add("interface", &[("list scan", scan, 1)]);
+        plan.add("interface", &[("list scans", 2 * scan, 1)]);
         if particles > 0 {
-            plan.add("nodes", &[("scans", 2 * scan, 1)]);
+            plan.add("nodes", &[("sort scan", scan, 1)]);
         }
         plan.add("fixed", &[("openings", MAX_OPENINGS as u64, size_of::<Opening>() as u64)]);
         plan.add("fixed", &[("knots", Openings::new(scene).knots.len() as u64, size_of::<Knot>() as u64)]);

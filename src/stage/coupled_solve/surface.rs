@@ -25,6 +25,15 @@ pub(super) struct Surface {
     rows: Bound,
     terms: Vec<Bound>,
     direction: Bound,
+    _buffers: Buffers,
+}
+
+/// What the kernels hold, for the books of memory.
+#[derive(Debug)]
+struct Buffers {
+    rows: Buffer<f32>,
+    bound: Buffer<u32>,
+    turns: Vec<Buffer<Turn>>,
 }
 
 impl Surface {
@@ -35,23 +44,27 @@ impl Surface {
         if count == 0 {
             return Ok(None);
         }
-        let rows: Buffer<f32> = Buffer::new(gpu, "surface rows", count * row_length(state.grid.dimension as usize))?;
-        let bound: Buffer<u32> = Buffer::new(gpu, "surface bound", 1)?;
-        let shared = [("rows", rows.raw()), ("bound", bound.raw())];
+        let length = count * row_length(state.grid.dimension as usize);
+        let buffers = Buffers {
+            rows: Buffer::new(gpu, "surface rows", length)?,
+            bound: Buffer::new(gpu, "surface bound", 1)?,
+            turns: (0..TERMS).map(|_| Buffer::uniform(gpu, "turn", 1)).collect::<Result<_>>()?,
+        };
+        let shared = [("rows", buffers.rows.raw()), ("bound", buffers.bound.raw())];
         let bind = |entry: &str, more: &[(&str, &wgpu::Buffer)]| {
             let named = [&shared[..], more].concat();
             state.bind(gpu, "solve_surface.wgsl", entry, &named, &[("LISTED", 1.0)])
         };
-        let term = |number: u32| {
-            let turn = Buffer::uniform(gpu, "turn", 1)?;
+        let term = |(number, turn): (u32, &Buffer<Turn>)| {
             turn.write(gpu, 0, &[Turn { number, count: TERMS }]);
             bind("surface_term", &[("turn", turn.raw())])
         };
         Ok(Some(Self {
             begin: bind("surface_begin", &[])?,
             rows: bind("surface_rows", &[])?,
-            terms: (0..TERMS).map(term).collect::<Result<_>>()?,
+            terms: (0..).zip(&buffers.turns).map(term).collect::<Result<_>>()?,
             direction: bind("surface_direction", &[])?,
+            _buffers: buffers,
         }))
     }
 
