@@ -20,6 +20,7 @@ struct Pcg {
     groups_wide: u32,       // groups of the kernels with one thread per slot, x
     groups_high: u32,       // and y
     groups_partial: u32,    // groups of the kernels that leave partial sums
+    groups_block: u32,      // groups, at most as many, of the kernels of the block with a preconditioner of its own
 }
 
 @group(0) @binding(1) var<storage, read_write> pcg: Pcg;
@@ -37,6 +38,7 @@ fn open_iteration(on: bool) {
     pcg_extents[PCG_PARTIAL] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
     pcg_extents[PCG_SINGLE] = vec4u(keep);
     pcg_extents[PCG_LISTED] = vec4u(pcg.listed_wide, pcg.listed_high, 1u, 0u) * keep;
+    pcg_extents[PCG_BLOCK] = vec4u(pcg.groups_block, 1u, 1u, 0u) * keep;
     pcg_extents[PCG_FRONTIER] = vec4u(pcg.frontier_wide, pcg.frontier_high, 1u, 0u) * keep;
 }
 

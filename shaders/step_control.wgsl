@@ -24,7 +24,9 @@ fn control_listed() {
     pcg.listed_high = listed.y;
     pcg.frontier_wide = frontier.x;
     pcg.frontier_high = frontier.y;
+    pcg.groups_block = surface_groups().x;
     let keep = extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x;
+    extents[PHASE_BEGIN_EXTENTS + EXTENT_SURFACE] = surface_groups() * keep;
     extents[PHASE_BEGIN_EXTENTS + EXTENT_LISTED] = listed * keep;
     extents[PHASE_BEGIN_EXTENTS + EXTENT_FRONTIER] = frontier * keep;
 }

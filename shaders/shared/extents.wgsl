@@ -22,6 +22,11 @@ fn color_marches() -> u32 {
 }
 
 // Switches the dispatches of one phase on or off. Needs the binding control.
+fn surface_groups() -> vec4u {
+    let rows = min(control.extra, params.surface_rows);
+    return vec4u(min((rows + WORKGROUP - 1u) / WORKGROUP, params.groups), 1u, 1u, 0u);
+}
+
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
     extents[first + EXTENT_SLOTS] = groups_for(params.slots) * keep;
@@ -29,6 +34,7 @@ fn open_phase(first: u32, on: bool) {
     extents[first + EXTENT_REDUCE] = vec4u(params.groups, 1u, 1u, 0u) * keep;
     extents[first + EXTENT_LISTED] = groups_for(control.listed) * keep;
     extents[first + EXTENT_FRONTIER] = groups_for(control.frontier) * keep;
+    extents[first + EXTENT_SURFACE] = surface_groups() * keep;
     extents[first + EXTENT_MARCHED] = groups_for(marches()) * keep;
     extents[first + EXTENT_COLOR] = groups_for(color_marches()) * keep;
     extents[first + EXTENT_SINGLE] = vec4u(keep);

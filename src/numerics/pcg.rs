@@ -1,4 +1,5 @@
-//! Conjugate gradients with a diagonal preconditioner, and one of its own for a block of unknowns, matrix-free, all scalars on the device.
+//! Conjugate gradients with a diagonal preconditioner, and one of its own for a block of unknowns, matrix-free, all scalars on
+//! the device.
 //!
 //! The operator is given as dispatches that turn `direction` into `product` and leave the partial sums of their dot product
 //! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. [Saad 2003, algorithm 9.1]
@@ -11,7 +12,7 @@ use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP,
 /// WGSL constants of this method.
 const SOURCE: &str = "const PCG_RUNNING = 0u;\nconst PCG_CONVERGED = 1u;\nconst PCG_STALLED = 2u;\n\
                       const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\nconst PCG_LISTED = 3u;\n\
-                      const PCG_FRONTIER = 4u;\n";
+                      const PCG_FRONTIER = 4u;\nconst PCG_BLOCK = 5u;\n";
 
 /// The vectors of one system.
 #[derive(Debug)]
@@ -80,6 +81,8 @@ pub struct PcgControl {
     pub groups_high: u32,
     /// Groups of the kernels that leave partial sums.
     pub groups_partial: u32,
+    /// Groups, at most as many, of the kernels of [`Block`].
+    pub groups_block: u32,
 }
 
 /// The iteration.
@@ -96,7 +99,8 @@ pub struct Pcg {
     direction: Bound,
 }
 
-/// A block of unknowns with a preconditioner of its own; their inverse diagonal is 0. All kernels run with groups that stride.
+/// A block of unknowns with a preconditioner of its own; their inverse diagonal is 0. The caller sets
+/// [`PcgControl::groups_block`]; the kernels stride over what their groups do not cover.
 #[derive(Debug, Default)]
 pub struct Block<'a> {
     /// Turn the residual into z, in order; the last one adds z . r to the partial sums.
@@ -154,7 +158,7 @@ impl Pcg {
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
-        let extents = Buffer::indirect(gpu, "pcg_extents", 20)?;
+        let extents = Buffer::indirect(gpu, "pcg_extents", 24)?;
         let named = [
             ("pcg", control.raw()),
             ("solution", vectors.solution.raw()),
@@ -182,15 +186,16 @@ impl Pcg {
         })
     }
 
-    /// Takes `residual` as right-hand side and opens the iteration. `partial` and `single` gate the dispatches.
-    pub fn begin(&self, pass: &mut Pass, partial: &Extent<'_>, single: &Extent<'_>, block: &Block<'_>) {
+    /// Takes `residual` as right-hand side and opens the iteration. The extents gate the dispatches: kernels that leave partial sums,
+    /// those of one group, those of the block.
+    pub fn begin(&self, pass: &mut Pass, [partial, single, own]: &[Extent<'_>; 3], block: &Block<'_>) {
         pass.dispatch(&self.begin[0], partial);
         for term in &block.terms {
-            pass.dispatch(term, partial);
+            pass.dispatch(term, own);
         }
         pass.dispatch(&self.begin[1], single);
         if let Some(direction) = block.direction {
-            pass.dispatch(direction, partial);
+            pass.dispatch(direction, own);
         }
     }
 
@@ -203,12 +208,12 @@ impl Pcg {
         pass.dispatch(&self.alpha, &extent(2));
         pass.dispatch(&self.update, &extent(1));
         for term in &block.terms {
-            pass.dispatch(term, &extent(1));
+            pass.dispatch(term, &extent(5));
         }
         pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
         pass.dispatch(&self.direction, &extent(1));
         if let Some(direction) = block.direction {
-            pass.dispatch(direction, &extent(1));
+            pass.dispatch(direction, &extent(5));
         }
     }
 }

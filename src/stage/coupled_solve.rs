@@ -133,8 +133,8 @@ impl CoupledSolve {
             surface.record_rows(pass, state, phase);
         }
         pass.dispatch(&self.reference, &extent(state, phase, Entry::Reduce));
-        let (partial, single) = (extent(state, phase, Entry::Reduce), extent(state, phase, Entry::Single));
-        self.pcg.begin(pass, &partial, &single, &self.block());
+        let extents = [Entry::Reduce, Entry::Single, Entry::Surface].map(|entry| extent(state, phase, entry));
+        self.pcg.begin(pass, &extents, &self.block());
     }
 
     fn block(&self) -> Block<'_> {

@@ -86,12 +86,8 @@ impl ElasticSolve {
         self.force.record(pass, state, "ROUND");
         pass.dispatch(&self.diagonal, &extent(state, "ROUND", Entry::Slots));
         pass.dispatch(&self.residual, &extent(state, "ROUND", Entry::Slots));
-        self.pcg.begin(
-            pass,
-            &extent(state, "ROUND", Entry::Reduce),
-            &extent(state, "ROUND", Entry::Single),
-            &Block::default(),
-        );
+        let extents = [Entry::Reduce, Entry::Single, Entry::Surface].map(|entry| extent(state, "ROUND", entry));
+        self.pcg.begin(pass, &extents, &Block::default());
         for _ in 0..iterations {
             pass.dispatch(iteration, &single);
             pass.dispatch(&self.strain, &extent(state, "ITERATION", Entry::Particles));

@@ -48,7 +48,7 @@ pub const NO_FAULT: u32 = u32::MAX;
 /// Dispatches of the longest prefix sum that a step runs.
 pub const SCAN_DISPATCHES: usize = 6;
 /// Entries of a phase in the table of extents.
-pub const PHASE_WIDTH: usize = 8 + SCAN_DISPATCHES;
+pub const PHASE_WIDTH: usize = 9 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
 pub const PHASES: [&str; 10] =
     ["BEGIN", "LIMIT", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END", "ROUND", "ITERATION"];
@@ -73,8 +73,10 @@ pub enum Entry {
     Marched = 6,
     /// One thread per march over a column of one color: every third column of cells along each axis but the last.
     Color = 7,
+    /// One thread per row of the preconditioner of interface pressures, in at most as many groups as leave partial results.
+    Surface = 8,
     /// First dispatch of a prefix sum.
-    Scan = 8,
+    Scan = 9,
 }
 
 /// Number of a rule on the device.
@@ -117,7 +119,10 @@ const COUNTED: [(&str, &[&str]); 4] = [
     ("RULE", &RULES),
     ("INTERFACE", &["RESOLVED", "H", "SINGLE"]),
     ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP", "ELASTIC"]),
-    ("EXTENT", &["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "COLOR", "SCAN"]),
+    (
+        "EXTENT",
+        &["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "COLOR", "SURFACE", "SCAN"],
+    ),
 ];
 
 /// The constants as WGSL.

@@ -147,6 +147,7 @@ fn conjugate_gradients() {
             groups_wide,
             groups_high,
             groups_partial,
+            groups_block,
         ]
     );
 }
