@@ -4,7 +4,6 @@
 #include "shared/params.wgsl"
 #include "shared/thread.wgsl"
 
-fn active_axis(a: u32) -> i32 { return i32(a < DIM); }
 fn reach() -> vec3i { return vec3i(1, i32(DIM > 1u), i32(DIM > 2u)); }
 
 fn periodic_axes() -> vec3<bool> { return (vec3u(PERIODIC) & vec3u(1u, 2u, 4u)) != vec3u(0u); }

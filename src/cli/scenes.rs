@@ -9,14 +9,18 @@ use crate::scene::Scene;
 /// # Errors
 /// [`crate::Error::Scene`] if there is none of that name or it is wrong.
 pub(super) fn load(options: &SceneOptions, further: &[String]) -> Result<Scene> {
-    let variants = options.variant.iter().map(|name| format!("variant={name}"));
-    let outside = options.allow_outside.then(|| "allow_outside=true".to_owned());
-    let overrides: Vec<String> = variants.chain(outside).chain(options.set.iter().chain(further).cloned()).collect();
-    let scene = Scene::find(&options.scene, &overrides)?;
+    let scene = Scene::find(&options.scene, &overrides(options, further))?;
     match options.resolution {
         Some(cells) => scene.with_resolution(cells),
         None => Ok(scene),
     }
+}
+
+/// Everything that the options and `further` change about a scene, in the order in which it is changed.
+pub(super) fn overrides(options: &SceneOptions, further: &[String]) -> Vec<String> {
+    let variants = options.variant.iter().map(|name| format!("variant={name}"));
+    let outside = options.allow_outside.then(|| "allow_outside=true".to_owned());
+    variants.chain(outside).chain(options.set.iter().chain(further).cloned()).collect()
 }
 
 /// Where a scene lies: the whole path of a file, or the name of a shipped scene.

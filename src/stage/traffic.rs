@@ -2,7 +2,7 @@
 //!
 //! Every array that a kernel names counts once per dispatch and direction, with the bytes of the entries it needs; what
 //! neighbouring threads share is taken to come from caches. A stage that reaches the device's bandwidth with these bytes
-//! cannot be made faster without moving less.
+//! cannot be made faster without moving less. The preconditioner's rows are left out: they follow the bodies' surface, not the grid.
 
 /// Bytes that one stage moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -141,9 +141,10 @@ impl App {
         }
     }
 
-    /// Asks for a frame as soon as the scene can spare the time.
+    /// Asks for a frame as soon as the scene can spare the time, which one at rest can at once.
     fn repaint_when_rested(&mut self) {
-        let at = self.rested.max(Instant::now());
+        let now = Instant::now();
+        let at = if self.ui.runs() { self.rested.max(now) } else { now };
         self.due = Some(self.due.map_or(at, |due| due.min(at)));
     }
 }

@@ -13,15 +13,30 @@ const PICTURE_SHARE: f64 = 0.08;
 /// The same while the user turns the camera or changes the look.
 const ATTENTIVE_SHARE: f64 = 0.6;
 /// Pictures of a running scene follow each other at least this often, if steps allow it \[s\].
-const LONGEST_PAUSE: f64 = 3.0;
+const LONGEST_PAUSE: f64 = 5.0;
 /// A picture of a moving camera should last no longer than this \[s\].
 const MOVING_PICTURE: f64 = 0.08;
-/// Coarsest share of the pixels along an axis while the camera moves.
-const COARSEST: f64 = 0.25;
+/// A picture of a running scene should last no longer than this \[s\].
+const RUNNING_PICTURE: f64 = 0.15;
+/// Coarsest share of the pixels along an axis while the scene runs.
+const COARSEST_RUNNING: f64 = 0.5;
+/// The same while the camera moves.
+const COARSEST_MOVING: f64 = 0.25;
 /// Time that the rate of steps is averaged over \[s\].
 const RATE_PERIOD: f64 = 1.0;
 /// Weight of the newest measurement.
 const NEWEST: f64 = 0.3;
+
+/// Why a picture may have fewer pixels than asked for where a whole one takes long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Haste {
+    /// Nothing moves: it may not.
+    None,
+    /// The scene runs.
+    Running,
+    /// The user turns the camera.
+    Moving,
+}
 
 /// Measured costs, and what follows from them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -79,15 +94,20 @@ impl Budget {
         self.picture_end.map_or(f64::NEG_INFINITY, |end| end + pause)
     }
 
-    /// Pixels of a picture: all of them, or fewer along each axis while the camera moves and a whole picture would take too long.
+    /// Pixels of a picture: all of them, or fewer along each axis in haste if a whole picture would take too long.
     #[must_use]
-    pub fn size(&self, whole: [u32; 2], moving: bool) -> [u32; 2] {
+    pub fn size(&self, whole: [u32; 2], haste: Haste) -> [u32; 2] {
         let pixels = f64::from(whole[0]) * f64::from(whole[1]);
         let expected = self.pixel.unwrap_or(0.0) * pixels;
-        if !moving || expected <= MOVING_PICTURE {
+        let (longest, coarsest) = match haste {
+            Haste::None => return whole,
+            Haste::Running => (RUNNING_PICTURE, COARSEST_RUNNING),
+            Haste::Moving => (MOVING_PICTURE, COARSEST_MOVING),
+        };
+        if expected <= longest {
             return whole;
         }
-        let scale = (MOVING_PICTURE / expected).sqrt().max(COARSEST);
+        let scale = (longest / expected).sqrt().max(coarsest);
         whole.map(|side| ((f64::from(side) * scale) as u32).max(64).min(side))
     }
 }
@@ -177,19 +197,21 @@ mod tests {
     }
 
     #[test]
-    fn a_moving_camera_gets_fewer_pixels_only_where_pictures_are_slow() {
+    fn haste_takes_pixels_only_where_pictures_are_slow() {
         let whole = [1200, 800];
         let mut budget = Budget::default();
         budget.drew(960_000, 9.0, 0.0);
         budget.drew(960_000, 0.02, 0.0);
-        assert_eq!(budget.size(whole, true), whole);
+        assert_eq!(budget.size(whole, Haste::Moving), whole);
         let mut slow = Budget::default();
         slow.drew(960_000, 9.0, 0.0);
         slow.drew(960_000, 0.32, 0.0);
-        assert_eq!(slow.size(whole, false), whole);
-        assert_eq!(slow.size(whole, true), [600, 400]);
+        assert_eq!(slow.size(whole, Haste::None), whole);
+        assert_eq!(slow.size(whole, Haste::Moving), [600, 400]);
+        let running = slow.size(whole, Haste::Running);
+        assert!(running[0] > 800 && running[0] < 840 && running[1] > 530 && running[1] < 560, "{running:?}");
         slow.drew(960_000, 1e3, 1.0);
-        assert_eq!(slow.size(whole, true), [300, 200]);
+        assert_eq!([slow.size(whole, Haste::Running), slow.size(whole, Haste::Moving)], [[600, 400], [300, 200]]);
     }
 
     #[test]

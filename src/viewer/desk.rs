@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use super::budget::{Budget, Rate, paced_steps};
+use super::budget::{Budget, Haste, Rate, paced_steps};
 use super::model::{Command, Look, Note, Opened, Outbox, Pace, Phase, Request, Shown, Status, Strike, Weight};
 use super::record::Recording;
 use super::session::Session;
@@ -105,7 +105,7 @@ impl Desk {
             return Some(Duration::ZERO);
         }
         let wait = |until: f64| Some(Duration::from_secs_f64((until - self.now()).clamp(0.0, 1.0)));
-        if self.stale || self.news || (self.coarse && !self.moving) {
+        if self.wants_picture() {
             return wait(if self.playing { self.budget.picture_due(self.stale) } else { 0.0 });
         }
         // A paced scene waits for its next step.
@@ -273,16 +273,31 @@ impl Desk {
         Ok(())
     }
 
+    /// Whether pictures must come quickly; recorded ones are whole.
+    fn haste(&self) -> Haste {
+        match (self.moving, self.playing && self.recording.is_none()) {
+            (true, _) => Haste::Moving,
+            (false, true) => Haste::Running,
+            (false, false) => Haste::None,
+        }
+    }
+
+    /// Whether something has changed since the last picture, or that one was made in haste.
+    fn wants_picture(&self) -> bool {
+        self.stale || self.news || (self.coarse && self.haste() == Haste::None)
+    }
+
     fn draw(&mut self) -> Result<()> {
-        let wanted = self.stale || self.news || (self.coarse && !self.moving);
+        let wanted = self.wants_picture();
         let due = !self.playing || self.now() >= self.budget.picture_due(self.stale || self.recording.is_some());
+        let haste = self.haste();
         let (Some(session), Some(whole)) = (&mut self.session, &self.look) else { return Ok(()) };
         if !wanted || !due {
             return Ok(());
         }
         let start = self.start.elapsed().as_secs_f64();
         let mut look = whole.clone();
-        look.settings.size = self.budget.size(whole.settings.size, self.moving);
+        look.settings.size = self.budget.size(whole.settings.size, haste);
         let picture = Arc::new(session.draw(&look)?);
         let now = self.start.elapsed().as_secs_f64();
         let [width, height] = look.settings.size.map(u64::from);

@@ -14,8 +14,10 @@ const GROUPS: [(&str, &str); 5] = [
     ("gas", "Gas"),
     ("validation", "Validation"),
 ];
+/// The variant of large scenes for devices without a GPU.
+const SMALL: &str = "small";
 /// Least size of a card.
-const CARD: Vec2 = Vec2::new(272.0, 92.0);
+const CARD: Vec2 = Vec2::new(272.0, 108.0);
 /// Room between cards.
 const GAP: f32 = 10.0;
 
@@ -29,8 +31,19 @@ pub(super) struct Entry {
     title: String,
     /// Dimension and cells.
     size: String,
+    /// Its variants.
+    variants: Vec<String>,
     /// The first lines of the file.
     about: String,
+}
+
+impl Entry {
+    /// The scene, at its small size if that is wished for and there is one, in one of its variants.
+    fn request(&self, small: bool, variant: Option<&str>) -> Request {
+        let small = Some(SMALL).filter(|_| small && self.variants.iter().any(|name| name == SMALL));
+        let overrides = small.into_iter().chain(variant).map(|name| format!("variant={name}")).collect();
+        Request { overrides, ..Request::of(&format!("{}.toml", self.name)) }
+    }
 }
 
 /// Reads what a card shows; the scene itself is checked when it is opened.
@@ -39,6 +52,7 @@ fn entry(scene: &Shipped) -> Entry {
     let text = |key: &str| table.get(key).and_then(toml::Value::as_str).unwrap_or(&scene.name).to_owned();
     let cells = table.get("domain").and_then(|domain| domain.get("cells")).and_then(toml::Value::as_array);
     let cells: Vec<String> = cells.into_iter().flatten().map(toml::Value::to_string).collect();
+    let variants = table.get("variants").and_then(toml::Value::as_table);
     let comment = scene.text.lines().take_while(|line| line.starts_with('#'));
     let lines = comment.map(|line| line.trim_start_matches('#').trim());
     let about = lines.take_while(|line| !line.starts_with("Reference")).collect::<Vec<_>>().join(" ").trim().to_owned();
@@ -47,6 +61,7 @@ fn entry(scene: &Shipped) -> Entry {
         name: scene.path.trim_end_matches(".toml").to_owned(),
         title: text("title"),
         size: format!("{}D, {} cells", cells.len(), cells.join(" x ")),
+        variants: variants.into_iter().flat_map(toml::Table::keys).cloned().collect(),
         about,
     }
 }
@@ -57,11 +72,13 @@ pub(super) struct Gallery {
     entries: Vec<Entry>,
     wanted: String,
     path: String,
+    small: bool,
 }
 
 impl Gallery {
     pub(super) fn new() -> Self {
-        Self { entries: shipped().iter().map(entry).collect(), wanted: String::new(), path: String::new() }
+        let entries = shipped().iter().map(entry).collect();
+        Self { entries, wanted: String::new(), path: String::new(), small: false }
     }
 
     /// Shows the page; the scene that was chosen.
@@ -93,6 +110,8 @@ impl Gallery {
         });
         ui.horizontal(|ui| {
             ui.add(egui::TextEdit::singleline(&mut self.wanted).hint_text("search").desired_width(180.0));
+            ui.checkbox(&mut self.small, "small sizes")
+                .on_hover_text("Large scenes open in their variant `small`: minutes on a processor instead of hours.");
             ui.add_space(12.0);
             let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a scene file, or drop one here");
             let field = ui.add(field.desired_width(320.0));
@@ -123,17 +142,15 @@ impl Gallery {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = Vec2::splat(GAP);
             for entry in entries {
-                if card(ui, entry, size).clicked() {
-                    chosen = Some(Request::of(&format!("{}.toml", entry.name)));
-                }
+                chosen = card(ui, entry, size, self.small).or(chosen.take());
             }
         });
         chosen
     }
 }
 
-/// One scene as a button.
-fn card(ui: &mut Ui, entry: &Entry, size: Vec2) -> egui::Response {
+/// One scene as a button, with a button for each of its variants; what was chosen.
+fn card(ui: &mut Ui, entry: &Entry, size: Vec2, small: bool) -> Option<Request> {
     let (place, response) = ui.allocate_exact_size(size, egui::Sense::click());
     let visuals = ui.style().interact(&response);
     let fill = if response.hovered() { visuals.weak_bg_fill } else { ui.visuals().faint_bg_color };
@@ -145,8 +162,22 @@ fn card(ui: &mut Ui, entry: &Entry, size: Vec2) -> egui::Response {
     content.spacing_mut().item_spacing.y = 2.0;
     content.add(egui::Label::new(RichText::new(&entry.title).strong()).truncate());
     content.add(egui::Label::new(RichText::new(&entry.size).small().color(theme::ACCENT)).truncate());
+    let mut chosen = None;
+    if !entry.variants.is_empty() {
+        content.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            for name in &entry.variants {
+                let hint = format!("{} --variant {name}", entry.name);
+                if ui.add(egui::Button::new(RichText::new(name).small()).small()).on_hover_text(hint).clicked() {
+                    chosen = Some(entry.request(small && name != SMALL, Some(name)));
+                }
+            }
+        });
+    }
     content.add(egui::Label::new(RichText::new(&entry.about).small().color(theme::FAINT)).wrap());
-    response.on_hover_text(format!("{}\n{}", entry.name, entry.about))
+    let clicked = response.clicked();
+    response.on_hover_text(format!("{}\n{}", entry.name, entry.about));
+    chosen.or_else(|| clicked.then(|| entry.request(small, None)))
 }
 
 #[cfg(test)]
@@ -160,7 +191,19 @@ mod tests {
         for entry in &gallery.entries {
             assert!(!entry.title.is_empty() && !entry.about.is_empty(), "{entry:?}");
             assert!(entry.size.starts_with(['1', '2', '3']), "{entry:?}");
-            Request::of(&format!("{}.toml", entry.name)).load().unwrap();
+            entry.request(false, None).load().unwrap();
         }
+    }
+
+    #[test]
+    fn a_variant_opens_at_the_size_that_is_wished_for() {
+        let gallery = Gallery::new();
+        let bullets = gallery.entries.iter().find(|entry| entry.name.ends_with("fig05_bullets_2d")).unwrap();
+        let cells = |request: Request| request.load().unwrap().domain.cells;
+        assert_eq!(bullets.request(true, Some("light")).overrides, ["variant=small", "variant=light"]);
+        assert_eq!(bullets.request(false, Some("light")).overrides, ["variant=light"]);
+        assert!(cells(bullets.request(true, None))[0] < cells(bullets.request(false, None))[0]);
+        let sod = gallery.entries.iter().find(|entry| entry.name.ends_with("sod")).unwrap();
+        assert_eq!(sod.request(true, None).overrides, Vec::<String>::new());
     }
 }

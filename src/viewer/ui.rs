@@ -74,6 +74,11 @@ impl Ui {
         self.status.ran
     }
 
+    /// Whether a scene runs.
+    pub(super) fn runs(&self) -> bool {
+        self.status.playing
+    }
+
     pub(super) fn wants_to_quit(&self) -> bool {
         self.quit
     }
