@@ -1,6 +1,7 @@
 // coupled_solve, preparation of the solid: mass that the solve gives to each node. One that sees next to nothing of a body would fly
 // off under the pressure around it: it gets a share of what a cell full of the lightest particles near it weighs. A whole body that is
-// much lighter than the others keeps its own mass that way.
+// much lighter than the others keeps its own mass that way. A fragment of one particle spreads it over 3^d nodes: their shares must stay
+// small against its own mass, or the solve takes it for heavier than it is, its answer overshoots, and the fragment swings ever wider.
 // Reads sorted particles, node. Writes inertia [kg].
 #include "shared/index.wgsl"
 
@@ -24,6 +25,16 @@ fn least_density(c: vec3i) -> f32 {
     return least;
 }
 
+// Mass of the heaviest node around one [kg].
+fn heaviest(c: vec3i) -> f32 {
+    var most = 0.0;
+    for (var k = 0u; k < block_size(); k++) {
+        let near = c + block_offset(k);
+        if all(near >= -reach()) && all(near < vec3i(params.cells) + reach()) { most = max(most, node[slot_of(near)].w); }
+    }
+    return most;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn solid_inertia(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
@@ -32,6 +43,9 @@ fn solid_inertia(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let mass = node[slot].w;
     // No floor is above that of the heaviest body.
     var least = params.mass_floor;
-    if mass > 0.0 && mass < least { least = min(least, LIGHTEST_NODE * cell_volume() * least_density(cell_of(slot))); }
+    if mass > 0.0 && mass < least {
+        let c = cell_of(slot);
+        least = min(least, min(LIGHTEST_NODE * cell_volume() * least_density(c), LIGHTEST_BESIDE * heaviest(c)));
+    }
     inertia[slot] = max(mass, least);
 }

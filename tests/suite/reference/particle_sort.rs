@@ -22,7 +22,8 @@ pub(crate) struct Bins {
     pub(crate) least_density: Vec<f64>,
 }
 
-/// Mass that the pressure solve gives to each node: at least a share of what a cell full of the lightest particles around it weighs.
+/// Mass that the pressure solve gives to each node: at least a share of what a cell full of the lightest particles
+/// around it weighs, and of the heaviest node next to it.
 pub(crate) fn inertia(problem: &Problem, bins: &Bins, mass: &[f64]) -> Vec<f64> {
     let grid = &problem.grid;
     let most = problem.numerics.mass_floor * grid.volume() * bins.density;
@@ -30,8 +31,11 @@ pub(crate) fn inertia(problem: &Problem, bins: &Bins, mass: &[f64]) -> Vec<f64> 
     for c in grid.all().into_iter().filter(|c| mass[grid.slot(*c)] > 0.0) {
         let near = grid.offsets(-1, 1).into_iter().map(|offset| add(c, offset)).filter(|at| grid.contains(*at));
         let least = near.map(|at| bins.least_density[grid.slot(at)]).fold(f64::INFINITY, f64::min);
+        let near = grid.offsets(-1, 1).into_iter().map(|offset| add(c, offset)).filter(|at| grid.stored(*at));
+        let heaviest = near.map(|at| mass[grid.slot(at)]).fold(0.0, f64::max);
         let slot = grid.slot(c);
-        inertia[slot] = mass[slot].max(problem.numerics.mass_floor * grid.volume() * least);
+        let floor = problem.numerics.mass_floor * grid.volume() * least;
+        inertia[slot] = mass[slot].max(floor.min(problem.numerics.mass_beside * heaviest));
     }
     inertia
 }
