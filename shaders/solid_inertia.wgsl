@@ -45,7 +45,7 @@ fn solid_inertia(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     var least = params.mass_floor;
     if mass > 0.0 && mass < least {
         let c = cell_of(slot);
-        least = min(least, min(LIGHTEST_NODE * cell_volume() * least_density(c), LIGHTEST_BESIDE * heaviest(c)));
+        least = min(least, min(LIGHTEST_NODE * cell_volume() * least_density(c), LIGHTEST_BESIDE[DIM - 1u] * heaviest(c)));
     }
     inertia[slot] = max(mass, least);
 }

@@ -172,7 +172,8 @@ pub fn source() -> String {
         put(name, value);
     }
     let _ = writeln!(text, "const LIGHTEST_NODE = {:?};", super::params::LIGHTEST_NODE);
-    let _ = writeln!(text, "const LIGHTEST_BESIDE = {:?};", super::params::LIGHTEST_BESIDE);
+    let [line, plane, space] = super::params::LIGHTEST_BESIDE;
+    let _ = writeln!(text, "const LIGHTEST_BESIDE = vec3f({line:?}, {plane:?}, {space:?});");
     let _ = writeln!(text, "const STICK = {:?};", super::supports::STICK);
     text.push_str(crate::numerics::pcg::source());
     text

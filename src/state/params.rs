@@ -92,8 +92,9 @@ pub struct SolidLimits {
 
 /// Smallest share of a full node's mass that the solve sees: lighter nodes would rule its conditioning.
 pub(crate) const LIGHTEST_NODE: f64 = 0.01;
-/// The same as a share of the heaviest node next to it: all shares together stay below a third of a particle's mass.
-pub(crate) const LIGHTEST_BESIDE: f64 = 0.03;
+/// The same as a share of the heaviest node next to it, in 1D, 2D and 3D: all that the nodes of one particle gain stays below half of
+/// its mass.
+pub(crate) const LIGHTEST_BESIDE: [f64; 3] = [0.5, 0.2, 0.03];
 /// Crowding, relative to bodies at rest, that the scatter form of p2g has room for.
 const CROWDING: f64 = 16.0;
 /// Steps that the history ring holds; the host reads it before it wraps.

@@ -109,8 +109,8 @@ pub(crate) struct Numerics {
     pub(crate) max_growth: f64,
     /// Solid node masses are floored in the solve at this part of a full node.
     pub(crate) mass_floor: f64,
-    /// The same as a share of the heaviest node next to it.
-    pub(crate) mass_beside: f64,
+    /// The same as a share of the heaviest node next to it, in 1D, 2D and 3D.
+    pub(crate) mass_beside: [f64; 3],
     /// Elasticity by backward Euler.
     pub(crate) implicit: bool,
 }
@@ -140,7 +140,7 @@ impl Default for Numerics {
             max_courant: 2.0,
             max_growth: 2.0,
             mass_floor: 0.01,
-            mass_beside: 0.03,
+            mass_beside: [0.5, 0.2, 0.03],
             implicit: false,
         }
     }

@@ -35,7 +35,7 @@ pub(crate) fn inertia(problem: &Problem, bins: &Bins, mass: &[f64]) -> Vec<f64> 
         let heaviest = near.map(|at| mass[grid.slot(at)]).fold(0.0, f64::max);
         let slot = grid.slot(c);
         let floor = problem.numerics.mass_floor * grid.volume() * least;
-        inertia[slot] = mass[slot].max(floor.min(problem.numerics.mass_beside * heaviest));
+        inertia[slot] = mass[slot].max(floor.min(problem.numerics.mass_beside[grid.dimension - 1] * heaviest));
     }
     inertia
 }
