@@ -129,7 +129,7 @@ fn variants_are_listed_and_chosen() {
         serde_json::from_str::<serde_json::Value>(&succeeds(&arguments)).unwrap()
     };
     let small = check(&["--variant", "small", "--variant", "weak", "--set", "time.frames=3"]);
-    assert_eq!(small["cells"], 65536);
+    assert_eq!(small["cells"], 48 * 24 * 24);
     assert_eq!(small["scene"]["materials"]["truck"]["von_mises"]["yield_stress"], 5.2e5);
     assert_eq!(small["scene"]["time"]["frames"], 3);
     let text = fails(3, &["check", "fig04_trucks", "--variant", "medium"]);
