@@ -30,7 +30,7 @@ fn heaviest(c: vec3i) -> f32 {
     var most = 0.0;
     for (var k = 0u; k < block_size(); k++) {
         let near = c + block_offset(k);
-        if all(near >= -reach()) && all(near < vec3i(params.cells) + reach()) { most = max(most, node[slot_of(near)].w); }
+        if in_ring(near) { most = max(most, node[slot_of(near)].w); }
     }
     return most;
 }

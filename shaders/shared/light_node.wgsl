@@ -2,16 +2,13 @@
 // them, by mass, so that momentum is kept. Needs the bindings node and inertia.
 #include "shared/index.wgsl"
 
-// Whether the arrays hold a node: those of the domain and of its ring.
-fn is_stored(c: vec3i) -> bool { return all(c >= -reach()) && all(c < vec3i(params.cells) + reach()); }
-
 // Mass that a node lacks, over that of the nodes around it with its own.
 fn share_left(slot: u32) -> f32 {
     let missing = inertia[slot] - node[slot].w;
     var mass = 0.0;
     for (var k = 0u; k < select(0u, block_size(), missing > 0.0); k++) {
         let near = cell_of(slot) + block_offset(k);
-        if is_stored(near) { mass += node[slot_of(near)].w; }
+        if in_ring(near) { mass += node[slot_of(near)].w; }
     }
     return select(0.0, missing / mass, mass > 0.0);
 }
@@ -21,7 +18,7 @@ fn gain_around(slot: u32, count: u32) -> vec3f {
     var gain = vec3f(0.0);
     for (var k = 0u; k < count; k++) {
         let near = cell_of(slot) + block_offset(k);
-        if is_stored(near) { gain += work[params.slots + slot_of(near)].xyz; }
+        if in_ring(near) { gain += work[params.slots + slot_of(near)].xyz; }
     }
     return gain;
 }

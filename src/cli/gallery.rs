@@ -13,11 +13,9 @@ use super::interrupt::{self, Wish};
 use super::progress::clock;
 use super::run;
 use crate::export::atomic;
-use crate::scene::{self, Scene};
+use crate::scene::{self, SMALL, Scene};
 use crate::{Error, Result};
 
-/// The variant that every large scene has for devices without a GPU.
-const SMALL: &str = "small";
 /// Folders of the scenes that are shown when nobody asks for others.
 const SHOWN: [&str; 2] = ["paper", "demos"];
 

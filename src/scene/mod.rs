@@ -71,6 +71,7 @@ pub use settings::{Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
 pub use shape::Shape;
 pub use shipped::{Shipped, shipped, stem};
 pub use shot::{Shot, ShotKeys};
+pub use variants::SMALL;
 pub use vortex::Vortex;
 pub use wave::Wave;
 

@@ -5,6 +5,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::source;
 
+/// The variant that every large scene has for devices without a GPU.
+pub const SMALL: &str = "small";
 /// The override key that chooses a variant.
 pub(super) const KEY: &str = "variant";
 

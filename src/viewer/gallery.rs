@@ -4,7 +4,7 @@ use egui::{RichText, ScrollArea, Ui, Vec2};
 
 use super::model::Request;
 use super::theme;
-use crate::scene::{Shipped, shipped};
+use crate::scene::{SMALL, Shipped, shipped};
 
 /// Groups in the order of the page, with what they are; other folders follow.
 const GROUPS: [(&str, &str); 5] = [
@@ -14,8 +14,6 @@ const GROUPS: [(&str, &str); 5] = [
     ("gas", "Gas"),
     ("validation", "Validation"),
 ];
-/// The variant of large scenes for devices without a GPU.
-const SMALL: &str = "small";
 /// Least size of a card.
 const CARD: Vec2 = Vec2::new(272.0, 108.0);
 /// Room between cards.

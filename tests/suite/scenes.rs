@@ -95,31 +95,31 @@ scenes! {
     supernova_2d: "paper/fig08_supernova_2d.toml", "domain.cells=[40, 16]";
     #[ignore = "74 s in software on a busy machine"]
     car_over_a_mine: "paper/fig01_car_landmine.toml", "variant=small";
-    #[ignore = "1477 s in software on a busy machine"]
+    #[ignore = "104 s in software"]
     three_rabbits: "paper/fig02_tribunny.toml", "variant=small";
     #[ignore = "638 s in software on a busy machine"]
     strong_truck: "paper/fig04_trucks.toml", "variant=small", "variant=strong";
     #[ignore = "786 s in software on a busy machine; at this size the truck keeps in one piece, which misses its expectations"]
     weak_truck: "paper/fig04_trucks.toml", "variant=small", "variant=weak";
-    #[ignore = "306 s in software on a busy machine"]
+    #[ignore = "168 s in software on a busy machine"]
     elastic_pumpkin: "paper/fig06_pumpkin.toml", "variant=small", "variant=elastic";
     #[ignore = "473 s in software on a busy machine"]
     plastic_pumpkin: "paper/fig06_pumpkin.toml", "variant=small", "variant=plastic";
-    #[ignore = "minutes on a software device; not yet seen to pass"]
+    #[ignore = "255 s in software"]
     supernova: "paper/fig08_supernova.toml", "variant=small";
-    #[ignore = "minutes on a software device; not yet seen to pass"]
+    #[ignore = "113 s in software"]
     stiff_elastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=stiff_elastic";
-    #[ignore = "184 s in software on a busy machine"]
+    #[ignore = "99 s in software on a busy machine"]
     soft_elastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=soft_elastic";
     #[ignore = "253 s in software"]
     stiff_plastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=stiff_plastic";
     #[ignore = "minutes on a software device; not yet seen to pass"]
     soft_plastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=soft_plastic";
-    #[ignore = "minutes on a software device; not yet seen to pass"]
+    #[ignore = "203 s in software"]
     aeroplane_in_a_wind_tunnel: "paper/fig11_airplane.toml", "variant=small";
-    #[ignore = "496 s in software on a busy machine"]
+    #[ignore = "124 s in software"]
     cactus_forest: "paper/fig12_cactus_forest.toml", "variant=small";
-    #[ignore = "354 s in software on a busy machine; at this size no koala rises, which misses its expectations"]
+    #[ignore = "54 s in software"]
     koalas_above_jets: "paper/fig19_koalas.toml", "variant=small";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml";

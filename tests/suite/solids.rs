@@ -140,7 +140,7 @@ fn a_steady_load_strains_a_slab_that_shares_its_volume() {
 #[test]
 fn gas_slows_a_fragment_of_one_particle_and_never_drives_it() {
     let Some(gpu) = gpu_or_skip() else { return };
-    for (dimension, pair) in [(2, "b1b0"), (3, "b1b0"), (3, "b2b1")] {
+    for (dimension, pair) in [(2, "b1b0"), (2, "b2b1"), (3, "b1b0"), (3, "b2b1")] {
         let list = |values: [&str; 3]| values[..dimension].join(", ");
         let text = format!(
             "title = \"Shrapnel\"\n\
