@@ -79,7 +79,7 @@ pub struct Case {
     pub run: fn(&mut Session<'_>) -> Result<()>,
 }
 
-/// All cases, in the order of the report.
+/// All cases in the order of the report, those of a group together.
 pub fn cases() -> impl Iterator<Item = &'static Case> {
     let lines = [tubes::CASES, blasts::CASES, waves::CASES];
     let spaces = [blast_2d::CASES, explosions::CASES, forward_step::CASES, steady::CASES, jet::CASES];
@@ -93,7 +93,11 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         fragments::CASES,
     ];
     let gas = lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES]);
-    gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten()
+    let by_file = gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten();
+    let mut cases: Vec<&Case> = by_file.collect();
+    let by_file = cases.clone();
+    cases.sort_by_key(|case| by_file.iter().position(|first| first.group == case.group));
+    cases.into_iter()
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.

@@ -58,6 +58,9 @@ fn the_registry_is_sound() {
         assert!(!case.title.is_empty() && !case.group.is_empty() && case.source.len() > 5, "{}", case.id);
         assert!(case.id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'), "{}", case.id);
     }
+    let mut groups: Vec<&str> = verify::cases().map(|case| case.group).collect();
+    groups.dedup();
+    assert_eq!(groups.iter().collect::<BTreeSet<_>>().len(), groups.len(), "a group in two places: {groups:?}");
     assert_eq!(verify::select(Suite::Full, "").len(), ids.len());
     let quick = verify::select(Suite::Quick, "SOD");
     assert!(quick.iter().any(|case| case.id == "sod") && quick.iter().all(|case| case.quick));
