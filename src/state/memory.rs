@@ -8,7 +8,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
-use crate::numerics::{PcgControl, Scan};
+use crate::numerics::{PcgControl, Scan, pcg};
 use crate::scene::{MAX_BODIES, Scene};
 
 /// Bytes in a gibibyte.
@@ -87,7 +87,13 @@ impl MemoryPlan {
             plan.add("nodes", &["solution", "residual", "direction", "product"].map(|name| (name, length, 4)));
             plan.add("nodes", &[("inverse_diagonal", length, 4)]);
             plan.add("particles", &[("stress change", 2 * count, 16)]);
-            plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 24, 4)]);
+            plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", pcg::EXTENTS as u64, 4)]);
+        }
+        if let Some(plan_of_levels) = super::coarse::plan(scene) {
+            plan.add("pressure", &[("levels", super::coarse::length(&plan_of_levels) as u64, 16)]);
+            let size = size_of::<super::coarse::Level>() as u64;
+            plan.add("fixed", &vec![("level", 1, size); plan_of_levels.len()]);
+            plan.add("fixed", &[("coarse_extents", super::coarse::EXTENTS as u64, 4)]);
         }
         let scan = Scan::planned_bytes(slots as u32 + 1);
         plan.add("interface", &[("list scans", 2 * scan, 1)]);
@@ -125,7 +131,7 @@ impl MemoryPlan {
         self.add("fixed", &[("partials", u64::from(constants::BLOCKS * constants::PARTIALS), 16)]);
         self.add("fixed", &[("history", history * u64::from(constants::HISTORY_WIDTH), 16)]);
         self.add("fixed", &[("probe_cells", probes, 4), ("probe_history", 2 * history * probes, 16)]);
-        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 24, 4)]);
+        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", pcg::EXTENTS as u64, 4)]);
     }
 
     /// Adds buffers: label, elements, bytes of an element. An empty buffer takes the room of one element.

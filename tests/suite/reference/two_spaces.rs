@@ -70,8 +70,6 @@ pub(crate) enum Diagonals {
     Exact,
     /// From row sums and the fine diagonal.
     Sums,
-    /// From compliance and fine diagonal alone.
-    Plain,
 }
 
 /// The preconditioner.
@@ -92,10 +90,12 @@ fn sign(size: Size, space: usize, v: usize) -> f64 {
 /// Slot of each vertex.
 fn slots(problem: &Problem) -> Vec<usize> {
     let size = Size::of(problem);
-    (0..size.length())
-        .map(|v| problem.grid.slot([(v % size.count[0]) as i32, (v / size.count[0]) as i32, 0]))
-        .collect()
+    (0..size.length()).map(|v| problem.grid.slot([(v % size.count[0]) as i32, (v / size.count[0]) as i32, 0])).collect()
 }
+
+/// Levels follow until the Courant number of the next is below this, and while there are so many vertices along an axis.
+const SMOOTH: f64 = 0.7;
+const FEWEST: usize = 4;
 
 /// Square of the force of a vertex in units of the mean inverse mass, of the plain hat function, of the signed one, on wide grids.
 const NARROW: [f64; 3] = [2.0, 8.0 / 3.0, 8.0 / 3.0];
@@ -119,21 +119,14 @@ pub(crate) fn courant(problem: &Problem, interface: &Interface, system: &System)
 }
 
 impl TwoSpaces {
-    pub(crate) fn new(
-        problem: &Problem,
-        interface: &Interface,
-        system: &System,
-        diagonals: Diagonals,
-        limit: f64,
-        apart: usize,
-    ) -> Self {
+    pub(crate) fn new(problem: &Problem, interface: &Interface, system: &System, diagonals: Diagonals) -> Self {
         let size = Size::of(problem);
         let slots = slots(problem);
         let taken = |slot: usize| -> Vec<usize> {
             let mut all = vec![unknown(interface, P, slot), unknown(interface, Q, slot)];
             all.dedup();
             let whole = interface.shared[slot] || !touching(problem, interface, slot);
-            all.retain(|at| system.diagonal[*at] > 0.0 && (whole || apart == 2 || apart == 1 && *at == slot));
+            all.retain(|at| system.diagonal[*at] > 0.0 && whole);
             all
         };
         let fields: Vec<Vec<usize>> = slots.iter().map(|slot| taken(*slot)).collect();
@@ -142,14 +135,14 @@ impl TwoSpaces {
         let number = |size: Size| size.count[0].min(size.count[1]);
         let (mut courant, mut at) = (courant(problem, interface, system), size);
         let mut wanted = 0;
-        while courant >= limit && number(at) > 3 {
+        while courant >= SMOOTH && number(at) >= FEWEST {
             (courant, at, wanted) = (0.5 * courant, at.coarser(), wanted + 1);
         }
-        let spaces = [0, 1].map(|space| match diagonals {
+        let stencils: Vec<[f64; 3]> = slots.iter().map(|slot| stencil(problem, interface, *slot)).collect();
+        let [plain, signed] = [0, 1].map(|space| match diagonals {
             Diagonals::Exact => result.exact(system, space, wanted),
-            _ => result.cheap(problem, interface, system, &slots, space, wanted, diagonals),
+            Diagonals::Sums => result.sums(system, &stencils, space, wanted),
         });
-        let [plain, signed] = spaces;
         result.levels = plain.into_iter().zip(signed).map(|(a, b)| [a, b]).collect();
         result
     }
@@ -163,7 +156,8 @@ impl TwoSpaces {
     }
 
     fn gathered(&self, space: usize, x: &[f64]) -> Vec<f64> {
-        let sum = |(v, fields): (usize, &Vec<usize>)| sign(self.size, space, v) * fields.iter().map(|at| x[*at]).sum::<f64>();
+        let sum =
+            |(v, fields): (usize, &Vec<usize>)| sign(self.size, space, v) * fields.iter().map(|at| x[*at]).sum::<f64>();
         self.fields.iter().enumerate().map(sum).collect()
     }
 
@@ -217,33 +211,13 @@ impl TwoSpaces {
         all
     }
 
-    #[allow(clippy::too_many_arguments)]
-    fn cheap(
-        &self,
-        problem: &Problem,
-        interface: &Interface,
-        system: &System,
-        slots: &[usize],
-        space: usize,
-        levels: usize,
-        diagonals: Diagonals,
-    ) -> Vec<Vec<f64>> {
-        let ones = self.spread(space, &vec![1.0; slots.len()]);
-        let mut own = if diagonals == Diagonals::Sums {
-            self.gathered(space, &system.apply(&ones))
-        } else {
-            self.fields.iter().map(|fields| fields.iter().map(|at| system.compliance[*at]).sum()).collect()
+    fn sums(&self, system: &System, stencils: &[[f64; 3]], space: usize, levels: usize) -> Vec<Vec<f64>> {
+        let mut own = self.gathered(space, &system.apply(&self.spread(space, &vec![1.0; stencils.len()])));
+        let push = |(fields, stencil): (&Vec<usize>, &[f64; 3])| {
+            let sum: f64 = fields.iter().map(|at| system.diagonal[*at] - system.compliance[*at]).sum();
+            sum * stencil[1 + space] / stencil[0]
         };
-        let mut push: Vec<f64> = self
-            .fields
-            .iter()
-            .zip(slots)
-            .map(|(fields, slot)| {
-                let stencil = stencil(problem, interface, *slot);
-                let sum: f64 = fields.iter().map(|at| system.diagonal[*at] - system.compliance[*at]).sum();
-                sum * stencil[1 + space] / stencil[0]
-            })
-            .collect();
+        let mut push: Vec<f64> = self.fields.iter().zip(stencils).map(push).collect();
         let mut all = Vec::new();
         for size in self.sizes(levels).into_iter().take(levels) {
             own = size.restricted(&own);
