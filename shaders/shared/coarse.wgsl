@@ -5,11 +5,9 @@ struct Level {
     count: vec2u,           // vertices along x and y
     wraps: vec2u,           // 1: the ends meet
     fine_count: vec2u,      // vertices of the level below
-    fine_wraps: vec2u,
     first: u32,             // place in `levels`
     fine_first: u32,
     number: u32,            // 1 is the finest coarse level
-    unused: u32,
 }
 
 fn level_length() -> u32 { return level.count.x * level.count.y; }

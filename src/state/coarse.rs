@@ -15,8 +15,6 @@ pub(crate) struct Level {
     pub wraps: [u32; 2],
     /// Vertices of the level below.
     pub fine_count: [u32; 2],
-    /// Where its ends meet.
-    pub fine_wraps: [u32; 2],
     /// Place of the first vertex.
     pub first: u32,
     /// The same of the level below.
@@ -24,7 +22,7 @@ pub(crate) struct Level {
     /// From 1, the finest coarse level.
     pub number: u32,
     /// Fills the last 16 bytes.
-    pub unused: u32,
+    pub unused: [u32; 3],
 }
 
 /// Vertices along the shorter axis that are not worth a coarser level.
@@ -73,16 +71,15 @@ pub(crate) fn length(levels: &[Level]) -> usize {
 impl Level {
     /// Every other vertex, and one beyond where the last would be left out.
     fn coarser(&self, first: u32) -> Self {
-        let wraps = [0, 1].map(|axis| self.wraps[axis] * u32::from(self.count[axis] % 2 == 0));
+        let wraps = [0, 1].map(|axis| self.wraps[axis] * u32::from(self.count[axis].is_multiple_of(2)));
         Self {
             count: [0, 1].map(|axis| self.count[axis] / 2 + 1 - wraps[axis]),
             wraps,
             fine_count: self.count,
-            fine_wraps: self.wraps,
             first,
             fine_first: self.first,
             number: self.number + 1,
-            unused: 0,
+            unused: [0; 3],
         }
     }
 }

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{
-    HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, constants, control::Control,
-    elastic_solve, extra_capacity, surface,
+    HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, coarse, constants,
+    control::Control, elastic_solve, extra_capacity, surface,
 };
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
@@ -89,12 +89,7 @@ impl MemoryPlan {
             plan.add("particles", &[("stress change", 2 * count, 16)]);
             plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", pcg::EXTENTS as u64, 4)]);
         }
-        if let Some(plan_of_levels) = super::coarse::plan(scene) {
-            plan.add("pressure", &[("levels", super::coarse::length(&plan_of_levels) as u64, 16)]);
-            let size = size_of::<super::coarse::Level>() as u64;
-            plan.add("fixed", &vec![("level", 1, size); plan_of_levels.len()]);
-            plan.add("fixed", &[("coarse_extents", super::coarse::EXTENTS as u64, 4)]);
-        }
+        plan.add_levels(scene);
         let scan = Scan::planned_bytes(slots as u32 + 1);
         plan.add("interface", &[("list scans", 2 * scan, 1)]);
         if particles > 0 {
@@ -120,6 +115,14 @@ impl MemoryPlan {
             self.add("pressure", &[("surface rows", entries, 4)]);
             self.add("fixed", &[("surface bound", 1, 4), ("turns", surface::TERMS.into(), 8)]);
         }
+    }
+
+    /// Coarse levels of the pressure solve.
+    fn add_levels(&mut self, scene: &Scene) {
+        let Some(levels) = coarse::plan(scene) else { return };
+        self.add("pressure", &[("levels", coarse::length(&levels) as u64, 16)]);
+        self.add("fixed", &vec![("level", 1, size_of::<coarse::Level>() as u64); levels.len()]);
+        self.add("fixed", &[("coarse_extents", coarse::EXTENTS as u64, 4)]);
     }
 
     /// Buffers whose size does not depend on cells and particles.

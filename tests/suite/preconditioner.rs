@@ -159,6 +159,18 @@ fn large_steps_cost_few_iterations() {
     assert!(gas.iter().zip(&gas_again).all(|(a, b)| a.to_bits() == b.to_bits()));
 }
 
+/// Where sound crosses one cell in a step the levels are there and do nothing.
+#[test]
+fn small_steps_keep_their_bits() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let step = "time.fixed_step=0.0066";
+    let (iterations, expected, expected_gas) = run(&gpu, &[step, "numerics.preconditioner=jacobi"]);
+    let (same, found, gas) = run(&gpu, &[step]);
+    assert_eq!(iterations, same);
+    assert!(expected.iter().zip(&found).all(|(a, b)| a.to_bits() == b.to_bits()));
+    assert!(expected_gas.iter().zip(&gas).all(|(a, b)| a.to_bits() == b.to_bits()));
+}
+
 /// The system of a scene at rest, which advection leaves as it is, from the gas that the device starts with.
 fn system_at_rest(gpu: &Gpu, scene: &Scene, simulation: &Simulation) -> (Problem, Interface, System) {
     let problem = problem_of(scene);

@@ -22,7 +22,7 @@ impl Size {
 
     /// The next coarser level: every other vertex, and one beyond where the last was left out.
     pub(crate) fn coarser(self) -> Self {
-        let wraps = [0, 1].map(|d| self.wraps[d] && self.count[d] % 2 == 0);
+        let wraps = [0, 1].map(|d| self.wraps[d] && self.count[d].is_multiple_of(2));
         let count = [0, 1].map(|d| self.count[d] / 2 + usize::from(!wraps[d]));
         Self { count, wraps }
     }
@@ -33,7 +33,7 @@ impl Size {
 
     /// Coarse vertices that a vertex lies between, along one axis, with their weights.
     fn between(coarse: Self, axis: usize, v: usize) -> [(usize, f64); 2] {
-        if v % 2 == 0 { [(v / 2, 1.0), (v / 2, 0.0)] } else { [(v / 2, 0.5), ((v / 2 + 1) % coarse.count[axis], 0.5)] }
+        if v.is_multiple_of(2) { [(v / 2, 1.0), (v / 2, 0.0)] } else { [(v / 2, 0.5), ((v / 2 + 1) % coarse.count[axis], 0.5)] }
     }
 
     /// Every pair of a vertex and a coarse vertex with its weight.
