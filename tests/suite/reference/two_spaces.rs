@@ -33,7 +33,11 @@ impl Size {
 
     /// Coarse vertices that a vertex lies between, along one axis, with their weights.
     fn between(coarse: Self, axis: usize, v: usize) -> [(usize, f64); 2] {
-        if v.is_multiple_of(2) { [(v / 2, 1.0), (v / 2, 0.0)] } else { [(v / 2, 0.5), ((v / 2 + 1) % coarse.count[axis], 0.5)] }
+        if v.is_multiple_of(2) {
+            [(v / 2, 1.0), (v / 2, 0.0)]
+        } else {
+            [(v / 2, 0.5), ((v / 2 + 1) % coarse.count[axis], 0.5)]
+        }
     }
 
     /// Every pair of a vertex and a coarse vertex with its weight.
