@@ -4,7 +4,7 @@
 #include "shared/reduce4.wgsl"
 
 struct Pcg {
-    rho: f32,               // r . D^-1 r
+    rho: f32,               // r . z, z the preconditioner times r
     alpha: f32,
     beta: f32,
     reference: f32,         // c . D^-1 c of the full right-hand side c
@@ -21,6 +21,9 @@ struct Pcg {
     groups_high: u32,       // and y
     groups_partial: u32,    // groups of the kernels that leave partial sums
     groups_block: u32,      // groups, at most as many, of the kernels of the block with a preconditioner of its own
+    size: f32,              // r . D^-1 r, and of the block r . z: what the tolerance looks at, levels or not
+    levels: u32,            // coarse levels in use
+    level_groups: array<u32, PCG_LEVELS>,   // groups, at most as many, of the kernels of each level, the finest first; 0 without
 }
 
 @group(0) @binding(1) var<storage, read_write> pcg: Pcg;
@@ -40,6 +43,7 @@ fn open_iteration(on: bool) {
     pcg_extents[PCG_LISTED] = vec4u(pcg.listed_wide, pcg.listed_high, 1u, 0u) * keep;
     pcg_extents[PCG_BLOCK] = vec4u(pcg.groups_block, 1u, 1u, 0u) * keep;
     pcg_extents[PCG_FRONTIER] = vec4u(pcg.frontier_wide, pcg.frontier_high, 1u, 0u) * keep;
+    for (var k = 0u; k < PCG_LEVELS; k++) { pcg_extents[PCG_LEVEL + k] = vec4u(pcg.level_groups[k], 1u, 1u, 0u) * keep; }
 }
 
 fn total(lane: u32) -> vec4f {
@@ -67,7 +71,8 @@ fn pcg_begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) group
 fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
     let sum = total(lane);
     if lane != 0u { return; }
-    pcg.rho = sum.x;
+    pcg.size = sum.x;
+    pcg.rho = sum.x + sum.z;
     pcg.reference = sum.y;
     pcg.iterations = 0u;
     decide();
@@ -75,7 +80,7 @@ fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
 
 fn decide() {
     pcg.outcome = PCG_RUNNING;
-    if pcg.rho <= pcg.tolerance * pcg.tolerance * pcg.reference { pcg.outcome = PCG_CONVERGED; }
+    if pcg.size <= pcg.tolerance * pcg.tolerance * pcg.reference { pcg.outcome = PCG_CONVERGED; }
     else if pcg.iterations >= pcg.max_iterations || !(pcg.rho < 1e38) { pcg.outcome = PCG_STALLED; }
     open_iteration(pcg.outcome == PCG_RUNNING);
 }
@@ -106,8 +111,10 @@ fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
     if pcg.outcome != PCG_RUNNING { return; } // dispatched always: it writes the table that gates the others
     let sum = total(lane);
     if lane != 0u { return; }
-    pcg.beta = select(0.0, sum.x / pcg.rho, pcg.rho > 0.0);
-    pcg.rho = sum.x;
+    let rho = sum.x + sum.z;
+    pcg.beta = select(0.0, rho / pcg.rho, pcg.rho > 0.0);
+    pcg.size = sum.x;
+    pcg.rho = rho;
     pcg.iterations += 1u;
     decide();
 }

@@ -50,7 +50,7 @@ fn control_solved() {
     open_phase(PHASE_UPDATE_EXTENTS, done);
     if !done { return; }
     control.iterations = select(0u, control.iterations, control.stage > 0u) + pcg.iterations;
-    control.residual = select(0.0, sqrt(max(pcg.rho, 0.0) / pcg.reference), pcg.reference > 0.0);
+    control.residual = select(0.0, sqrt(max(pcg.size, 0.0) / pcg.reference), pcg.reference > 0.0);
     control.phase = select(select(PHASE_SUBSTEP, PHASE_ELASTIC, IMPLICIT), PHASE_BETWEEN, ARS && control.stage == 0u);
 }
 

@@ -70,7 +70,7 @@ impl Simulation {
             scene::Transfer::Auto if gpu.is_software() => Transfer::Gather,
             scene::Transfer::Auto => Transfer::Scatter,
         };
-        let coupled_solve = CoupledSolve::new(parts, scene.numerics.solid_update)?;
+        let coupled_solve = CoupledSolve::new(parts, scene)?;
         let simulation = Simulation {
             time_step: TimeStep::new(parts, coupled_solve.pcg.control.raw())?,
             particle_sort: solids.then(|| ParticleSort::new(parts)).transpose()?,

@@ -1,5 +1,5 @@
-//! Conjugate gradients with a diagonal preconditioner, and one of its own for a block of unknowns, matrix-free, all scalars on
-//! the device.
+//! Conjugate gradients with a diagonal preconditioner, one of its own for a block of unknowns, and coarse levels on top, matrix-free,
+//! all scalars on the device.
 //!
 //! The operator is given as dispatches that turn `direction` into `product` and leave the partial sums of their dot product
 //! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. [Saad 2003, algorithm 9.1]
@@ -12,7 +12,15 @@ use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP,
 /// WGSL constants of this method.
 const SOURCE: &str = "const PCG_RUNNING = 0u;\nconst PCG_CONVERGED = 1u;\nconst PCG_STALLED = 2u;\n\
                       const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\nconst PCG_LISTED = 3u;\n\
-                      const PCG_FRONTIER = 4u;\nconst PCG_BLOCK = 5u;\n";
+                      const PCG_FRONTIER = 4u;\nconst PCG_BLOCK = 5u;\n\
+                      const PCG_LEVEL = 6u;\nconst PCG_LEVELS = 12u;\n";
+
+/// Levels at most, the finest included.
+pub const LEVELS: usize = 12;
+/// Entry of the finest level in the group counts of an iteration.
+const LEVEL: u64 = 6;
+/// Numbers of the group counts of an iteration.
+pub(crate) const EXTENTS: usize = 4 * (LEVEL as usize + LEVELS);
 
 /// The vectors of one system.
 #[derive(Debug)]
@@ -49,7 +57,7 @@ impl PcgVectors {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct PcgControl {
-    /// r . D^-1 r.
+    /// r . z, z the preconditioner times r.
     pub rho: f32,
     /// Step length.
     pub alpha: f32,
@@ -83,6 +91,12 @@ pub struct PcgControl {
     pub groups_partial: u32,
     /// Groups, at most as many, of the kernels of [`Block`].
     pub groups_block: u32,
+    /// r . D^-1 r, and r . z of [`Block`]: what the tolerance looks at.
+    pub size: f32,
+    /// Coarse levels in use.
+    pub levels: u32,
+    /// Groups, at most as many as leave partial sums, of the kernels of each of [`Levels`], the finest first; 0 without.
+    pub level_groups: [u32; LEVELS],
 }
 
 /// The iteration.
@@ -107,6 +121,31 @@ pub struct Block<'a> {
     pub terms: Vec<&'a Bound>,
     /// Adds z to the direction.
     pub direction: Option<&'a Bound>,
+}
+
+/// Coarse levels, which add to what the diagonal gives. The caller sets [`PcgControl::level_groups`] before the iteration begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Levels<'a> {
+    /// Take the residual down, from level 1 on; each adds its share of z . r to the third of the partial sums.
+    pub down: &'a [Bound],
+    /// Take z up; the one of the finest level, which comes first here and last in time, adds to the direction.
+    pub up: &'a [Bound],
+    /// Group counts of every level before the first iteration, and the entry of the finest one.
+    pub opened: Option<(&'a Buffer<u32>, u64)>,
+}
+
+impl Levels<'_> {
+    fn record_down(&self, pass: &mut Pass, table: &Buffer<u32>, first: u64) {
+        for (level, kernel) in (first + 1..).zip(self.down) {
+            pass.dispatch(kernel, &Extent::Indirect(table, 16 * level));
+        }
+    }
+
+    fn record_up(&self, pass: &mut Pass, table: &Buffer<u32>, first: u64) {
+        for (level, kernel) in (first..).zip(self.up).collect::<Vec<_>>().into_iter().rev() {
+            pass.dispatch(kernel, &Extent::Indirect(table, 16 * level));
+        }
+    }
 }
 
 /// Which extents of an iteration an operator kernel runs with.
@@ -158,7 +197,7 @@ impl Pcg {
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
-        let extents = Buffer::indirect(gpu, "pcg_extents", 24)?;
+        let extents = Buffer::indirect(gpu, "pcg_extents", EXTENTS)?;
         let named = [
             ("pcg", control.raw()),
             ("solution", vectors.solution.raw()),
@@ -188,19 +227,31 @@ impl Pcg {
 
     /// Takes `residual` as right-hand side and opens the iteration. The extents gate the dispatches: kernels that leave partial sums,
     /// those of one group, those of the block.
-    pub fn begin(&self, pass: &mut Pass, [partial, single, own]: &[Extent<'_>; 3], block: &Block<'_>) {
+    pub fn begin(
+        &self,
+        pass: &mut Pass,
+        [partial, single, own]: &[Extent<'_>; 3],
+        block: &Block<'_>,
+        levels: &Levels<'_>,
+    ) {
         pass.dispatch(&self.begin[0], partial);
         for term in &block.terms {
             pass.dispatch(term, own);
+        }
+        if let Some((table, first)) = levels.opened {
+            levels.record_down(pass, table, first);
         }
         pass.dispatch(&self.begin[1], single);
         if let Some(direction) = block.direction {
             pass.dispatch(direction, own);
         }
+        if let Some((table, first)) = levels.opened {
+            levels.record_up(pass, table, first);
+        }
     }
 
     /// Records one iteration: nothing happens on the device once the solve is done.
-    pub fn iterate(&self, pass: &mut Pass, operator: &[(&Bound, Width)], block: &Block<'_>) {
+    pub fn iterate(&self, pass: &mut Pass, operator: &[(&Bound, Width)], block: &Block<'_>, levels: &Levels<'_>) {
         let extent = |entry: u64| Extent::Indirect(&self.extents, entry * 16);
         for (kernel, width) in operator {
             pass.dispatch(kernel, &extent(*width as u64));
@@ -210,11 +261,13 @@ impl Pcg {
         for term in &block.terms {
             pass.dispatch(term, &extent(5));
         }
+        levels.record_down(pass, &self.extents, LEVEL);
         pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
         pass.dispatch(&self.direction, &extent(1));
         if let Some(direction) = block.direction {
             pass.dispatch(direction, &extent(5));
         }
+        levels.record_up(pass, &self.extents, LEVEL);
     }
 }
 

@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::check_shape;
 use super::source::{Finding, walk};
-use super::{GasState, Integrator, Obstacles, Scene};
+use super::{GasState, Integrator, Obstacles, Preconditioner, Scene};
 
 /// Cells per active axis at least: the advection stencil needs this many.
 const FEWEST_CELLS: u32 = 3;
@@ -267,6 +267,10 @@ impl Check<'_> {
         if self.scene.numerics.obstacles == Obstacles::Cut && !self.scene.cut() {
             let help = "give \"cells\", or \"auto\", which chooses for the scene";
             self.add("numerics.obstacles", "\"cut\" is for obstacles in gas alone, with the pair b1b0", help);
+        }
+        if numerics.preconditioner == Preconditioner::Multigrid && self.scene.domain.dimension != 2 {
+            let help = "give \"jacobi\", or \"auto\", which chooses for the scene";
+            self.add("numerics.preconditioner", "\"multigrid\" is for two dimensions", help);
         }
         if self.scene.solves() == 2 {
             self.ars222();

@@ -67,7 +67,7 @@ pub use render::{
     ToneMap,
 };
 pub use sample::{Overlap, Seed};
-pub use settings::{Film, Numerics, Obstacles, Output, Pair, Time, Transfer};
+pub use settings::{Film, Numerics, Obstacles, Output, Pair, Preconditioner, Time, Transfer};
 pub use shape::Shape;
 pub use shipped::{Shipped, shipped, stem};
 pub use shot::{Shot, ShotKeys};

@@ -53,6 +53,8 @@ pub struct Numerics {
     pub tolerance: f64,
     /// The pressure solve gives up after this many iterations.
     pub max_iterations: u32,
+    /// What speeds the pressure solve up.
+    pub preconditioner: Preconditioner,
     /// Time integration of the gas.
     pub integrator: Integrator,
     /// Velocity that carries the gas through its faces.
@@ -99,6 +101,7 @@ impl Default for Numerics {
             pair: Pair::default(),
             tolerance: 1e-5,
             max_iterations: 500,
+            preconditioner: Preconditioner::default(),
             integrator: Integrator::default(),
             face_velocity: FaceVelocity::default(),
             obstacles: Obstacles::default(),
@@ -132,6 +135,19 @@ pub enum Pair {
     /// Velocity quadratic, pressure linear: the paper's pair.
     #[serde(rename = "b2b1")]
     B2b1,
+}
+
+/// Preconditioner of the pressure solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Preconditioner {
+    /// In 2D `multigrid` in the steps whose acoustic Courant number makes it pay, else `jacobi`.
+    #[default]
+    Auto,
+    /// The diagonal.
+    Jacobi,
+    /// Diagonals on all levels of two spaces, in every step. 2D only.
+    Multigrid,
 }
 
 /// How the grid sees static obstacles.

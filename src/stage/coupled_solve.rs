@@ -2,16 +2,18 @@
 //! and ghost pressure, matrix-free, by conjugate gradients with a Jacobi preconditioner and one of its own for the
 //! interface pressures, see `shaders/solve_surface.wgsl`. [Cao et al. 2022, eqs. 34-37]
 
+mod coarse;
 mod surface;
 
 use super::time_step::slots;
 use super::{Parts, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::numerics::{Block, Pcg, Width};
-use crate::scene::SolidUpdate;
+use crate::numerics::{Block, Levels, Pcg, Width};
+use crate::scene::{Scene, SolidUpdate};
 use crate::state::State;
 use crate::state::constants::Entry;
+use coarse::Coarse;
 use surface::Surface;
 
 /// Kernels of the stage.
@@ -27,6 +29,7 @@ pub struct CoupledSolve {
     velocities: [Bound; 2],
     vertices: Vertices,
     surface: Option<Surface>,
+    coarse: Option<Coarse>,
     reference: Bound,
     forces: [Bound; 2],
     add: Bound,
@@ -73,7 +76,7 @@ impl CoupledSolve {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, solid_update: SolidUpdate) -> Result<Self> {
+    pub fn new(parts: Parts<'_>, scene: &Scene) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let limits = (state.params.tolerance, state.params.max_iterations);
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), state.params.groups, limits)?;
@@ -84,7 +87,6 @@ impl CoupledSolve {
             entries.iter().map(|entry| state.bind(gpu, shader, entry, &[], &[])).collect()
         };
         Ok(Self {
-            pcg,
             film: [
                 solid("solid_inertia.wgsl", &["solid_inertia"])?,
                 solid("solid_predictor.wgsl", &["film_pressure", "film_left"])?,
@@ -97,10 +99,11 @@ impl CoupledSolve {
             velocities: setup("solve_velocities")?,
             vertices: Vertices::new(parts)?,
             surface: Surface::new(parts)?,
+            coarse: Coarse::new(parts, scene, pcg.control.raw())?,
             reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
             add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[], &[])?,
-            gradient: match solid_update {
+            gradient: match scene.numerics.solid_update {
                 SolidUpdate::Forces => Vec::new(),
                 SolidUpdate::Gradients => solid("solid_gradient.wgsl", &["solid_gradient"])?,
             },
@@ -108,6 +111,7 @@ impl CoupledSolve {
                 "solid_kick.wgsl",
                 &["solid_kick", "solid_kick_left", "solid_kick_share", "solid_kick_spread"],
             )?,
+            pcg,
         })
     }
 
@@ -132,13 +136,20 @@ impl CoupledSolve {
         if let Some(surface) = &self.surface {
             surface.record_rows(pass, state, phase);
         }
+        if let Some(coarse) = &self.coarse {
+            coarse.record_setup(pass, state, phase, &self.forces);
+        }
         pass.dispatch(&self.reference, &extent(state, phase, Entry::Reduce));
         let extents = [Entry::Reduce, Entry::Single, Entry::Surface].map(|entry| extent(state, phase, entry));
-        self.pcg.begin(pass, &extents, &self.block());
+        self.pcg.begin(pass, &extents, &self.block(), &self.levels());
     }
 
     fn block(&self) -> Block<'_> {
         self.surface.as_ref().map(Surface::block).unwrap_or_default()
+    }
+
+    fn levels(&self) -> Levels<'_> {
+        self.coarse.as_ref().map(Coarse::levels).unwrap_or_default()
     }
 
     /// Iterations; those after convergence do nothing.
@@ -146,7 +157,7 @@ impl CoupledSolve {
         pass.stage("coupled_solve");
         let [forces, listed_forces] = &self.forces;
         let [operator, listed_operator] = &self.vertices.operator;
-        let block = self.block();
+        let (block, levels) = (self.block(), self.levels());
         for _ in 0..count {
             self.pcg.iterate(
                 pass,
@@ -158,6 +169,7 @@ impl CoupledSolve {
                     (operator, Width::Partial),
                 ],
                 &block,
+                &levels,
             );
         }
     }

@@ -5,7 +5,7 @@ use super::p2g::Force;
 use super::{Parts, Transfer, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
-use crate::numerics::{Block, Pcg, PcgVectors, Width};
+use crate::numerics::{Block, Levels, Pcg, PcgVectors, Width};
 use crate::scene::{Elasticity, Scene};
 use crate::state::State;
 use crate::state::constants::Entry;
@@ -87,12 +87,12 @@ impl ElasticSolve {
         pass.dispatch(&self.diagonal, &extent(state, "ROUND", Entry::Slots));
         pass.dispatch(&self.residual, &extent(state, "ROUND", Entry::Slots));
         let extents = [Entry::Reduce, Entry::Single, Entry::Surface].map(|entry| extent(state, "ROUND", entry));
-        self.pcg.begin(pass, &extents, &Block::default());
+        self.pcg.begin(pass, &extents, &Block::default(), &Levels::default());
         for _ in 0..iterations {
             pass.dispatch(iteration, &single);
             pass.dispatch(&self.strain, &extent(state, "ITERATION", Entry::Particles));
             self.change.record(pass, state, "ITERATION");
-            self.pcg.iterate(pass, &[(&self.operator, Width::Partial)], &Block::default());
+            self.pcg.iterate(pass, &[(&self.operator, Width::Partial)], &Block::default(), &Levels::default());
         }
         pass.dispatch(balanced, &single);
         pass.dispatch(&self.add, &extent(state, "ROUND", Entry::Slots));

@@ -3,12 +3,12 @@
 use serde::Serialize;
 
 use super::{
-    HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, constants, control::Control,
-    elastic_solve, extra_capacity, surface,
+    HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, coarse, constants,
+    control::Control, elastic_solve, extra_capacity, surface,
 };
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
-use crate::numerics::{PcgControl, Scan};
+use crate::numerics::{PcgControl, Scan, pcg};
 use crate::scene::{MAX_BODIES, Scene};
 
 /// Bytes in a gibibyte.
@@ -87,8 +87,9 @@ impl MemoryPlan {
             plan.add("nodes", &["solution", "residual", "direction", "product"].map(|name| (name, length, 4)));
             plan.add("nodes", &[("inverse_diagonal", length, 4)]);
             plan.add("particles", &[("stress change", 2 * count, 16)]);
-            plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 24, 4)]);
+            plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", pcg::EXTENTS as u64, 4)]);
         }
+        plan.add_levels(scene);
         let scan = Scan::planned_bytes(slots as u32 + 1);
         plan.add("interface", &[("list scans", 2 * scan, 1)]);
         if particles > 0 {
@@ -116,6 +117,14 @@ impl MemoryPlan {
         }
     }
 
+    /// Coarse levels of the pressure solve.
+    fn add_levels(&mut self, scene: &Scene) {
+        let Some(levels) = coarse::plan(scene) else { return };
+        self.add("pressure", &[("levels", coarse::length(&levels) as u64, 16)]);
+        self.add("fixed", &vec![("level", 1, size_of::<coarse::Level>() as u64); levels.len()]);
+        self.add("fixed", &[("coarse_extents", coarse::EXTENTS as u64, 4)]);
+    }
+
     /// Buffers whose size does not depend on cells and particles.
     fn add_fixed(&mut self, probes: u64) {
         let extents = 4 * (constants::PHASE_WIDTH * constants::PHASES.len()) as u64;
@@ -125,7 +134,7 @@ impl MemoryPlan {
         self.add("fixed", &[("partials", u64::from(constants::BLOCKS * constants::PARTIALS), 16)]);
         self.add("fixed", &[("history", history * u64::from(constants::HISTORY_WIDTH), 16)]);
         self.add("fixed", &[("probe_cells", probes, 4), ("probe_history", 2 * history * probes, 16)]);
-        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", 24, 4)]);
+        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", pcg::EXTENTS as u64, 4)]);
     }
 
     /// Adds buffers: label, elements, bytes of an element. An empty buffer takes the room of one element.

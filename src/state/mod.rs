@@ -1,5 +1,6 @@
 //! Buffers and their host mirrors; no algorithms. Here the scene meets the device.
 
+pub(crate) mod coarse;
 pub mod constants;
 pub mod control;
 pub mod cut;

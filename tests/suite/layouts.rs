@@ -148,6 +148,9 @@ fn conjugate_gradients() {
             groups_high,
             groups_partial,
             groups_block,
+            size,
+            levels,
+            level_groups,
         ]
     );
 }

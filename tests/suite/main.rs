@@ -19,6 +19,7 @@ mod listed_operator;
 mod live;
 mod materials;
 mod numerics;
+mod preconditioner;
 mod quiet;
 mod reference;
 mod reference_exact;

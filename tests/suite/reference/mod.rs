@@ -20,6 +20,7 @@ pub(crate) mod p2g;
 pub(crate) mod particle_sort;
 pub(crate) mod step;
 pub(crate) mod time_step;
+pub(crate) mod two_spaces;
 
 use glam::{DMat3, DVec3};
 use grid::Grid;
