@@ -7,6 +7,7 @@
 #include "shared/place.wgsl"
 #include "shared/matrix.wgsl"
 #include "shared/motion.wgsl"
+#include "shared/pcg_result.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> position: array<vec4f>;
@@ -18,6 +19,7 @@
 @group(0) @binding(8) var<storage, read_write> product: array<vec4f>;
 @group(0) @binding(9) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(10) var<storage, read> solution: array<vec4f>;
+@group(0) @binding(11) var<storage, read> pcg: PcgResult;
 
 fn grid_vector(slot: u32) -> vec3f { return direction[slot].xyz; }
 
@@ -60,5 +62,5 @@ fn elastic_add(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
                @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
-    node[slot] = vec4f(node[slot].xyz + solution[slot].xyz, node[slot].w);
+    node[slot] = vec4f(node[slot].xyz + solution[slot].xyz + pcg.alpha * direction[slot].xyz, node[slot].w);
 }

@@ -1,5 +1,6 @@
 // The vector kernels of the conjugate gradient method with a diagonal preconditioner. All scalars stay on the device; a zero
-// entry in pcg_extents ends the iteration. [Saad 2003, algorithm 9.1]
+// entry in pcg_extents ends the iteration. The solution is a step behind, so that the kernel which reads the direction anyway takes it
+// along: what has converged is solution + alpha direction. [Saad 2003, algorithm 9.1]
 #include "shared/thread.wgsl"
 #include "shared/reduce4.wgsl"
 
@@ -75,6 +76,7 @@ fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
     pcg.rho = sum.x + sum.z;
     pcg.reference = sum.y;
     pcg.iterations = 0u;
+    pcg.alpha = 0.0;
     decide();
 }
 
@@ -97,7 +99,6 @@ fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     let alpha = pcg.alpha;
     var sum = vec4f(0.0);
     for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
-        solution[i] += alpha * direction[i];
         let r = residual[i] - alpha * product[i];
         residual[i] = r;
         sum.x += r * r * inverse_diagonal[i];
@@ -122,8 +123,11 @@ fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
 @compute @workgroup_size(WORKGROUP)
 fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
+    let alpha = pcg.alpha;
     let beta = pcg.beta;
     for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
-        direction[i] = inverse_diagonal[i] * residual[i] + beta * direction[i];
+        let step = direction[i];
+        solution[i] += alpha * step;
+        direction[i] = inverse_diagonal[i] * residual[i] + beta * step;
     }
 }

@@ -2,7 +2,8 @@
 //! all scalars on the device.
 //!
 //! The operator is given as dispatches that turn `direction` into `product` and leave the partial sums of their dot product
-//! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. [Saad 2003, algorithm 9.1]
+//! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. The solution is a step behind, so that
+//! the kernel which reads the direction anyway takes it along. [Saad 2003, algorithm 9.1]
 
 use bytemuck::{Pod, Zeroable};
 
@@ -25,7 +26,7 @@ pub(crate) const EXTENTS: usize = 4 * (LEVEL as usize + LEVELS);
 /// The vectors of one system.
 #[derive(Debug)]
 pub struct PcgVectors {
-    /// The solution, from zero.
+    /// The solution, from zero, a step behind: add [`PcgControl::alpha`] times the direction.
     pub solution: Buffer<f32>,
     /// Right-hand side at the start, residual after.
     pub residual: Buffer<f32>,

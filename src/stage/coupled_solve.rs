@@ -102,7 +102,7 @@ impl CoupledSolve {
             coarse: Coarse::new(parts, scene, pcg.control.raw())?,
             reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
-            add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[], &[])?,
+            add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[("pcg", pcg.control.raw())], &[])?,
             gradient: match scene.numerics.solid_update {
                 SolidUpdate::Forces => Vec::new(),
                 SolidUpdate::Gradients => solid("solid_gradient.wgsl", &["solid_gradient"])?,

@@ -53,7 +53,7 @@ pub const TRAFFIC: [Traffic; 17] = [
     carrier("intermediate_pressure", 4),
     row("intermediate_pressure", Per::Step, 84, 8, 0),
     row("coupled_solve", Per::Step, 116, 216, 0),
-    row("coupled_solve", Per::Iteration, 64, 52, 0),
+    row("coupled_solve", Per::Iteration, 60, 52, 0),
     row("fluid_update", Per::Step, 176, 32, 0),
     carrier("fluid_update", 48),
     row("mpm_grid_update", Per::Substep, 0, 52, 0),
