@@ -17,6 +17,18 @@ use crate::reference_solids::lattice;
 use crate::reference_tables::Noise;
 use crate::twins::problem_of;
 
+/// The pressure system of a step of `dt` whose advection leaves the state as it is.
+fn assembled(problem: Problem, mut state: State, dt: f64) -> (Problem, Interface, System) {
+    gas_advection::fill_ghosts(&problem, &state.cells, &mut state.gas);
+    let (bins, nodes) = (particle_sort::bin(&problem, &state.particles), p2g::p2g(&problem, &state.particles));
+    let faces = interface::interface(&problem, state.cells.clone(), &bins, &nodes);
+    let gas = (&state.gas, &state.gas);
+    let intermediate = &intermediate_pressure::intermediate(&problem, &faces, gas, None, &state.open, dt);
+    let system =
+        assemble(&Inputs { problem: &problem, interface: &faces, bins: &bins, intermediate, nodes: &nodes, dt });
+    (problem, faces, system)
+}
+
 /// A pulse and noise in a box at a Courant number, with what `configure` adds, and a stiff block if asked for.
 fn system(
     cells: [i32; 2],
@@ -41,15 +53,8 @@ fn system(
         u[2] += 0.005 * u[0] * noise.next();
         state.gas.set(slot, u);
     }
-    gas_advection::fill_ghosts(&problem, &state.cells, &mut state.gas);
-    let (bins, nodes) = (particle_sort::bin(&problem, &state.particles), p2g::p2g(&problem, &state.particles));
-    let faces = interface::interface(&problem, state.cells.clone(), &bins, &nodes);
     let dt = courant * problem.grid.spacing / problem.gamma.sqrt();
-    let gas = (&state.gas, &state.gas);
-    let intermediate = &intermediate_pressure::intermediate(&problem, &faces, gas, None, &state.open, dt);
-    let system =
-        assemble(&Inputs { problem: &problem, interface: &faces, bins: &bins, intermediate, nodes: &nodes, dt });
-    (problem, faces, system)
+    assembled(problem, state, dt)
 }
 
 /// Iterations with the diagonal, with both spaces and the cheap diagonals, with those of Galerkin, with the plain space alone.
@@ -183,15 +188,7 @@ fn system_at_rest(gpu: &Gpu, scene: &Scene, simulation: &Simulation) -> (Problem
             state.gas.set(slot, [f64::from(density[slot][0]), 0.0, 0.0, 0.0, f64::from(energy[slot])]);
         }
     }
-    gas_advection::fill_ghosts(&problem, &state.cells, &mut state.gas);
-    let (bins, nodes) = (particle_sort::bin(&problem, &state.particles), p2g::p2g(&problem, &state.particles));
-    let faces = interface::interface(&problem, state.cells.clone(), &bins, &nodes);
-    let dt = scene.time.fixed_step.unwrap();
-    let gas = (&state.gas, &state.gas);
-    let intermediate = &intermediate_pressure::intermediate(&problem, &faces, gas, None, &state.open, dt);
-    let system =
-        assemble(&Inputs { problem: &problem, interface: &faces, bins: &bins, intermediate, nodes: &nodes, dt });
-    (problem, faces, system)
+    assembled(problem, state, scene.time.fixed_step.unwrap())
 }
 
 /// With a tolerance near 1 a solve ends before its first iteration and leaves the residual and what the preconditioner makes of it.
