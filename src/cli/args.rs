@@ -209,7 +209,10 @@ pub struct GalleryOptions {
     /// Folder for gallery.html and the runs
     #[arg(long, value_name = "DIR", default_value = "out/gallery")]
     pub out: PathBuf,
-    /// Show no progress within a scene
+    /// Scenes at a time [default: 1; on a software device one per processor core, 4 at most]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..))]
+    pub jobs: Option<u8>,
+    /// Show no progress within a scene, as when several run at a time
     #[arg(long, short)]
     pub quiet: bool,
 }

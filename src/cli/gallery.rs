@@ -1,9 +1,11 @@
-//! `gallery`: scenes one after another, and one page that shows them all.
+//! `gallery`: scenes one after another or a few at a time, and one page that shows them all.
 
 mod page;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use serde_json::{Value, json};
@@ -11,7 +13,7 @@ use serde_json::{Value, json};
 use super::args::{Cli, GalleryOptions, RunOptions, Scale, SceneOptions};
 use super::interrupt::{self, Wish};
 use super::progress::clock;
-use super::run;
+use super::{open_device, run};
 use crate::export::atomic;
 use crate::scene::{self, SMALL, Scene};
 use crate::{Error, Result};
@@ -19,8 +21,11 @@ use crate::{Error, Result};
 /// Folders of the scenes that are shown when nobody asks for others.
 const SHOWN: [&str; 2] = ["paper", "demos"];
 
+/// Scenes that run at a time on a software device, at most.
+const AT_A_TIME: usize = 4;
+
 /// A scene in one of its variants.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Entry {
     /// Scene as `run` takes it.
     scene: String,
@@ -49,19 +54,8 @@ pub(super) fn gallery(options: &GalleryOptions, cli: &Cli) -> Result<()> {
     let entries = entries(options)?;
     interrupt::listen();
     let start = Instant::now();
-    let count = entries.len();
-    let mut shown = Vec::new();
-    for (index, entry) in entries.into_iter().enumerate() {
-        if interrupt::wish() >= Wish::AfterFrame {
-            break;
-        }
-        eprintln!("[{}/{count}] {}", index + 1, entry.id);
-        let one = show(entry, options, cli);
-        eprintln!("[{}/{count}] {}: {}", index + 1, one.entry.id, one.error.as_deref().unwrap_or("done"));
-        shown.push(one);
-        // after every scene, so that a long gallery can be looked at while it grows
-        write(&options.out, &shown, start, cli)?;
-    }
+    let jobs = jobs(options, cli, entries.len())?;
+    let shown = perform(&entries, options, cli, (jobs, start))?;
     let seconds = start.elapsed();
     let object = json!({ "scale": options.scale.name(), "seconds": seconds.as_secs_f64(),
                          "scenes": shown.iter().map(Shown::json).collect::<Vec<_>>() });
@@ -71,6 +65,53 @@ pub(super) fn gallery(options: &GalleryOptions, cli: &Cli) -> Result<()> {
         say!("{} scenes in {}: {}", shown.len(), clock(seconds), options.out.join("gallery.html").display());
     }
     if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { verdict(&shown, &options.out) }
+}
+
+/// How many scenes run at a time.
+fn jobs(options: &GalleryOptions, cli: &Cli, count: usize) -> Result<usize> {
+    let jobs = match options.jobs {
+        Some(jobs) => jobs.into(),
+        // one small scene leaves cores idle: its kernels are short
+        None if open_device(cli)?.is_software() => {
+            std::thread::available_parallelism().map_or(1, usize::from).min(AT_A_TIME)
+        }
+        None => 1,
+    };
+    Ok(jobs.min(count))
+}
+
+/// Runs the entries, and writes the page after each, so that a long gallery can be looked at while it grows.
+fn perform(
+    entries: &[Entry],
+    options: &GalleryOptions,
+    cli: &Cli,
+    (jobs, start): (usize, Instant),
+) -> Result<Vec<Shown>> {
+    let count = entries.len();
+    let next = AtomicUsize::new(0);
+    let shown: Mutex<Vec<(usize, Shown)>> = Mutex::default();
+    let quiet = cli.json || options.quiet || jobs > 1;
+    let work = || {
+        while interrupt::wish() == Wish::GoOn {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(entry) = entries.get(index) else { break };
+            eprintln!("[{}/{count}] {}", index + 1, entry.id);
+            let one = show(entry, &options.out, quiet, cli);
+            eprintln!("[{}/{count}] {}: {}", index + 1, one.entry.id, one.error.as_deref().unwrap_or("done"));
+            let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
+            let place = shown.partition_point(|(other, _)| *other < index);
+            shown.insert(place, (index, one));
+            write(&options.out, &shown, start, cli)?;
+        }
+        Ok(())
+    };
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..jobs).map(|_| scope.spawn(work)).collect();
+        workers
+            .into_iter()
+            .try_for_each(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    })?;
+    Ok(shown.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().map(|(_, one)| one).collect())
 }
 
 /// What to run, in the order of the names.
@@ -116,9 +157,9 @@ fn variants_of(scene: &str, wanted: Option<&str>, scale: Scale) -> Result<Vec<En
 }
 
 /// Runs one entry on a device of its own, so that a device that is lost takes no other scene with it.
-fn show(entry: Entry, options: &GalleryOptions, cli: &Cli) -> Shown {
+fn show(entry: &Entry, out: &Path, quiet: bool, cli: &Cli) -> Shown {
     let start = Instant::now();
-    let folder = options.out.join(&entry.id);
+    let folder = out.join(&entry.id);
     let scene = SceneOptions {
         scene: entry.scene.clone(),
         variant: entry.variants.clone(),
@@ -126,7 +167,6 @@ fn show(entry: Entry, options: &GalleryOptions, cli: &Cli) -> Shown {
         allow_outside: false,
         resolution: None,
     };
-    let quiet = cli.json || options.quiet;
     let run = RunOptions { scene, out: Some(folder.clone()), quiet, ..RunOptions::default() };
     // what an earlier gallery left must not stand for a run that does not get so far
     let _ = std::fs::remove_file(folder.join("report.json"));
@@ -138,7 +178,7 @@ fn show(entry: Entry, options: &GalleryOptions, cli: &Cli) -> Shown {
     };
     let report = std::fs::read_to_string(folder.join("report.json")).ok();
     let report = report.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
-    Shown { entry, error, seconds: start.elapsed().as_secs_f64(), report }
+    Shown { entry: entry.clone(), error, seconds: start.elapsed().as_secs_f64(), report }
 }
 
 impl Shown {
@@ -155,8 +195,9 @@ impl Shown {
     }
 }
 
-fn write(out: &Path, shown: &[Shown], start: Instant, cli: &Cli) -> Result<()> {
-    let page = page::html(out, shown, start.elapsed(), cli);
+fn write(out: &Path, shown: &[(usize, Shown)], start: Instant, cli: &Cli) -> Result<()> {
+    let shown: Vec<&Shown> = shown.iter().map(|(_, one)| one).collect();
+    let page = page::html(out, &shown, start.elapsed(), cli);
     atomic::write(&out.join("gallery.html"), |file| file.write_all(page.as_bytes()))
 }
 

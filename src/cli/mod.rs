@@ -30,6 +30,7 @@ pub use args::{Cli, Command};
 
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{CommandFactory, Parser};
 use serde_json::json;
@@ -134,10 +135,11 @@ fn window(cli: &Cli) -> Result<()> {
     })
 }
 
-/// Opens the device that the command line names; a processor in the role of a GPU is announced.
+/// Opens the device that the command line names; a processor in the role of a GPU is announced, once.
 fn open_device(cli: &Cli) -> Result<Gpu> {
+    static ANNOUNCED: AtomicBool = AtomicBool::new(false);
     let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })?;
-    if gpu.is_software() {
+    if gpu.is_software() && !ANNOUNCED.swap(true, Ordering::Relaxed) {
         let name = &gpu.info.name;
         eprintln!(
             "warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU"

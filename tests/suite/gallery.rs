@@ -28,11 +28,19 @@ domain.cells = [4]
 gas.ambient.density = 2.0
 [variants.wrong]
 expect.min_pressure = 2.0
+[variants.long]
+time.until = 400.0
 "#;
 
 fn gallery(folder: &Path, names: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_brisance"));
     command.arg("gallery").args(names).args(["--out", "shown"]).current_dir(folder).output().unwrap()
+}
+
+/// What `--json` prints.
+fn printed(output: &Output) -> serde_json::Value {
+    let first = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned();
+    serde_json::from_str(&first).unwrap_or_else(|error| panic!("{error}: {first}"))
 }
 
 #[test]
@@ -47,8 +55,7 @@ fn a_gallery_shows_every_variant_and_says_which_failed() {
     let text = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(8), "{text}");
     assert!(text.contains("1 of 2 scenes failed: tube-wrong"), "{text}");
-    let first = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned();
-    let object: serde_json::Value = serde_json::from_str(&first).unwrap_or_else(|error| panic!("{error}: {first}"));
+    let object = printed(&output);
     let passed: Vec<_> = object["scenes"].as_array().unwrap().iter().map(|scene| &scene["passed"]).collect();
     assert_eq!(passed, [false, true]);
     assert_eq!(object["scenes"][1]["variants"], serde_json::json!(["small", "dense"]));
@@ -70,8 +77,7 @@ fn a_gallery_takes_scenes_at_full_size_and_knows_its_names() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("tube.toml"), SCENE.replace("[variants.wrong]\nexpect.min_pressure = 2.0\n", ""))
-        .unwrap();
+    std::fs::write(folder.path().join("tube.toml"), SCENE.split("[variants.wrong]").next().unwrap()).unwrap();
     let output = gallery(folder.path(), &["tube.toml", "--scale", "full", "-q"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let report = std::fs::read_to_string(folder.path().join("shown/tube-dense/report.json")).unwrap();
@@ -83,4 +89,33 @@ fn a_gallery_takes_scenes_at_full_size_and_knows_its_names() {
         let text = String::from_utf8_lossy(&output.stderr);
         assert!(matches!(output.status.code(), Some(2 | 3)) && text.contains(part), "{text}");
     }
+}
+
+#[test]
+fn a_gallery_runs_scenes_at_a_time_and_shows_them_in_order() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("tube.toml"), SCENE).unwrap();
+    let names = ["tube.toml:long", "tube.toml:dense", "--json", "--jobs"];
+    let line = |text: &str, wanted: &str| {
+        text.lines().position(|line| line == wanted).unwrap_or_else(|| panic!("no `{wanted}` in {text}"))
+    };
+    for (jobs, together) in [("1", false), ("2", true)] {
+        let output = gallery(folder.path(), &[&names[..], &[jobs]].concat());
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{text}");
+        // the second begins while the first, some thousand times as long, still runs; mostly it also ends before
+        let (end, start) = (line(&text, "[1/2] tube-long: done"), line(&text, "[2/2] tube-dense"));
+        assert_eq!(start < end, together, "{jobs} at a time: {text}");
+        let page = std::fs::read_to_string(folder.path().join("shown/gallery.html")).unwrap();
+        assert!(page.find("tube-long").unwrap() < page.find("tube-dense").unwrap());
+        let object = printed(&output);
+        let ids: Vec<_> = object["scenes"].as_array().unwrap().iter().map(|scene| &scene["id"]).collect();
+        assert_eq!(ids, ["tube-long", "tube-dense"]);
+    }
+    let output = gallery(folder.path(), &["tube.toml", "--jobs", "0"]);
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && text.contains("--jobs"), "{text}");
 }

@@ -26,7 +26,7 @@ figure img{max-width:100%}img.last{flex:2 1 30rem;min-width:0}img.moving{flex:1 
 .sides{display:flex;flex-wrap:wrap;gap:2rem}.sides table{width:auto;flex:1 1 20rem}";
 
 /// The page. A picture that cannot be read is left out, and said.
-pub(super) fn html(out: &Path, shown: &[Shown], elapsed: Duration, cli: &Cli) -> String {
+pub(super) fn html(out: &Path, shown: &[&Shown], elapsed: Duration, cli: &Cli) -> String {
     let failed = shown.iter().filter(|one| one.error.is_some()).count();
     let device = shown.iter().map(|one| &one.report["device"]).find(|device| device.is_object());
     let device = device.map_or_else(|| "no device".to_owned(), device_text);
@@ -55,7 +55,7 @@ fn device_text(device: &Value) -> String {
 }
 
 /// One line per scene.
-fn overview(page: &mut String, shown: &[Shown]) {
+fn overview(page: &mut String, shown: &[&Shown]) {
     let _ = writeln!(
         page,
         "<table><thead><tr><th>scene</th><th>cells</th><th>particles</th><th>memory</th>\
