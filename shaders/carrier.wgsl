@@ -10,14 +10,17 @@
 #include "shared/interior.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/cut_carrier.wgsl"
+#include "shared/still.wgsl"
 
 override SOURCE: u32;   // 0: the state now, 1: U1, 2: U*
+override SOLVED: bool;  // the solve has moved still air
 
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(4) var<storage, read> work: array<vec4f>;
 @group(0) @binding(5) var<storage, read> extra: array<u32>;
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
+@group(0) @binding(12) var<storage, read> still: array<u32>;
 
 fn source(slot: u32) -> vec4f {
     if SOURCE == 1u { return work[slot]; }
@@ -175,8 +178,12 @@ fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
                  @builtin(local_invocation_index) lane: u32) {
     let s = params.stride.x;
     let thread = thread_index(group, groups, lane);
-    let first = (thread / s) * params.march * s + thread % s;
+    let first = march_start(thread);
     if first >= params.slots { return; }
+    if !SOLVED && is_still(thread) {
+        for (var slot = first; slot < min(first + params.march * s, params.slots); slot += s) { node[slot] = vec4f(0.0); }
+        return;
+    }
     var low = row_at(max(first, s) - s);
     var here = row_at(first);
     for (var k = 0u; k < params.march; k++) {

@@ -17,6 +17,7 @@
 #include "shared/carrier.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/cut_carrier.wgsl"
+#include "shared/still.wgsl"
 
 override SECOND: bool;  // stage of the Runge-Kutta scheme
 
@@ -28,6 +29,7 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
+@group(0) @binding(12) var<storage, read> still: array<u32>;
 
 fn source(slot: u32) -> Gas {
     if SECOND && !ARS { return Gas(work[slot], energy[params.slots + slot]); }
@@ -43,10 +45,6 @@ fn open_gas(c: vec3i, n: u32) -> Gas {
     let here = source(slot_of(nearest_inside(c)));
     if inside(c) { return here; }
     return gas_beyond(opening_of(cells[slot_of(nearest_ring(c))]), n, select(1.0, -1.0, c[n] < 0), here);
-}
-
-fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
-    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first));
 }
 
 // Carrier of an open slot; beyond an outlet that of the nearest cell.
@@ -244,9 +242,16 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let n = DIM - 1u;
     let s = step_of(n);
     let thread = thread_index(group, groups, lane);
-    let first = (thread / s) * params.march * s + thread % s;
+    let first = march_start(thread);
     let last = params.slots - 1u;
     if first > last { return; }
+    if !(ARS && SECOND) && is_still(thread) {
+        for (var slot = first; slot < min(first + params.march * s, params.slots); slot += s) {
+            if LIMITER { theta[slot] = 1.0; }
+            write_result(slot, Gas(conserved[slot], energy[slot]), Change());
+        }
+        return;
+    }
     var a = source(max(first, 2u * s) - 2u * s);
     var b = source(max(first, s) - s);
     var here = source(first);

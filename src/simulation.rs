@@ -11,8 +11,8 @@ use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
     Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticOrder, ElasticSolve, FluidUpdate, G2p, GasAdvection,
-    InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Supports, TimeStep, Totals,
-    Transfer,
+    InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Still, Supports, TimeStep,
+    Totals, Transfer,
 };
 use crate::state::constants::{self, NO_FAULT};
 use crate::state::{Control, HISTORY, State};
@@ -30,6 +30,7 @@ pub struct Simulation {
     p2g: Option<P2g>,
     supports: Option<Supports>,
     interface: InterfaceStage,
+    still: Still,
     carrier: CarrierVelocity,
     gas_advection: GasAdvection,
     intermediate_pressure: IntermediatePressure,
@@ -77,6 +78,7 @@ impl Simulation {
             p2g: solids.then(|| P2g::new(parts, transfer)).transpose()?,
             supports: scene.has_supports().then(|| Supports::new(parts)).transpose()?,
             interface: InterfaceStage::new(parts)?,
+            still: Still::new(parts)?,
             carrier: CarrierVelocity::new(parts, scene.consistent())?,
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
@@ -129,6 +131,7 @@ impl Simulation {
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
         self.record_held(pass, "BEGIN");
         self.time_step.record_listed(pass);
+        self.still.record(pass, state);
         self.record_advection(pass, 0, Carried::Now, "BEGIN"); // (3) eqs. 10-12
         if self.solves == 1 {
             self.record_advection(pass, 1, Carried::First, "BEGIN");

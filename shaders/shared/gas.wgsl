@@ -15,3 +15,6 @@ fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32) -> Gas {
     return Gas(vec4f(density, density * velocity),
         pressure / (params.gamma - 1.0) + 0.5 * density * dot(velocity, velocity));
 }
+fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
+    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first));
+}

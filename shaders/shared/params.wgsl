@@ -51,6 +51,7 @@ struct Params {
     blending: u32,              // 1: faces of partly filled cells are blocked by their share
     least_entropy: f32,         // p / rho^gamma that no gas falls below
     surface_rows: u32,          // vertices whose interface pressure has a row in the preconditioner
+    still: u32,                 // 0: still air is computed like all other
     scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 

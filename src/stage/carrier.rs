@@ -15,12 +15,14 @@ pub enum Carried {
     First = 1,
     /// After the advection.
     Star = 2,
+    /// The state now, after the solve, which also moves still air.
+    Solved = 3,
 }
 
 /// Kernels of the stage, for each state, in order.
 #[derive(Debug)]
 pub struct CarrierVelocity {
-    kernels: Option<[Vec<(Bound, Entry)>; 3]>,
+    kernels: Option<[Vec<(Bound, Entry)>; 4]>,
 }
 
 impl CarrierVelocity {
@@ -31,7 +33,13 @@ impl CarrierVelocity {
     pub fn new(parts: Parts<'_>, wanted: bool) -> Result<Self> {
         let of = |source: Carried| -> Result<Vec<(Bound, Entry)>> {
             let bind = |entry: &str, listed: f64| {
-                let switches = [("SOURCE", f64::from(source as u32)), ("LISTED", listed)];
+                // Only marches leave out still air; the other kernels are those of the state now.
+                let solved = source == Carried::Solved;
+                let state = if solved { Carried::Now } else { source };
+                let mut switches = vec![("SOURCE", f64::from(state as u32)), ("LISTED", listed)];
+                if entry == "carrier_march" {
+                    switches.push(("SOLVED", f64::from(u8::from(solved))));
+                }
                 parts.state.bind(parts.gpu, "carrier.wgsl", entry, &[], &switches)
             };
             let plain = if parts.state.grid.dimension == 2 {
@@ -45,7 +53,7 @@ impl CarrierVelocity {
             let kernels = [first, Some(listed("carrier_average")?), second, Some(listed("carrier_divergence")?)];
             Ok(kernels.into_iter().flatten().collect())
         };
-        let all = || Ok([of(Carried::Now)?, of(Carried::First)?, of(Carried::Star)?]);
+        let all = || Ok([of(Carried::Now)?, of(Carried::First)?, of(Carried::Star)?, of(Carried::Solved)?]);
         Ok(Self { kernels: if wanted { Some(all()?) } else { None } })
     }
 

@@ -32,7 +32,7 @@ impl FluidUpdate {
     pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity) {
         pass.stage("fluid_update");
         record_both(pass, state, "UPDATE", &self.momentum);
-        carrier.record(pass, state, Carried::Now, "UPDATE");
+        carrier.record(pass, state, Carried::Solved, "UPDATE");
         record_both(pass, state, "UPDATE", &self.energy);
         pass.dispatch(&self.floor, &slots(state, "UPDATE"));
     }

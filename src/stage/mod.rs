@@ -7,6 +7,7 @@
 //! | `supports` | what is held? |
 //! | `p2g` | what do the solids look like on the grid? |
 //! | `interface` | where do gas and solid meet? |
+//! | `still` | where does nothing move? |
 //! | `carrier` | which velocity carries the gas through its faces? |
 //! | `gas_advection` | where does the gas carry itself? |
 //! | `intermediate_pressure` | which pressure does the advected gas have? |
@@ -34,6 +35,7 @@ mod mpm_grid_update;
 mod odd_even;
 mod p2g;
 mod particle_sort;
+mod still;
 mod supports;
 mod time_step;
 mod totals;
@@ -53,6 +55,7 @@ pub use mpm_grid_update::MpmGridUpdate;
 pub use odd_even::OddEven;
 pub use p2g::{P2g, Transfer};
 pub use particle_sort::ParticleSort;
+pub use still::Still;
 pub use supports::Supports;
 pub use time_step::TimeStep;
 pub use totals::Totals;

@@ -42,12 +42,13 @@ const fn carrier(stage: &'static str, slot_with_carrier: u32) -> Traffic {
 
 /// The bytes of all stages; stages with several parts have several lines. Particle transfers are those of the gather form in
 /// 3D, whose nine colors each read and write the nodes.
-pub const TRAFFIC: [Traffic; 17] = [
+pub const TRAFFIC: [Traffic; 18] = [
     row("time_step", Per::Step, 24, 0, 128),
     row("particle_sort", Per::Step, 0, 16, 88),
     row("particle_sort", Per::Substep, 0, 16, 88),
     row("p2g", Per::Substep, 0, 640, 108),
     row("interface", Per::Step, 0, 360, 264),
+    row("still", Per::Step, 20, 0, 0),
     row("gas_advection", Per::Step, 116, 32, 0),
     carrier("gas_advection", 96),
     carrier("intermediate_pressure", 4),

@@ -47,6 +47,8 @@ pub const MAX_ROUNDS: u32 = 20;
 pub const NO_FAULT: u32 = u32::MAX;
 /// Dispatches of the longest prefix sum that a step runs.
 pub const SCAN_DISPATCHES: usize = 6;
+/// Columns of a marching kernel that are still together: as many as one instruction of a CPU takes, or a part of a GPU's.
+pub const STILL_BLOCK: u32 = 8;
 /// Entries of a phase in the table of extents.
 pub const PHASE_WIDTH: usize = 9 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
@@ -161,6 +163,7 @@ pub fn source() -> String {
         ("MAX_GROUPS", 65_535),
         ("PARTIALS", PARTIALS),
         ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
+        ("STILL_BLOCK", STILL_BLOCK),
         ("HISTORY_WIDTH", HISTORY_WIDTH),
         ("BLOCKS", BLOCKS),
         ("BLOCK_GIVEN", BLOCK_GIVEN),

@@ -69,6 +69,8 @@ impl MemoryPlan {
             "interface",
             &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", 2 * slots + 2 + table, 4)],
         );
+        let blocks = super::interface::still_blocks(&[padded(0), padded(1), padded(2)], dimension);
+        plan.add("interface", &[("still", blocks, 4)]);
         plan.add_pressure(slots as usize, extra_capacity(slots as usize, particles, dimension), dimension as usize);
         plan.add("particles", &[("position", count, 16), ("velocity", count, 16), ("affine", 3 * count, 16)]);
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);

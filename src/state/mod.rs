@@ -121,6 +121,7 @@ impl State {
         overrides.push(("DRIVEN", f64::from(u8::from(supports.driven))));
         overrides.push(("FRICTION", f64::from(u8::from(supports.friction))));
         overrides.push(("CUT", f64::from(u8::from(!table.is_empty()))));
+        let blocks = interface::still_blocks(&params.stride.map(u64::from), domain.dimension) as usize;
         let state = State {
             grid,
             params,
@@ -133,7 +134,7 @@ impl State {
             motions: Buffer::from_slice(gpu, "motions", &supports.motions)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
             gas: GasState::new(gpu, slots, usize::from(scene.solves() == 2))?,
-            interface: Interface::new(gpu, slots, !start.is_empty(), table.len())?,
+            interface: Interface::new(gpu, slots, !start.is_empty(), table.len(), blocks)?,
             particles: Particles::new(gpu, slots, &start, scene.consistent(), scene.elastic_vectors())?,
             pressure: Buffer::new(gpu, "pressure", unknowns)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
@@ -267,6 +268,7 @@ impl State {
             ("fill", self.interface.fill.raw()),
             ("ghost", self.interface.ghost.raw()),
             ("extra", self.interface.extra.raw()),
+            ("still", self.interface.still.raw()),
             ("position", self.particles.position.raw()),
             ("velocity", self.particles.velocity.raw()),
             ("affine", self.particles.affine.raw()),

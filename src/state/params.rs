@@ -73,8 +73,8 @@ pub struct Params {
     pub least_entropy: f32,
     /// Vertices whose interface pressure has a row in the preconditioner.
     pub surface_rows: u32,
-    /// Fills the last 16 bytes.
-    pub unused: u32,
+    /// 0: gas in which nothing moves is computed like all other, with the same result.
+    pub still: u32,
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -125,7 +125,7 @@ const SOFTWARE_GROUPS: u32 = 64;
 /// Length of a march on a CPU, where reading a neighbour again costs as much as the first time.
 const SOFTWARE_MARCH: u32 = 16;
 /// The same on a GPU, which needs the threads more (not measured on one).
-const MARCH: u32 = 4;
+pub(super) const MARCH: u32 = 4;
 
 impl Params {
     /// Parameters of a scene on its grid.
@@ -165,7 +165,7 @@ impl Params {
             blending: u32::from(numerics.blending),
             least_entropy: 0.0,
             surface_rows: surface::rows(grid.slots(), limits.extra_capacity as usize) as u32,
-            unused: 0,
+            still: 1,
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {

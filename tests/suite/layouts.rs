@@ -69,6 +69,7 @@ fn params() {
             blending,
             least_entropy,
             surface_rows,
+            still,
             scan,
         ]
     );

@@ -30,6 +30,7 @@ mod render;
 mod scenes;
 mod shaders;
 mod solids;
+mod still;
 mod supports;
 mod surface;
 mod synthetic;
