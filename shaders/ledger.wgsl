@@ -1,8 +1,8 @@
 // interface, the gas books: what happens to the gas of cells that a body covers or uncovers.
 // A SOLID slot of the gas state keeps the gas of the cell it covers plus all fluxes through its faces: owed gas, not pressurised.
 // `owed` is what a GAS cell still owes (negative: it was filled with more than it holds). Gas plus owed gas is conserved.
-// A GAS cell settles at most a tenth of its density and internal energy per step and passes the rest on to its gas neighbours;
-// a SOLID cell without gas neighbours passes all of it to its solid neighbours.
+// A GAS cell settles a debt that it can stand, so much per step that its state changes little, and passes the rest on to its gas
+// neighbours; a SOLID cell without gas neighbours passes all of it to its solid neighbours.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -18,6 +18,16 @@
 
 // Largest relative change of density and internal energy that a cell settles in one step.
 const SETTLED_PER_STEP = 0.1;
+
+// Debts of either sign meet on their way, and what is left of their mass, momentum and energy need not belong together. `left` is the
+// share of density and internal energy that a cell must keep were all of its debt settled. It may be negative: the debt may exceed what
+// the cell holds, for the rest goes on to its neighbours before it is due. (Below a density of zero the energy of a debt bounds nothing.)
+// `speed` is the largest change of velocity per step, in speeds of sound.
+struct Bounds { left: f32, speed: f32 }
+const IN_THE_OPEN = Bounds(-0.5, 0.3);
+// Two faces or more without gas behind them: a pocket, whose debts come back to it. It would be drained, or driven by momentum that
+// came without mass.
+const ENCLOSED = Bounds(0.25, 0.1);
 
 struct Sum { flow: vec4f, energy: f32, count: f32 }
 
@@ -98,16 +108,26 @@ fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
     return count;
 }
 
-// Part of its debt that a gas cell settles now.
-fn settled_part(slot: u32, pocket: bool) -> f32 {
-    let debt = owed_flow[slot] / cell_volume();
+// Gas with a part of a debt.
+fn with_part(gas: Gas, slot: u32, part: f32) -> Gas {
+    let each = part / cell_volume();
+    return Gas(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot]);
+}
+
+// Part of its debt that a gas cell with so many gas neighbours settles now.
+fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     let gas = Gas(conserved[slot], energy[slot]);
-    if pocket && debt.x < 0.0 { return 0.0; } // a pocket is never drained
-    var part = min(1.0, SETTLED_PER_STEP * gas.flow.x / max(abs(debt.x), 1e-30));
     let before = internal_energy(gas);
+    let all = with_part(gas, slot, 1.0);
+    var bounds = ENCLOSED;
+    if gas_neighbours + 1u >= 2u * DIM { bounds = IN_THE_OPEN; }
+    if all.flow.x < bounds.left * gas.flow.x || internal_energy(all) < bounds.left * before { return 0.0; }
+    let kick = bounds.speed * bounds.speed * params.gamma * (params.gamma - 1.0) * before / gas.flow.x;
+    var part = min(1.0, SETTLED_PER_STEP * gas.flow.x / max(abs(all.flow.x - gas.flow.x), 1e-30));
     for (var k = 0; k < 12; k++) {
-        let after = internal_energy(Gas(gas.flow + part * debt, gas.energy + part * owed_energy[slot] / cell_volume()));
-        if abs(after - before) <= SETTLED_PER_STEP * before { return part; }
+        let some = with_part(gas, slot, part);
+        let change = some.flow.yzw / some.flow.x - gas.flow.yzw / gas.flow.x;
+        if abs(internal_energy(some) - before) <= SETTLED_PER_STEP * before && dot(change, change) <= kick { return part; }
         part *= 0.5;
     }
     return 0.0;
@@ -118,9 +138,10 @@ fn outgoing(slot: u32, c: vec3i, kind: u32) -> Sum {
     var out: Sum;
     if kind == GAS {
         if all(owed_flow[slot] == vec4f(0.0)) && owed_energy[slot] == 0.0 { return out; }
-        out.count = f32(neighbours_of_kind(c, GAS));
-        if out.count == 0.0 { return out; }
-        let left = 1.0 - settled_part(slot, false);
+        let gas_neighbours = neighbours_of_kind(c, GAS);
+        if gas_neighbours == 0u { return out; }
+        out.count = f32(gas_neighbours);
+        let left = 1.0 - settled_part(slot, gas_neighbours);
         out.flow = left * owed_flow[slot] / out.count;
         out.energy = left * owed_energy[slot] / out.count;
     } else if kind == SOLID && neighbours_of_kind(c, GAS) == 0u {
@@ -153,7 +174,7 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     var flow = owed_flow[slot];
     var heat = owed_energy[slot];
     if kind == GAS && (any(flow != vec4f(0.0)) || heat != 0.0) {
-        let part = settled_part(slot, neighbours_of_kind(c, GAS) == 0u);
+        let part = settled_part(slot, neighbours_of_kind(c, GAS));
         conserved[slot] += part * flow / cell_volume();
         energy[slot] += part * heat / cell_volume();
         flow *= 1.0 - part;

@@ -18,25 +18,37 @@ pub(super) const CASES: &[Case] = &[Case {
     run: shells,
 }];
 
-/// A variant: its name, what differs from the scene, the energy it may lose, and how many iterations a step may take on average.
+/// A variant: its name, what differs from the scene, and the energy it may lose.
 struct Shell {
     name: &'static str,
     overrides: &'static [&'static str],
     energy: f64,
 }
 
-const SHELLS: [Shell; 5] = [
+const SHELLS: [Shell; 6] = [
     Shell { name: "base", overrides: &[], energy: 0.015 },
     Shell { name: "light", overrides: &["bodies[0].density=1.0"], energy: 0.04 },
     Shell { name: "stiff", overrides: &["materials.rubber.neo_hookean.young_modulus=1e4"], energy: 0.015 },
     Shell { name: "tearing", overrides: &["materials.rubber.neo_hookean.young_modulus=10.0"], energy: 0.04 },
-    Shell { name: "hot", overrides: &["gas.regions[0].density=10.0", "gas.regions[0].pressure=100.0"], energy: 0.06 },
+    Shell {
+        name: "hot",
+        overrides: &[
+            "gas.regions[0].density=10.0",
+            "gas.regions[0].pressure=100.0",
+            "bodies[0].particles_per_cell=4", // grown to 2.2 times its diameter it is still whole
+        ],
+        energy: 0.06,
+    },
+    Shell {
+        name: "hot torn",
+        overrides: &["gas.regions[0].density=10.0", "gas.regions[0].pressure=100.0"],
+        energy: 0.06,
+    },
 ];
 
-/// Why the hot shell loses energy.
-const TRANSFERS: &str =
-    "transfers between particles and grid and elastic sub-steps are suspected; the loss was not split up";
-/// Why the hot shell leaves the middle.
+/// Why the torn shell loses energy.
+const RECOIL: &str = "the ring tears where its particles are too far apart for the grid, and the loss comes with it; whole it loses 0.9 %";
+/// Why the torn shell leaves the middle.
 const TORN: &str = "the ring tears; that rounding decides which fragment goes first is a guess";
 
 const PATH: &str = "validation/exploding_shell.toml";
@@ -62,8 +74,8 @@ fn report(session: &mut Session<'_>, journey: &Journey, shell: &Shell) {
     books::report(session, journey, None);
     let row = session.check(&journey.run, "energy, drift, goal", journey.energy_drift());
     row.source("conservation law").pass(Limit::Between(-shell.energy, shell.energy));
-    if shell.name == "hot" {
-        row.known(Limit::Between(-0.16, 0.16), TRANSFERS);
+    if shell.name == "hot torn" {
+        row.known(Limit::Between(-0.16, 0.16), RECOIL);
     }
     let (_, body) = journey.path(0).swap_remove(TIMES.len());
     let run = &journey.run;
@@ -71,7 +83,7 @@ fn report(session: &mut Session<'_>, journey: &Journey, shell: &Shell) {
     row.source("default rules").pass(Limit::AtMost(12.0));
     let off = (body.centroid[0] - 0.5).hypot(body.centroid[1] - 0.5);
     let row = session.check(run, "centre of mass, off the middle", off).source("symmetry").pass(Limit::AtMost(1e-3));
-    if shell.name == "hot" {
+    if shell.name == "hot torn" {
         row.known(Limit::AtMost(2e-2), TORN);
     }
     session.check(run, "pieces", body.pieces.into()).source("method");

@@ -63,13 +63,24 @@ fn pocket(problem: &Problem, state: &State, bins: &Bins, c: [i32; 3]) -> [f64; 5
     super::Gas::conserved_from_primitive(density, velocity.to_array(), pressure, problem.gamma)
 }
 
-/// Part of its ledger that a gas cell may apply at once; none where even a small part would empty its internal energy.
-pub(crate) fn settled_part(u: [f64; 5], owed: [f64; 5], volume: f64) -> f64 {
+/// Part of its ledger that a gas cell applies at once. In the open the ledger may take half more than the cell holds, and 0.3 of the
+/// speed of sound per step; enclosed on two faces or more it must leave a quarter, and a tenth.
+pub(crate) fn settled_part(u: [f64; 5], owed: [f64; 5], volume: f64, open: bool, gamma: f64) -> f64 {
+    let with = |part: f64| [0, 1, 2, 3, 4].map(|k| u[k] + part * owed[k] / volume);
+    let (internal, all) = (internal_energy(u), with(1.0));
+    let (left, speed) = if open { (-0.5, 0.3) } else { (0.25, 0.1) };
+    if all[0] < left * u[0] || internal_energy(all) < left * internal {
+        return 0.0;
+    }
+    let sound = (gamma * (gamma - 1.0) * internal / u[0]).sqrt();
+    let velocity = |u: [f64; 5]| glam::dvec3(u[1], u[2], u[3]) / u[0];
+    let stands = |after: [f64; 5]| {
+        (internal_energy(after) - internal).abs() <= 0.1 * internal
+            && (velocity(after) - velocity(u)).length() <= speed * sound
+    };
     let mut part = f64::min(1.0, 0.1 * u[0] * volume / owed[0].abs());
-    let internal = internal_energy(u);
-    for _ in 0..=12 {
-        let applied = [0, 1, 2, 3, 4].map(|k| u[k] + part * owed[k] / volume);
-        if (internal_energy(applied) - internal).abs() <= 0.1 * internal {
+    for _ in 0..12 {
+        if stands(with(part)) {
             return part;
         }
         part *= 0.5;
@@ -93,7 +104,8 @@ pub(crate) fn settle(problem: &Problem, state: &mut State) {
         let mut targets = of_kind(GAS);
         if state.cells[slot] == GAS {
             let u = state.gas.get(slot);
-            let part = settled_part(u, rest, grid.volume());
+            let open = targets.len() + 1 >= 2 * grid.dimension;
+            let part = settled_part(u, rest, grid.volume(), open, problem.gamma);
             state.gas.set(slot, [0, 1, 2, 3, 4].map(|k| u[k] + part * rest[k] / grid.volume()));
             rest = rest.map(|owed| (1.0 - part) * owed);
         } else if targets.is_empty() {
