@@ -42,8 +42,10 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
         let kind = kind_of(cells[slot]);
         let u = Gas(conserved[slot], energy[slot]);
-        owed += owed_flow[slot];
-        heat.y += owed_energy[slot];
+        if kind == GAS || kind == SOLID {
+            owed += owed_flow[slot];
+            heat.y += owed_energy[slot];
+        }
         if kind == GAS {
             let share = volume * gas_share(slot);
             gas += share * u.flow;
@@ -55,8 +57,8 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
             owed += volume * u.flow;
             heat.y += volume * u.energy;
         } else {
-            crossed += volume * u.flow;
-            heat.z += volume * u.energy;
+            crossed += owed_flow[slot] + volume * u.flow;
+            heat.z += owed_energy[slot] + volume * u.energy;
         }
     }
     let at = thread_index(group, groups, 0u) / WORKGROUP;

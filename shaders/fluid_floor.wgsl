@@ -2,6 +2,7 @@
 // without energy, so a cell squeezed between faces may hold more kinetic than total energy. Its momentum is scaled until a tenth
 // of the internal energy before the pressure step is left, and the entropy of no gas that was there; the ledger takes the momentum.
 // Only if the total energy itself is below that floor is energy borrowed from the ledger. Every floored cell is counted.
+// What has crossed the boundary goes from the slot where it was collected to the ledger, where all of it is.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -22,11 +23,27 @@ const FLOOR_SHARE = 0.1;
 // Internal energy is a difference of two float32 numbers: below some hundred units in the last place it means nothing.
 const RESOLVED_SHARE = 2e-5;
 
+// Adds what a step brought to what crossed before, and leaves what float32 could not add: it comes with the next step. Thousands of
+// equal parts, as those of an inlet, would else be cut short by the same amount each.
+fn keep_crossed(slot: u32) {
+    let flow = owed_flow[slot];
+    let total = owed_energy[slot];
+    let volume = cell_volume();
+    owed_flow[slot] = flow + volume * conserved[slot];
+    owed_energy[slot] = total + volume * energy[slot];
+    conserved[slot] -= (owed_flow[slot] - flow) / volume;
+    energy[slot] -= (owed_energy[slot] - total) / volume;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
-    if slot >= params.slots || kind_of(cells[slot]) != GAS { return; }
+    if slot >= params.slots { return; }
+    let kind = kind_of(cells[slot]);
+    // Between two solves of a step the second still builds upon what the first collected.
+    if (kind == GHOST || kind == WALL) && !(ARS && control.stage == 0u) { keep_crossed(slot); }
+    if kind != GAS { return; }
     var flow = conserved[slot];
     let total = energy[slot];
     if is_broken(total) || is_broken(flow.x) || flow.x <= 0.0 {

@@ -50,8 +50,9 @@ impl Budget {
         for (slot, &word) in cells.iter().enumerate() {
             let inside = matches!((word & u32::from(kind::MASK)) as u8, kind::GAS | kind::SOLID);
             let mass = volume * f64::from(flow[slot][0]);
-            budget.gas_mass += f64::from(owed[slot][0]) + if inside { mass } else { 0.0 };
-            budget.gas_mass_with_crossed += f64::from(owed[slot][0]) + mass;
+            let mass = f64::from(owed[slot][0]) + mass;
+            budget.gas_mass += if inside { mass } else { 0.0 };
+            budget.gas_mass_with_crossed += mass;
             budget.energy += f64::from(owed_energy[slot]) + volume * f64::from(energy[slot]);
             for (axis, sum) in budget.momentum.iter_mut().enumerate() {
                 *sum += f64::from(owed[slot][axis + 1]) + volume * f64::from(flow[slot][axis + 1]);

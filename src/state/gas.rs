@@ -7,15 +7,15 @@ use crate::gpu::{Buffer, Gpu};
 /// Buffers of the gas, in padded slots.
 #[derive(Debug)]
 pub struct GasState {
-    /// Density and momentum now; in SOLID slots owed gas, in GHOST and WALL slots what has crossed the boundary.
+    /// Density and momentum now; in SOLID slots owed gas, in GHOST and WALL slots what crosses the boundary in a step.
     pub conserved: Buffer<[f32; 4]>,
     /// Total energy per volume: now, then two scratch parts (stages of advection; cell pressure of the predictor); the kept state.
     pub energy: Buffer<f32>,
     /// Two parts of scratch: stages of advection; forces of gas nodes and of solid nodes; integer sums of p2g; the kept state.
     pub work: Buffer<[f32; 4]>,
-    /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\].
+    /// Gas that GAS cells owe; in GHOST and WALL slots what has crossed the boundary: mass and momentum \[kg\], \[kg m s^-1\].
     pub owed_flow: Buffer<[f32; 4]>,
-    /// Energy that GAS cells owe \[J\].
+    /// Energy that GAS cells owe, or that has crossed \[J\].
     pub owed_energy: Buffer<f32>,
 }
 
