@@ -68,9 +68,10 @@ fn sweep(session: &mut Session<'_>, path: &str, errors: Option<&tube_errors::Err
     Ok(())
 }
 
-/// Peak and jumps at 400 cells; the peak where the gates speak of 1200 cells and there are more.
+/// Peak and jumps at 400 cells; the peak where the gates speak of 1200 cells and there are more. The peak is that of the reference:
+/// a lower one, at 0.66, is wider and so the higher of the two on coarse grids.
 fn blast(session: &mut Session<'_>, run: &Run, ours: &Profile, reference: &Profile) {
-    let (peak, place) = ours.peak(DENSITY);
+    let (peak, place) = ours.peak(DENSITY, [0.7, 0.85]);
     if ours.cells() > 1200 {
         session.check(run, "highest density", peak).reference(6.48, REFERENCE).pass(Limit::AtLeast(6.0));
     }
@@ -99,7 +100,7 @@ fn shu_osher(session: &mut Session<'_>, run: &Run, ours: &Profile, reference: &P
     let fourth = shares.get(3).copied().unwrap_or(f64::NAN);
     let row = session.check(run, "fourth best crest, share of its height", fourth);
     row.source(REFERENCE).pass(Limit::AtLeast(0.6)).good(Limit::AtLeast(0.85));
-    row.known(Limit::AtLeast(0.13), "twelve cells per wave are too few for this advection");
+    row.known(Limit::AtLeast(0.27), "twelve cells per wave are too few for this advection");
 }
 
 /// Crests of the density of the reference between 0.5 and 2.2, and what share of their height over the troughs beside them is ours.

@@ -115,12 +115,12 @@ impl Profile {
         inside.map(|k| (self.state[quantity][k] - value).abs()).fold(f64::NAN, f64::max)
     }
 
-    /// Largest value of a quantity and the centre of its cell.
+    /// Largest value among cells whose centre lies in an interval, and that centre.
     #[must_use]
-    pub fn peak(&self, quantity: usize) -> (f64, f64) {
-        let values = self.state[quantity].iter().enumerate();
-        let peak = values.max_by(|a, b| a.1.total_cmp(b.1));
-        peak.map_or((f64::NAN, f64::NAN), |(cell, value)| (*value, self.center(cell)))
+    pub fn peak(&self, quantity: usize, [low, high]: [f64; 2]) -> (f64, f64) {
+        let inside = (0..self.cells()).map(|k| (self.state[quantity][k], self.center(k)));
+        let inside = inside.filter(|(_, place)| (low..=high).contains(place));
+        inside.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NAN, f64::NAN))
     }
 
     /// Points (x, q) for a plot.

@@ -181,7 +181,7 @@ fn sedov(session: &mut Session<'_>) -> Result<()> {
             let setting = Setting { pair: sweep.pair, integrator: sweep.integrator, cells };
             let run = session.run("validation/sedov_planar.toml", setting, &[])?;
             let ours = Profile::of(&run.scene, &run.snapshot);
-            let (peak, _) = ours.peak(DENSITY);
+            let (peak, _) = ours.peak(DENSITY, [f64::NEG_INFINITY, f64::INFINITY]);
             // behind a strong shock 2 / (gamma + 1) of its speed squared, and the shock slows down like t^(-1/3)
             let speed = 2.0 * place / (3.0 * run.snapshot.time);
             let level = 0.5 * 2.0 / 2.4 * speed * speed;

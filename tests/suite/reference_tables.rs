@@ -19,9 +19,16 @@ const CASES: [Case; 6] = [
     ("raref", [1.0, -2.0, 0.4], [1.0, 2.0, 0.4], 0.15),
 ];
 
+/// A problem with the reconstruction of the tables.
+fn problem(grid: Grid, sides: [Side; 6]) -> Problem {
+    let mut problem = Problem::new(grid, sides);
+    problem.numerics.smooth = 1e-6;
+    problem
+}
+
 /// A tube of n cells on [0, 1] with open ends.
 fn tube(n: usize) -> Problem {
-    Problem::new(Grid::new(&[n as i32], [0.0; 3], 1.0 / n as f64), [Side::Outlet; 6])
+    problem(Grid::new(&[n as i32], [0.0; 3], 1.0 / n as f64), [Side::Outlet; 6])
 }
 
 fn two_states(problem: &Problem, left: Primitive, right: Primitive) -> State {
@@ -112,7 +119,7 @@ static RADIAL: OnceLock<Vec<f64>> = OnceLock::new();
 
 /// Circular explosion: L1 density against the radial solution, asymmetry, iterations.
 fn explosion(n: usize, pair: Pair, predictor: bool) -> (f64, f64, Vec<Report>) {
-    let mut problem = Problem::new(Grid::new(&[n as i32; 2], [-1.0, -1.0, 0.0], 2.0 / n as f64), [Side::Wall; 6]);
+    let mut problem = problem(Grid::new(&[n as i32; 2], [-1.0, -1.0, 0.0], 2.0 / n as f64), [Side::Wall; 6]);
     problem.numerics.pair = pair;
     problem.numerics.predictor = predictor;
     problem.numerics.tolerance = 1e-6;
@@ -177,7 +184,7 @@ impl Noise {
 
 /// Noise of 1e-3 on gas at rest, closed tube, 400 steps of dt = s dx/c: largest |u|/c.
 fn rest_noise(pair: Pair, s: f64, predictor: bool) -> f64 {
-    let mut problem = Problem::new(Grid::new(&[128], [0.0; 3], 1.0 / 128.0), [Side::Wall; 6]);
+    let mut problem = problem(Grid::new(&[128], [0.0; 3], 1.0 / 128.0), [Side::Wall; 6]);
     problem.numerics.pair = pair;
     problem.numerics.predictor = predictor;
     problem.numerics.tolerance = 1e-6;
@@ -213,7 +220,7 @@ fn rest_noise_decays() {
 fn sod_along(axis: usize, dimension: usize) -> Vec<f64> {
     let mut cells = [4; 3];
     cells[axis] = 50;
-    let mut problem = Problem::new(Grid::new(&cells[..dimension], [0.0; 3], 0.02), [Side::Wall; 6]);
+    let mut problem = problem(Grid::new(&cells[..dimension], [0.0; 3], 0.02), [Side::Wall; 6]);
     problem.numerics.tolerance = 1e-10;
     let low = |x: [f64; 3]| x[axis] < 0.5;
     let gas = |x: [f64; 3]| if low(x) { (1.0, [0.0; 3], 1.0) } else { (0.125, [0.0; 3], 0.1) };
@@ -249,7 +256,7 @@ fn forward_step() {
     let n = 40;
     let inflow = Side::Inlet { density: 1.4, velocity: [3.0, 0.0, 0.0], pressure: 1.0 };
     let sides = [inflow, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Wall];
-    let mut problem = Problem::new(Grid::new(&[3 * n, n], [0.0; 3], 1.0 / f64::from(n)), sides);
+    let mut problem = problem(Grid::new(&[3 * n, n], [0.0; 3], 1.0 / f64::from(n)), sides);
     problem.numerics.predictor = false;
     for c in problem.grid.interior() {
         let x = problem.grid.centre(c);

@@ -9,40 +9,40 @@ use super::{GAS, GHOST, Gas, Problem, SOLID, internal_energy};
 /// Fluxes of (rho, m, E) through the faces of each axis, stored at the low cell.
 pub(crate) type Fluxes = [Vec<[f64; 5]>; 3];
 
-/// Value at the face between b and c, from a, b, c upwind of it.
-pub(crate) fn reconstruct(a: f64, b: f64, c: f64) -> f64 {
+/// Value at the face between b and c, from a, b, c upwind of it. Squares of relative differences below `smooth` count as smooth.
+pub(crate) fn reconstruct(smooth: f64, a: f64, b: f64, c: f64) -> f64 {
     let scale = a.abs().max(b.abs()).max(c.abs());
     if scale == 0.0 {
         return 0.0;
     }
     let (a, b, c) = (a / scale, b / scale, c / scale);
-    let smooth = |difference: f64| (1e-6 + difference * difference).powi(2);
-    let (w0, w1) = (1.0 / 3.0 / smooth(b - a), 2.0 / 3.0 / smooth(c - b));
+    let rough = |difference: f64| (smooth + difference * difference).powi(2);
+    let (w0, w1) = (1.0 / 3.0 / rough(b - a), 2.0 / 3.0 / rough(c - b));
     scale * (w0 * (3.0 * b - a) + w1 * (b + c)) / (2.0 * (w0 + w1))
 }
 
 /// WENO flux and first-order flux between the second and third of four cells.
-pub(crate) fn split_flux(stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f64; 5]) {
+pub(crate) fn split_flux(smooth: f64, stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f64; 5]) {
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
     let alpha = speed.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
     let (mut weno, mut first) = ([0.0; 5], [0.0; 5]);
     for k in 0..5 {
         let plus = |i: usize| 0.5 * (speed[i] + alpha) * stencil[i][k];
         let minus = |i: usize| 0.5 * (speed[i] - alpha) * stencil[i][k];
-        weno[k] = reconstruct(plus(0), plus(1), plus(2)) + reconstruct(minus(3), minus(2), minus(1));
+        weno[k] = reconstruct(smooth, plus(0), plus(1), plus(2)) + reconstruct(smooth, minus(3), minus(2), minus(1));
         first[k] = plus(1) + minus(2);
     }
     (weno, first)
 }
 
 /// The same with one velocity of the face: a value from each side of the state itself.
-fn carried_flux(stencil: &[[f64; 5]; 4], carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
+fn carried_flux(smooth: f64, stencil: &[[f64; 5]; 4], carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
     let (mut weno, mut first) = ([0.0; 5], [0.0; 5]);
     let spread = carried.abs().max(alpha);
     let (up, down) = (0.5 * (carried + spread), 0.5 * (carried - spread));
     for k in 0..5 {
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| stencil[i][k]);
-        weno[k] = up * reconstruct(a, b, c) + down * reconstruct(d, c, b);
+        weno[k] = up * reconstruct(smooth, a, b, c) + down * reconstruct(smooth, d, c, b);
         first[k] = up * b + down * c;
     }
     (weno, first)
@@ -58,6 +58,7 @@ pub(crate) fn face_flux(
     low: [i32; 3],
 ) -> Option<([f64; 5], [f64; 5])> {
     let grid = &problem.grid;
+    let smooth = problem.numerics.smooth;
     let at = |by: i32| {
         let mut c = shift(low, axis, by);
         if !grid.periodic[axis] {
@@ -82,15 +83,15 @@ pub(crate) fn face_flux(
             (GAS, _) => speed(1),
             _ => speed(0),
         };
-        return Some(carried_flux(&[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], carried, alpha));
+        return Some(carried_flux(smooth, &[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], carried, alpha));
     }
     if readable(0) && readable(1) {
-        return Some(split_flux(&[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], axis));
+        return Some(split_flux(smooth, &[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], axis));
     }
     let (own, other) = if kind(0) == GAS { (0, 1) } else { (1, 0) };
     let value = gas.get(at(own));
     let stencil = if own == 0 { [pick(-1, 0), value, value, value] } else { [value, value, value, pick(2, 1)] };
-    let (weno, first) = split_flux(&stencil, axis);
+    let (weno, first) = split_flux(smooth, &stencil, axis);
     let blocked = if kind(other) == SOLID { interface.blocked[at(other)] } else { 1.0 };
     let velocity = if kind(other) == SOLID { interface.face_velocity[axis][at(0)] } else { 0.0 };
     let blend =

@@ -102,6 +102,8 @@ pub(crate) struct Numerics {
     pub(crate) shared_volume: bool,
     pub(crate) ledger: bool,
     pub(crate) limiter: bool,
+    /// Squares of relative differences that the reconstruction takes as smooth.
+    pub(crate) smooth: f64,
     pub(crate) blending: bool,
     pub(crate) elastic_cfl: f64,
     pub(crate) max_substeps: usize,
@@ -134,6 +136,7 @@ impl Default for Numerics {
             shared_volume: false,
             ledger: true,
             limiter: true,
+            smooth: 7e-4,
             blending: true,
             elastic_cfl: 0.4,
             max_substeps: 64,
