@@ -57,8 +57,8 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
             owed += volume * u.flow;
             heat.y += volume * u.energy;
         } else {
-            crossed += owed_flow[slot] + volume * u.flow;
-            heat.z += owed_energy[slot] + volume * u.energy;
+            crossed += volume * (owed_flow[slot] + u.flow);
+            heat.z += volume * (owed_energy[slot] + u.energy);
         }
     }
     let at = thread_index(group, groups, 0u) / WORKGROUP;

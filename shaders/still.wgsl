@@ -13,7 +13,6 @@
 
 // Slots that motion gets on until the solve: two per stage of the advection (the carrier of a face reaches one further than its
 // cells, and the limiter cuts fluxes there but makes none), and one in the carrier of the advected state.
-// What gets to the last two has gone through weights of 1e-12 and is lost in rounding: the tests fail with 2.
 const SPAN = 5;
 
 fn blocks() -> u32 {

@@ -49,13 +49,14 @@ impl Budget {
         let mut budget = Self { energy: stored, ..Self::default() };
         for (slot, &word) in cells.iter().enumerate() {
             let inside = matches!((word & u32::from(kind::MASK)) as u8, kind::GAS | kind::SOLID);
-            let mass = volume * f64::from(flow[slot][0]);
-            let mass = f64::from(owed[slot][0]) + mass;
+            // What has crossed the boundary is kept per volume, like the gas; debts are not.
+            let share = if inside { 1.0 } else { volume };
+            let mass = share * f64::from(owed[slot][0]) + volume * f64::from(flow[slot][0]);
             budget.gas_mass += if inside { mass } else { 0.0 };
             budget.gas_mass_with_crossed += mass;
-            budget.energy += f64::from(owed_energy[slot]) + volume * f64::from(energy[slot]);
+            budget.energy += share * f64::from(owed_energy[slot]) + volume * f64::from(energy[slot]);
             for (axis, sum) in budget.momentum.iter_mut().enumerate() {
-                *sum += f64::from(owed[slot][axis + 1]) + volume * f64::from(flow[slot][axis + 1]);
+                *sum += share * f64::from(owed[slot][axis + 1]) + volume * f64::from(flow[slot][axis + 1]);
             }
         }
         budget.add_solids(&simulation.snapshot()?, scene);

@@ -2,7 +2,7 @@
 // Two-point sub-stencils with linear weights 1/3 and 2/3 [Liu et al. 1994]; smoothness is measured relative to the largest
 // of the three values, so that neither the unit system nor float32's range changes the scheme.
 
-// Differences below its root, 2.6 % of a value, count as smooth: the share of a wave of some cells that survives [docs/validation.md].
+// Differences below its root, 2.6 % of a value, count as smooth: waves of some cells survive [docs/method.md].
 const WENO_EPSILON = 7e-4;
 
 fn weno3_vector(a: vec4f, b: vec4f, c: vec4f) -> vec4f {

@@ -13,9 +13,9 @@ pub struct GasState {
     pub energy: Buffer<f32>,
     /// Two parts of scratch: stages of advection; forces of gas nodes and of solid nodes; integer sums of p2g; the kept state.
     pub work: Buffer<[f32; 4]>,
-    /// Gas that GAS cells owe; in GHOST and WALL slots what has crossed the boundary: mass and momentum \[kg\], \[kg m s^-1\].
+    /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\]; in GHOST and WALL slots what has crossed the boundary, per cell volume.
     pub owed_flow: Buffer<[f32; 4]>,
-    /// Energy that GAS cells owe, or that has crossed \[J\].
+    /// Energy that GAS cells owe \[J\], or that has crossed, per cell volume.
     pub owed_energy: Buffer<f32>,
 }
 

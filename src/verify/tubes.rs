@@ -297,7 +297,7 @@ const HIGH_MACH: Tube = Tube {
     known_error: Some((
         Setting { pair: Pair::B2b1, integrator: Integrator::Paper, cells: 200 },
         0.93,
-        "0.1 % more: the reference takes smaller differences of a value as smooth",
+        "0.05 % too much; that the reference takes smaller differences as smooth is the likely cause",
     )),
     ..SOD
 };

@@ -2,6 +2,7 @@
 
 mod analytic;
 mod bench;
+mod books;
 mod boundaries;
 mod cli;
 mod common;

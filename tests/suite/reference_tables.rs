@@ -19,7 +19,7 @@ const CASES: [Case; 6] = [
     ("raref", [1.0, -2.0, 0.4], [1.0, 2.0, 0.4], 0.15),
 ];
 
-/// A problem with the reconstruction of the tables.
+/// A problem with the reconstruction of the tables, which takes differences of up to 0.1 % as smooth.
 fn problem(grid: Grid, sides: [Side; 6]) -> Problem {
     let mut problem = Problem::new(grid, sides);
     problem.numerics.smooth = 1e-6;

@@ -1,0 +1,42 @@
+//! What the books say was given to bodies, against mechanics.
+
+use brisance::diagnostics::StepRecord;
+use brisance::gpu::Gpu;
+use brisance::scene::Scene;
+use brisance::simulation::Simulation;
+
+use crate::common::gpu_or_skip;
+
+/// Next to no gas, and gravity.
+const HEAD: &str = "title = \"books\"\ngravity = [0.0, -1.0]\n[gas]\nambient = { density = 1e-3, pressure = 1e-3 }\n\
+    [materials.rigid]\nneo_hookean = { young_modulus = 200.0, poisson_ratio = 0.3, ghost_modulus = 0.1 }\n";
+
+/// The end, and the record of the last step.
+fn run(gpu: &Gpu, rest: &str, until: f64) -> (Simulation, StepRecord) {
+    let text = format!("{HEAD}{rest}[time]\nuntil = {until}\nmax_courant = 0.3\n");
+    let scene = Scene::parse(&text, "books.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(gpu, &scene).unwrap_or_else(|error| panic!("{error}"));
+    let records = simulation.advance_to(until).unwrap_or_else(|error| panic!("{error}"));
+    let last = records.last().expect("steps").clone();
+    (simulation, last)
+}
+
+/// A block falls, and lands: gravity and floor have given it all the momentum and energy that it has.
+#[test]
+fn what_gravity_and_floor_give_is_what_the_body_has() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = "[domain]\ndimension = 2\ncells = [16, 24]\nsize = [0.8, 1.2]\n\
+        [[bodies]]\nname = \"block\"\nmaterial = \"rigid\"\ndensity = 2.0\nshape = { box = { center = [0.4, 0.6], size = [0.3, 0.3] } }\n";
+    let mass = 2.0 * 0.09;
+    let (falling, _) = run(&gpu, scene, 0.5);
+    let given = falling.given();
+    eprintln!("falling: {given:?}");
+    assert!((given[1] / (-0.5 * mass) - 1.0).abs() < 0.01 && given[0].abs() < 1e-4 * mass, "momentum {given:?}");
+    assert!((given[3] / (0.125 * mass) - 1.0).abs() < 0.02, "energy {given:?}");
+    // It reaches the floor at t = 0.95.
+    let (landed, last) = run(&gpu, scene, 1.15);
+    let momentum = f64::from(last.solid.momentum[1]);
+    eprintln!("landed: {:?}, momentum {momentum}", landed.given());
+    assert!(momentum > -0.4 * mass, "the floor has stopped it: {momentum}");
+    assert!((landed.given()[1] - momentum).abs() < 0.01 * mass, "{:?} and {momentum}", landed.given());
+}
