@@ -9,6 +9,7 @@
 
 // A round that starts with more than this share of the imbalance of the one before (squared) is the last.
 const STILL = 0.5;
+const ANY = 3e38;
 
 // Before a round: a new one begins unless the iterations of the last one still run.
 @compute @workgroup_size(1)
@@ -20,25 +21,24 @@ fn control_round() {
     if !begins { return; }
     control.round_open = 1u;
     atomicStore(&control.newly_held, 0u);
+    if control.rounds == 0u { pcg.most = ANY; }
 }
 
 @compute @workgroup_size(1)
 fn control_iteration() {
     let runs = control.phase == PHASE_ELASTIC && pcg.outcome == PCG_RUNNING;
     open_phase(PHASE_ITERATION_EXTENTS, runs);
-    if runs && pcg.iterations == 0u {
-        control.imbalance_before = select(control.imbalance, 3e38, control.rounds == 0u);
-        control.imbalance = pcg.rho;
-    }
+    if runs && pcg.iterations == 0u { control.imbalance = pcg.size; }
 }
 
 // After the recorded iterations: takes the solution, or ends the stage.
 @compute @workgroup_size(1)
 fn control_balanced() {
     let ends = control.phase == PHASE_ELASTIC && control.round_open == 1u && pcg.outcome != PCG_RUNNING;
-    // Balance, or rounds no longer help: rounding sets the limit. The velocities stay those that the force belongs to.
-    let still = pcg.iterations == 0u || control.imbalance > STILL * control.imbalance_before;
-    let last = (still && atomicLoad(&control.newly_held) == 0u) || control.rounds + 1u >= MAX_ROUNDS;
+    // Balance, or rounds no longer help: rounding sets the limit. The force and the imbalance of the nodes are those of their velocities.
+    let held = atomicLoad(&control.newly_held) > 0u;
+    let last = (pcg.iterations == 0u && !held) || control.rounds + 1u >= MAX_ROUNDS;
+    pcg.most = select(STILL * control.imbalance, ANY, held);
     open_phase(PHASE_ROUND_EXTENTS, ends && !last);
     if !ends { return; }
     control.round_open = 0u;

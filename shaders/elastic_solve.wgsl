@@ -130,7 +130,8 @@ fn imbalance(slot: u32) -> vec3f {
     return node[slot].w * (elastic[slot].xyz - node[slot].xyz) + control.dt * work[params.slots + slot].xyz;
 }
 
-// Right-hand side. Components that a wall stops are no unknowns; what the tolerance refers to is left in `product`.
+// Right-hand side. Components that a wall stops are no unknowns: they have no diagonal, and what the wall bears stays in `residual`.
+// What the tolerance refers to is left in `product`.
 @compute @workgroup_size(WORKGROUP)
 fn elastic_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                     @builtin(local_invocation_index) lane: u32) {
@@ -148,7 +149,6 @@ fn elastic_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
             node[slot] = vec4f(select(here.xyz, vec3f(0.0), held), here.w);
             atomicAdd(&control.newly_held, 1u);
         }
-        r = select(r, vec3f(0.0), held);
         inverse_entry = select(inverse_entry, vec3f(0.0), held);
         let creep = CREEP * params.spacing / control.dt;
         scale = here.w * (abs(elastic[slot].xyz) + vec3f(creep)) + control.dt * abs(work[params.slots + slot].xyz);
@@ -166,9 +166,8 @@ fn elastic_finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
         if !is_free(slot) { continue; }
         let here = node[slot];
-        let r = imbalance(slot);
         let c = cell_of(slot);
-        let reaction = select(vec3f(0.0), r / here.w, inverse_diagonal[slot].xyz == vec3f(0.0));
+        let reaction = select(vec3f(0.0), residual[slot].xyz / here.w, inverse_diagonal[slot].xyz == vec3f(0.0));
         // Rubbing goes with what pushes against the wall; one that pulls lets go in the next step.
         let push = select(vec3f(0.0), reaction, held_at_wall(c, here.xyz + reaction));
         let v = velocity_at_wall(c, here.xyz + push);

@@ -13,7 +13,7 @@
 @group(0) @binding(4) var<storage, read> velocity: array<vec4f>;
 @group(0) @binding(5) var<storage, read> order: array<u32>;
 @group(0) @binding(6) var<storage, read> cell_start: array<u32>;
-@group(0) @binding(7) var<storage, read_write> fill: array<vec2f>; // solid volume [m^DIM], mean 1 / (lambda J) [Pa^-1]
+@group(0) @binding(7) var<storage, read_write> fill: array<vec2f>; // solid volume [m^DIM], mean 1 / (lambda J) [Pa^-1], below 0: of a given motion
 @group(0) @binding(8) var<storage, read_write> ghost: array<f32>;  // vertex mean of the particles' ghost pressure [Pa]
 
 // Ghost volume J^g = 1 - q / lambda is kept above this. [eq. 17]
@@ -32,17 +32,20 @@ fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let first = cell_start[slot];
     let end = cell_start[slot + 1u];
     var volume = 0.0;
-    var compliance = 0.0;
+    var compliance = vec2f(0.0);    // of what gives way, and of what has a given motion
     for (var i = first; i < end; i++) {
         let p = order[i];
         let lambda = materials[bitcast<u32>(affine[3u * p + 2u].w)].ghost_modulus;
         volume += volume_of(p);
         // A body with a given motion does not give way. A part that is held must: else its layer of vertices without compliance, on a
         // layer of nodes that is half free, has pressures that nothing bounds.
-        let soft = select(0.0, 1.0, strains(p));
-        compliance += soft / (lambda * max(1.0 - affine[3u * p].w / lambda, SMALLEST_GHOST_VOLUME));
+        let gives = strains(p);
+        let own = 1.0 / (lambda * max(1.0 - affine[3u * p].w / lambda, SMALLEST_GHOST_VOLUME));
+        compliance += select(vec2f(0.0, own), vec2f(own, 0.0), gives);
     }
-    fill[slot] = vec2f(volume, compliance / f32(max(end - first, 1u)));
+    // Below zero: that of a cell in which nothing gives way, for vertices that need it all the same [vertex_pressure].
+    let mean = select(-compliance.y, compliance.x, compliance.x > 0.0) / f32(max(end - first, 1u));
+    fill[slot] = vec2f(volume, mean);
 }
 
 // A march along the last axis over the four cells around each vertex: particles are read four times, not eight.

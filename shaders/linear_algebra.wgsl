@@ -23,6 +23,7 @@ struct Pcg {
     groups_partial: u32,    // groups of the kernels that leave partial sums
     groups_block: u32,      // groups, at most as many, of the kernels of the block with a preconditioner of its own
     size: f32,              // r . D^-1 r, and of the block r . z: what the tolerance looks at, levels or not
+    most: f32,              // a solve that begins with a larger size is not worth it: it ends with nothing done
     levels: u32,            // coarse levels in use
     level_groups: array<u32, PCG_LEVELS>,   // groups, at most as many, of the kernels of each level, the finest first; 0 without
 }
@@ -78,6 +79,10 @@ fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
     pcg.iterations = 0u;
     pcg.alpha = 0.0;
     decide();
+    if pcg.size > pcg.most {
+        pcg.outcome = PCG_CONVERGED;
+        open_iteration(false);
+    }
 }
 
 fn decide() {

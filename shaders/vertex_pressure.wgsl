@@ -59,6 +59,22 @@ fn cut_vertex(slot: u32) {
     stiffness[slot] = sum.z * cell_volume();
 }
 
+// Whether a node that is not driven looks at a vertex, from its 4^DIM block.
+fn meets_free_node(v: vec3i) -> bool {
+    let low = -2 * reach();
+    for (var z = low.z; z <= reach().z; z++) {
+        for (var y = low.y; y <= reach().y; y++) {
+            for (var x = low.x; x <= reach().x; x++) {
+                let c = v + vec3i(x, y, z);
+                if !in_ring(c) { continue; }
+                let word = cells[slot_of(c)];
+                if has(word, NODE_SOLID) && !has(word, NODE_DRIVEN) { return true; }
+            }
+        }
+    }
+    return false;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
@@ -75,6 +91,7 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     }
     var gas = vec3f(0.0);   // count, pressure sum, compliance sum
     var solid = 0.0;
+    var rigid = 0.0;        // compliance sum of cells with a given motion
     if has(word, VERTEX_GAS | VERTEX_SOLID) {
         let v = cell_of(slot);
         for (var k = 0u; k < corner_count(); k++) {
@@ -83,7 +100,10 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
             let at = slot_of(c);
             let kind = kind_of(cells[at]);
             if kind == GAS { gas += vec3f(1.0, energy[params.slots + at], fill[at].y); }
-            if kind == SOLID { solid += fill[at].y; }
+            if kind == SOLID {
+                solid += max(fill[at].y, 0.0);
+                rigid += max(-fill[at].y, 0.0);
+            }
         }
     }
     let part = cell_volume() / f32(corner_count());
@@ -103,6 +123,8 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         stiffness[params.slots + params.extra_capacity + at] = s_solid;
         return;
     }
+    // Inside a body with a given motion nothing gives way; a free node of a body that it touches would meet a pressure without bound.
+    if DRIVEN && s_gas + s_solid == 0.0 && rigid > 0.0 && meets_free_node(cell_of(slot)) { s_solid = rigid * part; }
     let s = s_gas + s_solid;
     pressure[slot] = select(q, (s_gas * gas_pressure + s_solid * q) / s, s > 0.0);
     stiffness[slot] = s;

@@ -193,6 +193,7 @@ impl Simulation {
             self.time_step.record_substep(pass);
             elastic_solve.record_finish(pass, &self.state);
             g2p.record(pass, &self.state);
+            elastic_solve.record_balance(pass, &self.state);
             return;
         }
         for substep in 0..self.recorded.substeps {

@@ -29,7 +29,6 @@ struct Control {
     elastic_iterations: u32,    // of all rounds, this step
     longest_round: u32,         // iterations of the longest one
     imbalance: f32,             // r . D^-1 r at the start of this round
-    imbalance_before: f32,      // and of the one before
 }
 
 // True for NaN and infinities; comparisons alone do not find a NaN on every driver.

@@ -15,6 +15,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "copy.wgsl",
     "detonate.wgsl",
     "diagnostics.wgsl",
+    "elastic_balance.wgsl",
     "elastic_control.wgsl",
     "elastic_operator.wgsl",
     "elastic_solve.wgsl",

@@ -94,6 +94,8 @@ pub struct PcgControl {
     pub groups_block: u32,
     /// r . D^-1 r, and r . z of [`Block`]: what the tolerance looks at.
     pub size: f32,
+    /// A solve that begins with a larger one is not worth it: it ends with nothing done.
+    pub most: f32,
     /// Coarse levels in use.
     pub levels: u32,
     /// Groups, at most as many as leave partial sums, of the kernels of each of [`Levels`], the finest first; 0 without.
@@ -195,6 +197,7 @@ impl Pcg {
             groups_high: high,
             groups_partial: groups,
             outcome: 1,
+            most: f32::MAX,
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);

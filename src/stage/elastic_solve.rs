@@ -29,6 +29,7 @@ pub struct ElasticSolve {
     operator: Bound,
     add: Bound,
     finish: Bound,
+    balance: [Bound; 3],
 }
 
 impl ElasticSolve {
@@ -52,12 +53,15 @@ impl ElasticSolve {
             ("product", product.raw()),
             ("inverse_diagonal", inverse_diagonal.raw()),
             ("change", own.change.raw()),
+            ("portions", own.portions.raw()),
+            ("missing", own.missing.raw()),
             ("pcg", pcg.control.raw()),
         ];
         let bind = |shader: &str, entry: &str| state.bind(gpu, shader, entry, &renamed, &[]);
         let solve = |entry: &str| bind("elastic_solve.wgsl", entry);
         let operator = |entry: &str| bind("elastic_operator.wgsl", entry);
         let control = |entry: &str| bind("elastic_control.wgsl", entry);
+        let balance = |entry: &str| bind("elastic_balance.wgsl", entry);
         Ok(Some(Self {
             round: [control("control_round")?, control("control_iteration")?, control("control_balanced")?],
             keep: solve("elastic_keep")?,
@@ -70,6 +74,7 @@ impl ElasticSolve {
             operator: operator("elastic_operator")?,
             add: operator("elastic_add")?,
             finish: solve("elastic_finish")?,
+            balance: [balance("elastic_missing")?, balance("elastic_missing_bodies")?, balance("elastic_give")?],
             pcg,
         }))
     }
@@ -98,9 +103,18 @@ impl ElasticSolve {
         pass.dispatch(&self.add, &extent(state, "ROUND", Entry::Slots));
     }
 
-    /// Walls and the books, once the velocities are found.
+    /// Walls and the books, once the velocities are found; and what is missing from the momentum of bodies.
     pub fn record_finish(&self, pass: &mut Pass, state: &State) {
         pass.stage("elastic_solve");
+        let [missing, bodies, _] = &self.balance;
         pass.dispatch(&self.finish, &extent(state, "SUBSTEP", Entry::Reduce));
+        pass.dispatch(missing, &extent(state, "SUBSTEP", Entry::Reduce));
+        pass.dispatch(bodies, &extent(state, "SUBSTEP", Entry::Single));
+    }
+
+    /// That momentum, to the particles once they have moved.
+    pub fn record_balance(&self, pass: &mut Pass, state: &State) {
+        pass.stage("elastic_solve");
+        pass.dispatch(&self.balance[2], &extent(state, "SUBSTEP", Entry::Particles));
     }
 }

@@ -62,6 +62,4 @@ pub struct Control {
     pub longest_round: u32,
     /// Norm of the imbalance at the start of this round, squared.
     pub imbalance: f32,
-    /// The same of the round before.
-    pub imbalance_before: f32,
 }

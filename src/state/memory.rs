@@ -89,6 +89,8 @@ impl MemoryPlan {
             plan.add("nodes", &["solution", "residual", "direction", "product"].map(|name| (name, length, 4)));
             plan.add("nodes", &[("inverse_diagonal", length, 4)]);
             plan.add("particles", &[("stress change", 2 * count, 16)]);
+            let (bodies, portions) = (scene.bodies.len() as u64, elastic_solve::PORTIONS as u64);
+            plan.add("fixed", &[("portions", portions * bodies, 8), ("missing", (portions + 1) * bodies, 16)]);
             plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", pcg::EXTENTS as u64, 4)]);
         }
         plan.add_levels(scene);

@@ -139,7 +139,7 @@ impl State {
             pressure: Buffer::new(gpu, "pressure", unknowns)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
             pcg: PcgVectors::new(gpu, unknowns)?,
-            elastic_solve: ElasticBuffers::new(gpu, scene, slots, start.len())?,
+            elastic_solve: ElasticBuffers::new(gpu, scene, slots, &start)?,
             partials: Buffer::new(gpu, "partials", (constants::BLOCKS * constants::PARTIALS) as usize)?,
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,

@@ -63,6 +63,15 @@ impl ParticleStart {
         start
     }
 
+    /// Particles of each body: they stay together.
+    pub(super) fn ranges(&self, bodies: usize) -> Vec<std::ops::Range<u32>> {
+        let of = |column: &[f32; 4]| column[3].to_bits() as usize;
+        let mut count = vec![0; bodies];
+        self.deformation.iter().step_by(3).for_each(|column| count[of(column)] += 1);
+        let start = |k: usize| count[..k].iter().sum::<u32>();
+        (0..bodies).map(|k| start(k)..start(k + 1)).collect()
+    }
+
     /// Number of particles.
     #[must_use]
     pub fn len(&self) -> usize {

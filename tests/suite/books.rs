@@ -40,3 +40,29 @@ fn what_gravity_and_floor_give_is_what_the_body_has() {
     assert!(momentum > -0.4 * mass, "the floor has stopped it: {momentum}");
     assert!((landed.given()[1] - momentum).abs() < 0.01 * mass, "{:?} and {momentum}", landed.given());
 }
+
+/// A block of metal that a driven wall presses flat. Where it flows the stress does work on the plastic strain, which the books call heat:
+/// sqrt(3/2) (Y a + H a^2 / 2) per volume at the equivalent plastic strain a, as the deviator has norm Y + H a. And the ghost pressure of the
+/// wall, which does not give way, stays bounded where the block's nodes reach into it (it grew threefold in each step).
+#[test]
+fn a_pressed_block_heats_as_it_flows() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let (strength, hardening) = (1.0, 5.0);
+    let scene = format!(
+        "[materials.metal]\nvon_mises = {{ young_modulus = 200.0, poisson_ratio = 0.3, yield_stress = {strength}, hardening = {hardening}, \
+         ghost_modulus = 0.1 }}\n[domain]\ndimension = 2\ncells = [32, 20]\nsize = [1.6, 1.0]\n\
+         [[bodies]]\nname = \"block\"\nmaterial = \"metal\"\ndensity = 1.0\nshape = {{ box = {{ center = [0.5, 0.25], size = [1.0, 0.5] }} }}\n\
+         [[bodies]]\nname = \"press\"\nmaterial = \"rigid\"\ndensity = 1.0\nshape = {{ box = {{ center = [1.1, 0.4], size = [0.2, 0.8] }} }}\n\
+         motion = {{ velocity = [-0.2, 0.0] }}\n"
+    );
+    let (pressed, last) = run(&gpu, &scene, 0.5);
+    let snapshot = pressed.snapshot().expect("a device");
+    let work = |strain: f64| 1.5_f64.sqrt() * (strength + 0.5 * hardening * strain) * strain;
+    let expected =
+        snapshot.particles.iter().map(|p| f64::from(p.volume0) * work(f64::from(p.plastic_strain))).sum::<f64>();
+    let (heat, ghost) = (last.plastic_heat, last.ghost_energy);
+    eprintln!("heat {heat} expected {expected}, ghost {ghost}");
+    assert!(expected > 0.05, "it flows: {expected}");
+    assert!((f64::from(heat) / expected - 1.0).abs() < 0.03, "{heat} and {expected}");
+    assert!(ghost < 0.1 * heat, "{ghost}");
+}

@@ -110,7 +110,6 @@ fn control() {
             elastic_iterations,
             longest_round,
             imbalance,
-            imbalance_before,
         ]
     );
 }
@@ -150,6 +149,7 @@ fn conjugate_gradients() {
             groups_partial,
             groups_block,
             size,
+            most,
             levels,
             level_groups,
         ]
