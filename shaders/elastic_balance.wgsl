@@ -3,7 +3,6 @@
 // Reads sorted particles, node, the imbalance of the last round. Writes particle velocity. On return every body has the momentum
 // that the pressure, walls and other bodies have given to it; its spin is that of the solve.
 #include "shared/index.wgsl"
-#include "shared/control.wgsl"
 #include "shared/place.wgsl"
 #include "shared/driven.wgsl"
 #include "shared/motion.wgsl"

@@ -34,7 +34,7 @@
 // Shear stiffness that plastic flow leaves at least, over that of the law: the system stays definite.
 const SOFTEST = 0.01;
 // Cells per step: a speed below this, times the tolerance, counts as rest.
-const CREEP = 0.1;
+const CREEP = 1e-3;
 
 fn grid_vector(slot: u32) -> vec3f { return node[slot].xyz; }
 

@@ -85,13 +85,7 @@ impl MemoryPlan {
         let elastic = if particles == 0 { 0 } else { scene.elastic_vectors() as u64 * slots };
         plan.add("nodes", &[("elastic", elastic, 16)]);
         if elastic_solve::wanted(scene, particles) {
-            let length = elastic_solve::WIDTH as u64 * slots;
-            plan.add("nodes", &["solution", "residual", "direction", "product"].map(|name| (name, length, 4)));
-            plan.add("nodes", &[("inverse_diagonal", length, 4)]);
-            plan.add("particles", &[("stress change", 2 * count, 16)]);
-            let (bodies, portions) = (scene.bodies.len() as u64, elastic_solve::PORTIONS as u64);
-            plan.add("fixed", &[("portions", portions * bodies, 8), ("missing", (portions + 1) * bodies, 16)]);
-            plan.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", pcg::EXTENTS as u64, 4)]);
+            plan.add_elastic_solve(slots, count, scene.bodies.len() as u64);
         }
         plan.add_levels(scene);
         let scan = Scan::planned_bytes(slots as u32 + 1);
@@ -119,6 +113,16 @@ impl MemoryPlan {
             self.add("pressure", &[("surface rows", entries, 4)]);
             self.add("fixed", &[("surface bound", 1, 4), ("turns", surface::TERMS.into(), 8)]);
         }
+    }
+
+    /// What the implicit elastic step needs.
+    fn add_elastic_solve(&mut self, slots: u64, particles: u64, bodies: u64) {
+        let (length, portions) = (elastic_solve::WIDTH as u64 * slots, elastic_solve::PORTIONS as u64);
+        self.add("nodes", &["solution", "residual", "direction", "product"].map(|name| (name, length, 4)));
+        self.add("nodes", &[("inverse_diagonal", length, 4)]);
+        self.add("particles", &[("stress change", 2 * particles, 16)]);
+        self.add("fixed", &[("portions", portions * bodies, 8), ("missing", (portions + 1) * bodies, 16)]);
+        self.add("fixed", &[("pcg", 1, size_of::<PcgControl>() as u64), ("pcg_extents", pcg::EXTENTS as u64, 4)]);
     }
 
     /// Coarse levels of the pressure solve.
