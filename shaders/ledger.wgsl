@@ -2,7 +2,9 @@
 // A SOLID slot of the gas state keeps the gas of the cell it covers plus all fluxes through its faces: owed gas, not pressurised.
 // `owed` is what a GAS cell still owes (negative: it was filled with more than it holds). Gas plus owed gas is conserved.
 // A GAS cell settles a debt that it can stand, so much per step that its state changes little, and passes the rest on to its gas
-// neighbours; a SOLID cell without gas neighbours passes all of it to its solid neighbours.
+// neighbours. A SOLID cell at the surface holds as much as it covered, and gives it off through its faces while the body goes on to the
+// next cell; what is beyond goes to its gas neighbours. A buried one passes all that it has back to the surface, if that is next to it,
+// or to all its neighbours: through the body gas would leak to its lee.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -18,6 +20,9 @@
 
 // Largest relative change of density and internal energy that a cell settles in one step.
 const SETTLED_PER_STEP = 0.1;
+
+// What a SOLID cell at the surface holds at most, in gas of the density beside it.
+const HELD_AT_SURFACE = 1.1;
 
 // Debts of either sign meet on their way, and what is left of their mass, momentum and energy need not belong together. `left` is the
 // share of density and internal energy that a cell must keep were all of its debt settled. It may be negative: the debt may exceed what
@@ -114,6 +119,31 @@ fn with_part(gas: Gas, slot: u32, part: f32) -> Gas {
     return Gas(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot]);
 }
 
+fn at_surface(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && neighbours_of_kind(cell_of(slot), GAS) > 0u; }
+
+// SOLID neighbours of a slot that have gas beside them.
+fn surface_neighbours(slot: u32) -> u32 {
+    let c = cell_of(slot);
+    var count = 0u;
+    for (var a = 0u; a < DIM; a++) {
+        if inside(c - axis(a)) { count += u32(at_surface(slot - step_of(a))); }
+        if inside(c + axis(a)) { count += u32(at_surface(slot + step_of(a))); }
+    }
+    return count;
+}
+
+// Density of the gas beside a slot.
+fn density_beside(slot: u32) -> f32 {
+    var sum = vec2f(0.0);
+    for (var a = 0u; a < DIM; a++) {
+        for (var side = 0u; side < 2u; side++) {
+            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
+            if kind_of(cells[other]) == GAS { sum += vec2f(1.0, conserved[other].x); }
+        }
+    }
+    return sum.y / max(sum.x, 1.0);
+}
+
 // Part of its debt that a gas cell with so many gas neighbours settles now.
 fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     let gas = Gas(conserved[slot], energy[slot]);
@@ -144,13 +174,28 @@ fn outgoing(slot: u32, c: vec3i, kind: u32) -> Sum {
         let left = 1.0 - settled_part(slot, gas_neighbours);
         out.flow = left * owed_flow[slot] / out.count;
         out.energy = left * owed_energy[slot] / out.count;
-    } else if kind == SOLID && neighbours_of_kind(c, GAS) == 0u {
-        out.count = f32(neighbours_of_kind(c, SOLID));
+    } else if kind == SOLID {
+        let flow = conserved[slot] * cell_volume() + owed_flow[slot];
+        let gas_neighbours = neighbours_of_kind(c, GAS);
+        let surface = surface_neighbours(slot);
+        out.count = f32(select(select(neighbours_of_kind(c, SOLID), surface, surface > 0u), gas_neighbours, gas_neighbours > 0u));
         if out.count == 0.0 { return out; }
-        out.flow = (conserved[slot] * cell_volume() + owed_flow[slot]) / out.count;
-        out.energy = (energy[slot] * cell_volume() + owed_energy[slot]) / out.count;
+        var part = 1.0;
+        if gas_neighbours > 0u {
+            part = max(1.0 - HELD_AT_SURFACE * density_beside(slot) * cell_volume() / max(abs(flow.x), 1e-30), 0.0);
+        }
+        out.flow = part * flow / out.count;
+        out.energy = part * (energy[slot] * cell_volume() + owed_energy[slot]) / out.count;
     }
     return out;
+}
+
+// Whether a slot gets a share of what a neighbour hands on.
+fn receives(slot: u32, kind: u32, other: u32) -> bool {
+    let kind_there = kind_of(cells[other]);
+    if kind == GAS { return kind_there == GAS || kind_there == SOLID; }
+    if kind_there != SOLID || at_surface(other) { return false; }
+    return at_surface(slot) || surface_neighbours(other) == 0u;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -185,11 +230,18 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         heat += energy[slot] * cell_volume();
     }
     let shared_out = any(work[slot] != vec4f(0.0)) || energy[params.slots + slot] != 0.0;
-    if shared_out { flow = vec4f(0.0); heat = 0.0; }
+    if shared_out && at_surface(slot) {
+        let count = f32(neighbours_of_kind(c, GAS));
+        flow -= count * work[slot];
+        heat -= count * energy[params.slots + slot];
+    } else if shared_out {
+        flow = vec4f(0.0);
+        heat = 0.0;
+    }
     for (var a = 0u; a < DIM; a++) {
         for (var side = 0u; side < 2u; side++) {
             let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
-            if kind_of(cells[other]) != kind { continue; }
+            if !receives(slot, kind, other) { continue; }
             flow += work[other];
             heat += energy[params.slots + other];
         }

@@ -122,7 +122,7 @@ fn report_piston(session: &mut Session<'_>, journey: &Journey, speed: f64, time:
         [(stop, face), (&journey.stops[0], 1.6)].map(|(stop, face)| gas_between(&run.scene, stop, [face, 4.0])[0]);
     let swept = AIR * speed * time;
     let row = session.check(run, "gas missing ahead, over that swept", (start - now) / swept);
-    row.reference(0.0, "nothing leaks").pass(Limit::Between(-1e-3, 1e-3)).known(Limit::AtMost(0.05), LEDGER);
+    row.reference(0.0, "nothing leaks").pass(Limit::Between(-1e-3, 1e-3)).known(Limit::Between(-5e-3, 5e-3), LEDGER);
     let drift = journey.books[1].drift_since(&journey.books[0])["gas_mass"];
     session
         .check(run, "gas mass of both sides and the ledger, drift", drift)
@@ -179,8 +179,7 @@ const MACH: f64 = 2.006_772_3;
 const WEDGE: &str = "NACA report 1135";
 
 /// What is known of the misses.
-const COVERED: &str =
-    "not understood: late return of the gas of covered cells is suspected, but the standing wedge misses, too";
+const STEPS: &str = "the flank is a stair of cells, and the flow close to detachment; the standing wedge misses, too";
 
 fn wedge(session: &mut Session<'_>) -> Result<()> {
     let Some(exact) = ObliqueShock::weak(AIR, MACH, 20_f64.to_radians()) else { return Ok(()) };
@@ -198,7 +197,7 @@ fn wedge(session: &mut Session<'_>) -> Result<()> {
     stood.label = format!("{} in a stream", stood.label);
     let pressures = [&flying, &stood].map(|run| report_wedge(session, run, &exact));
     let row = session.push("pressure at the flank, in flight over in a stream", pressures[0] / pressures[1]);
-    row.reference(1.0, "Galileo").within(0.02).known(Limit::AtLeast(0.65), COVERED);
+    row.reference(1.0, "Galileo").within(0.02).known(Limit::Between(0.97, 1.07), STEPS);
     Ok(())
 }
 
@@ -208,7 +207,7 @@ fn report_wedge(session: &mut Session<'_>, run: &Run, exact: &ObliqueShock) -> f
     let angle = fitted_line(&points)[0].atan().to_degrees();
     let goal = exact.angle.to_degrees();
     let row = session.check(run, "angle of the shock, degrees", angle).reference(goal, WEDGE);
-    row.pass(Limit::Between(goal - 1.5, goal + 1.5)).known(Limit::AtLeast(40.0), COVERED);
+    row.pass(Limit::Between(goal - 1.5, goal + 1.5)).known(Limit::AtLeast(48.0), STEPS);
     // the middle third of the flank, two to six cells off its steps
     let (domain, slope) = (&run.scene.domain, 20_f64.to_radians().tan());
     let columns = (0..domain.cells[0]).map(|column| domain.cell_center([column, 0, 0])[0]);
@@ -220,7 +219,7 @@ fn report_wedge(session: &mut Session<'_>, run: &Run, exact: &ObliqueShock) -> f
     });
     let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
     let row = session.check(run, "pressure at the middle of the flank", mean(&off));
-    row.reference(exact.pressure, WEDGE).within(0.03).known(Limit::AtLeast(1.8), COVERED);
+    row.reference(exact.pressure, WEDGE).within(0.03);
     session.check(run, "the same in the cells next to it", mean(&near)).reference(exact.pressure, WEDGE);
     mean(&off)
 }

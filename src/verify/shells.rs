@@ -47,7 +47,7 @@ const SHELLS: [Shell; 6] = [
 ];
 
 /// Why the torn shell loses energy.
-const RECOIL: &str = "the ring tears where its particles are too far apart for the grid, and the loss comes with it; whole it loses 0.9 %";
+const RECOIL: &str = "the ring tears with 14 % of the energy in its strain, and what snaps back dies in fragments of a few cells; whole it loses 0.9 %";
 /// Why the torn shell leaves the middle.
 const TORN: &str = "the ring tears; that rounding decides which fragment goes first is a guess";
 

@@ -88,72 +88,70 @@ scenes! {
     cantilever: "validation/cantilever.toml", "domain.cells=[40, 12]", "time.until=2.0";
     shocked_panel: "validation/shocked_panel.toml", "domain.cells=[300, 68]", "time.until=1e-6";
     blasted_ellipse: "paper/fig14_ordering.toml", "domain.cells=[32, 32]";
-    #[ignore = "17 s in software on a busy machine"]
     blasted_ellipse_coupling_first: "paper/fig14_ordering.toml", "variant=small", "variant=coupling_first";
-    #[ignore = "78 s in software on a busy machine"]
+    #[ignore = "17 s in software, two scenes at a time"]
     blasted_ellipse_elasticity_first: "paper/fig14_ordering.toml", "variant=small", "variant=coupling_last";
     supernova_2d: "paper/fig08_supernova_2d.toml", "domain.cells=[40, 16]";
-    #[ignore = "74 s in software on a busy machine"]
+    #[ignore = "68 s in software, two scenes at a time"]
     car_over_a_mine: "paper/fig01_car_landmine.toml", "variant=small";
-    #[ignore = "104 s in software"]
+    #[ignore = "83 s in software, two scenes at a time"]
     three_rabbits: "paper/fig02_tribunny.toml", "variant=small";
-    #[ignore = "50 s of processor time in software"]
+    #[ignore = "51 s in software, two scenes at a time"]
     strong_truck: "paper/fig04_trucks.toml", "variant=small", "variant=strong";
-    #[ignore = "52 s of processor time in software"]
+    #[ignore = "51 s in software, two scenes at a time"]
     weak_truck: "paper/fig04_trucks.toml", "variant=small", "variant=weak";
-    #[ignore = "168 s in software on a busy machine"]
+    #[ignore = "107 s in software, two scenes at a time"]
     elastic_pumpkin: "paper/fig06_pumpkin.toml", "variant=small", "variant=elastic";
-    #[ignore = "473 s in software on a busy machine"]
+    #[ignore = "270 s in software, two scenes at a time"]
     plastic_pumpkin: "paper/fig06_pumpkin.toml", "variant=small", "variant=plastic";
-    #[ignore = "255 s in software"]
+    #[ignore = "222 s in software, two scenes at a time"]
     supernova: "paper/fig08_supernova.toml", "variant=small";
-    #[ignore = "113 s in software"]
+    #[ignore = "107 s in software, two scenes at a time"]
     stiff_elastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=stiff_elastic";
-    #[ignore = "99 s in software on a busy machine"]
+    #[ignore = "116 s in software, two scenes at a time"]
     soft_elastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=soft_elastic";
-    #[ignore = "291 s of processor time in software"]
+    #[ignore = "246 s in software, two scenes at a time"]
     stiff_plastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=stiff_plastic";
-    #[ignore = "315 s of processor time in software"]
+    #[ignore = "292 s in software, two scenes at a time"]
     soft_plastic_cylinder: "paper/fig10_cylinder_flow.toml", "variant=small", "variant=soft_plastic";
-    #[ignore = "203 s in software"]
+    #[ignore = "188 s in software, two scenes at a time"]
     aeroplane_in_a_wind_tunnel: "paper/fig11_airplane.toml", "variant=small";
-    #[ignore = "124 s in software"]
+    #[ignore = "135 s in software, two scenes at a time"]
     cactus_forest: "paper/fig12_cactus_forest.toml", "variant=small";
-    #[ignore = "54 s in software"]
+    #[ignore = "43 s in software, two scenes at a time"]
     koalas_above_jets: "paper/fig19_koalas.toml", "variant=small";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml", "time.until=1.5";
     shell_at_rest: "paper/fig13_ghost_update.toml", "time.until=3.0";
     shell_at_rest_by_forces: "paper/fig13_ghost_update.toml", "variant=small", "variant=forces";
-    #[ignore = "17 s in software on a busy machine"]
+    #[ignore = "13 s in software, two scenes at a time"]
     shell_at_rest_by_gradients: "paper/fig13_ghost_update.toml", "variant=small", "variant=gradients";
-    #[ignore = "215 s in software on a busy machine"]
+    #[ignore = "23 s in software, two scenes at a time"]
     bursting_shell_2d: "paper/fig03_elastic_shell_2d.toml", "variant=small";
-    #[ignore = "235 s in software on a busy machine"]
+    #[ignore = "67 s in software, two scenes at a time"]
     heavy_bullet: "paper/fig05_bullets_2d.toml", "variant=small", "variant=heavy";
-    #[ignore = "229 s in software on a busy machine"]
+    #[ignore = "67 s in software, two scenes at a time"]
     light_bullet: "paper/fig05_bullets_2d.toml", "variant=small", "variant=light";
-    #[ignore = "233 s in software on a busy machine"]
+    #[ignore = "102 s in software, two scenes at a time"]
     light_bullet_with_silencer: "paper/fig05_bullets_2d.toml", "variant=small", "variant=light_silencer";
-    #[ignore = "57 s in software on a busy machine"]
+    #[ignore = "14 s in software, two scenes at a time"]
     forward_step_to_its_end: "paper/fig15_stair_flow.toml", "variant=small";
-    #[ignore = "31 s in software on a busy machine"]
     lifting_cylinder_to_its_end: "paper/fig17_lifting_cylinder.toml", "variant=small";
-    #[ignore = "76 s in software on a busy machine"]
+    #[ignore = "20 s in software, two scenes at a time"]
     mach_diamond_to_its_end: "paper/fig18_mach_diamond_2d.toml", "variant=small";
-    #[ignore = "182 s in software on a busy machine"]
+    #[ignore = "47 s in software, two scenes at a time"]
     glass_front: "demos/glass_front_2d.toml";
-    #[ignore = "173 s in software on a busy machine"]
+    #[ignore = "54 s in software, two scenes at a time"]
     sonic_boom: "demos/sonic_boom_2d.toml";
-    #[ignore = "154 s in software on a busy machine"]
+    #[ignore = "60 s in software, two scenes at a time"]
     shaped_cavity: "demos/shaped_cavity_2d.toml";
-    #[ignore = "112 s in software on a busy machine"]
+    #[ignore = "41 s in software, two scenes at a time"]
     bursting_diaphragm: "demos/bursting_diaphragm_2d.toml";
-    #[ignore = "277 s in software on a busy machine"]
+    #[ignore = "40 s in software, two scenes at a time"]
     meteor: "demos/meteor_3d.toml";
-    #[ignore = "237 s in software on a busy machine"]
+    #[ignore = "56 s in software, two scenes at a time"]
     playground: "demos/playground_2d.toml";
-    #[ignore = "minutes on a software device"]
+    #[ignore = "59 s in software, two scenes at a time"]
     bursting_shell_3d: "demos/bursting_shell_3d.toml";
     gelatine_3d: "demos/gelatine_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
     ball_in_blast_3d: "demos/ball_in_blast_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";

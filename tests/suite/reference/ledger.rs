@@ -88,20 +88,22 @@ pub(crate) fn settled_part(u: [f64; 5], owed: [f64; 5], volume: f64, open: bool,
     0.0
 }
 
-/// Gas cells apply a part of their ledger and hand the rest to gas neighbours; buried solid cells hand theirs on.
+/// Gas cells apply a part of their ledger and hand the rest to gas neighbours. Solid cells at the surface keep up to 1.1 times what gas of
+/// the density beside them would be, and hand the rest to it; buried ones hand all they have to the surface beside them, or to all sides.
 pub(crate) fn settle(problem: &Problem, state: &mut State) {
     let grid = &problem.grid;
     let mut next = vec![[0.0; 5]; grid.slots()];
+    let density: Vec<f64> = (0..grid.slots()).map(|slot| state.gas.get(slot)[0]).collect();
+    let near = |c: [i32; 3]| faces(grid).into_iter().map(move |o| add(c, o)).filter(|n| grid.contains(*n));
+    let cells = state.cells.clone();
+    let beside = |c: [i32; 3], kind: u32| near(c).filter(|n| cells[grid.slot(*n)] == kind).collect::<Vec<_>>();
     for c in grid.interior() {
         let slot = grid.slot(c);
         let mut rest = state.ledger[slot];
         if rest == [0.0; 5] {
             continue;
         }
-        let near: Vec<usize> =
-            faces(grid).into_iter().map(|o| add(c, o)).filter(|n| grid.contains(*n)).map(|n| grid.slot(n)).collect();
-        let of_kind = |kind: u32| near.iter().copied().filter(|n| state.cells[*n] == kind).collect::<Vec<usize>>();
-        let mut targets = of_kind(GAS);
+        let mut targets = beside(c, GAS);
         if state.cells[slot] == GAS {
             let u = state.gas.get(slot);
             let open = targets.len() + 1 >= 2 * grid.dimension;
@@ -109,16 +111,23 @@ pub(crate) fn settle(problem: &Problem, state: &mut State) {
             state.gas.set(slot, [0, 1, 2, 3, 4].map(|k| u[k] + part * rest[k] / grid.volume()));
             rest = rest.map(|owed| (1.0 - part) * owed);
         } else if targets.is_empty() {
-            targets = of_kind(SOLID);
+            targets = beside(c, SOLID);
+            let surface: Vec<_> = targets.iter().copied().filter(|n| !beside(*n, GAS).is_empty()).collect();
+            if !surface.is_empty() {
+                targets = surface;
+            }
         } else {
-            targets.clear();
+            let mean = targets.iter().map(|n| density[grid.slot(*n)]).sum::<f64>() / targets.len() as f64;
+            let part = (1.0 - 1.1 * mean * grid.volume() / rest[0].abs()).max(0.0);
+            (0..5).for_each(|k| next[slot][k] += (1.0 - part) * rest[k]);
+            rest = rest.map(|held| part * held);
         }
         if targets.is_empty() {
-            targets.push(slot);
+            targets.push(c);
         }
         let share = 1.0 / targets.len() as f64;
         for target in targets {
-            (0..5).for_each(|k| next[target][k] += share * rest[k]);
+            (0..5).for_each(|k| next[grid.slot(target)][k] += share * rest[k]);
         }
     }
     state.ledger = next;
