@@ -15,7 +15,7 @@ pub struct ElasticBuffers {
     pub vectors: PcgVectors,
     /// Change of the stress of each particle times its volume at rest \[J\], as in `stress`; w: Lame constants times that volume.
     pub change: Buffer<[f32; 4]>,
-    /// First particle and end of the [`PORTIONS`] portions of each body; empty for bodies with a held or driven part.
+    /// First particle and end of the portions of each body, as many for each; empty for bodies with a held or driven part.
     pub portions: Buffer<[u32; 2]>,
     /// Momentum that is missing and mass of each portion \[kg m/s, kg\], then for each body the velocity that makes up for it \[m/s\].
     pub missing: Buffer<[f32; 4]>,
