@@ -38,9 +38,9 @@ fn control_balanced() {
     // Balance, or rounds no longer help: rounding sets the limit. The force and the imbalance of the nodes are those of their velocities.
     let held = atomicLoad(&control.newly_held) > 0u;
     let last = (pcg.iterations == 0u && !held) || control.rounds + 1u >= MAX_ROUNDS;
-    pcg.most = select(STILL * control.imbalance, ANY, held);
     open_phase(PHASE_ROUND_EXTENTS, ends && !last);
     if !ends { return; }
+    pcg.most = select(STILL * control.imbalance, ANY, held);
     control.round_open = 0u;
     control.rounds += 1u;
     control.elastic_iterations += pcg.iterations;
