@@ -9,6 +9,7 @@ mod common;
 mod cut;
 mod determinism;
 mod export;
+mod far_field;
 mod frames;
 mod gallery;
 mod gpu;

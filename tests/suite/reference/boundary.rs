@@ -75,8 +75,13 @@ fn beyond(problem: &Problem, rule: Side, axis: usize, outward: f64, here: [f64; 
             let far = Gas::conserved_from_primitive(density, velocity, pressure, gamma);
             [0, 1, 2, 3, 4].map(|k| here[k] + attenuation * (far[k] - here[k]))
         }
-        Side::Far { density, velocity: v, pressure } if velocity < 0.0 => {
-            Gas::conserved_from_primitive(density, v, pressure, gamma)
+        Side::Far { density, velocity: mut v, pressure } if velocity < 0.0 => {
+            let p = (gamma - 1.0) * internal_energy(here);
+            if velocity <= -(gamma * p / here[0]).sqrt() {
+                return Gas::conserved_from_primitive(density, v, pressure, gamma);
+            }
+            v[axis] = here[1 + axis] / here[0];
+            Gas::conserved_from_primitive(density * (p / pressure).powf(1.0 / gamma), v, p, gamma)
         }
         _ => here,
     }
