@@ -25,15 +25,15 @@ fn inflow_speed(o: Opening, outward_velocity: f32) -> f32 {
     return clamp(-outward_velocity, 0.0, critical);
 }
 
-// What comes in from afar below the speed of sound brings its entropy and its velocity along the face, but passes the face as fast as the gas there.
-// With the far velocity across the face, what advection lets in would not be what the pressure system does.
+// What comes in from afar below the speed of sound brings its entropy and its velocity along the face, but passes the face as fast
+// as the gas there: with the far velocity, advection would not let in what the pressure system moves.
 fn gas_from_afar(o: Opening, n: u32, outward_velocity: f32, here: Gas) -> Gas {
     if outward_velocity >= 0.0 { return here; }
     let pressure = pressure_of(here);
     if outward_velocity <= -sound_speed(here.flow.x, pressure) { return Gas(o.flow, o.energy); }
     var u = velocity_of(o.flow);
     u[n] = here.flow[n + 1u] / here.flow.x;
-    return gas_from_primitive(o.flow.x * pow(max(pressure, 0.0) / o.pressure, 1.0 / params.gamma), u, pressure);
+    return gas_from_primitive(o.flow.x * pow(pressure / o.pressure, 1.0 / params.gamma), u, pressure);
 }
 
 // State beyond a face next to `here`, across axis n, outward = -1 or 1.

@@ -5,8 +5,8 @@ use brisance::simulation::Simulation;
 
 use crate::common::gpu_or_skip;
 
-/// A tube between two far fields: velocity 0.3 and pressure 1 on the left; on the right 0.1 and what that becomes when a wave slows it so far,
-/// p = (1 + 0.2 * 0.2 / c)^7 by the Riemann invariant, c = sqrt(1.4).
+/// A tube between two far fields: velocity 0.3 and pressure 1 on the left; on the right 0.1 and what the left one becomes when a wave
+/// slows it so far, p = (1 + 0.2 * 0.2 / c)^7 by the Riemann invariant, c = sqrt(1.4).
 fn slowed(face_velocity: &str) -> Scene {
     let state = "density = 1.18069, velocity = [0.1], pressure = 1.26178";
     let text = format!(
