@@ -56,29 +56,37 @@ fn open_carrier(c: vec3i) -> vec4f {
     return node[slot_of(nearest_inside(c))];
 }
 
+// The four cells across the face between `near` and its neighbour; where the outer ones hold no gas, the inner ones stand for them.
+fn stencil_at(near: vec3i, n: u32, up: bool, here: Gas, next: Gas, open: bool) -> Stencil {
+    let behind = select(near + axis(n), near - axis(n), up);
+    let beyond = select(near - 2 * axis(n), near + 2 * axis(n), up);
+    let has_first = is_open(cells[slot_of(behind)]);
+    let has_last = open && is_open(cells[slot_of(nearest_ring(beyond))]);
+    var first = here;
+    var last = next;
+    if has_first { first = open_gas(behind, n); }
+    if has_last { last = open_gas(beyond, n); }
+    var out = Stencil(chosen(first, last, up), chosen(here, next, up), chosen(next, here, up), chosen(last, first, up), 0.0);
+    if has_first && has_last { out.even = evenness(n, out.a, out.b, out.c, out.d); }
+    return out;
+}
+
 // Fluxes by the carrier through the face between `near` and `far`. Without bodies only open faces pass anything.
-fn carried_face(near: vec3i, far: vec3i, behind: vec3i, beyond: vec3i, n: u32, up: bool) -> Fluxes {
+fn carried_face(near: vec3i, far: vec3i, n: u32, up: bool) -> Fluxes {
     var out: Fluxes;
     let far_word = cells[slot_of(far)];
     if !is_open(far_word) { return out; }
-    let here = source(slot_of(near));
+    let stencil = stencil_at(near, n, up, source(slot_of(near)), open_gas(far, n), true);
     let own = node[slot_of(near)];
-    let next = open_gas(far, n);
     let other = open_carrier(far);
-    var last = next;
-    var first = here;
-    let alpha = select(carrier_spread(other[n], own[n]), carrier_spread(own[n], other[n]), up);
-    if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond, n); }
-    if is_open(cells[slot_of(behind)]) { first = open_gas(behind, n); }
+    let low = select(other, own, up);
+    let high = select(own, other, up);
     var carried = other[n];
     if kind_of(far_word) == GAS {
-        if near_obstacle(slot_of(near), slot_of(far)) {
-            carried = cut_velocity(min(near, far), n) - 0.25 * select(own.w - other.w, other.w - own.w, up);
-        } else if up { carried = carried_velocity(n, own, here.flow.x, other, next.flow.x); }
-        else { carried = carried_velocity(n, other, next.flow.x, own, here.flow.x); }
+        if near_obstacle(slot_of(near), slot_of(far)) { carried = cut_velocity(min(near, far), n) - 0.25 * (high.w - low.w); }
+        else { carried = carried_velocity(n, low, stencil.b.flow.x, high, stencil.c.flow.x); }
     }
-    if up { out = carried_fluxes(first, here, next, last, carried, alpha); }
-    else { out = carried_fluxes(last, next, here, first, carried, alpha); }
+    out = carried_fluxes(stencil, carried, carrier_spread(low[n], high[n]));
     out.heat *= f32(kind_of(far_word) == GAS);
     return out;
 }
@@ -86,23 +94,14 @@ fn carried_face(near: vec3i, far: vec3i, behind: vec3i, beyond: vec3i, n: u32, u
 // Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
 fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
     let far = select(near - axis(n), near + axis(n), up);
-    let behind = select(near + axis(n), near - axis(n), up);
-    let beyond = select(near - 2 * axis(n), near + 2 * axis(n), up);
-    if CONSISTENT { return carried_face(near, far, behind, beyond, n, up); }
+    if CONSISTENT { return carried_face(near, far, n, up); }
     let near_slot = slot_of(near);
     let here = source(near_slot);
     let far_word = cells[slot_of(far)];
     let open = is_open(far_word);
     var next = here;
-    var last = here;
-    if open {
-        next = open_gas(far, n);
-        last = next;
-        if is_open(cells[slot_of(nearest_ring(beyond))]) { last = open_gas(beyond, n); }
-    }
-    var first = here;
-    if is_open(cells[slot_of(behind)]) { first = open_gas(behind, n); }
-    var out = face_fluxes_of(n, chosen(first, last, up), chosen(here, next, up), chosen(next, here, up), chosen(last, first, up));
+    if open { next = open_gas(far, n); }
+    var out = face_fluxes_of(n, stencil_at(near, n, up, here, next, open));
     out.heat *= f32(kind_of(far_word) == GAS);
     if open { return out; }
     // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
@@ -173,12 +172,11 @@ fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool) {
 
 // Fluxes deep inside the gas, through the face above slot b.
 fn interior_fluxes(n: u32, b_slot: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxes {
-    if !CONSISTENT { return face_fluxes_of(n, a, b, c, d); }
-    let s = step_of(n);
+    let stencil = Stencil(a, b, c, d, evenness(n, a, b, c, d));
+    if !CONSISTENT { return face_fluxes_of(n, stencil); }
     let low = node[b_slot];
-    let high = node[b_slot + s];
-    let alpha = carrier_spread(low[n], high[n]);
-    return carried_fluxes(a, b, c, d, carried_velocity(n, low, b.flow.x, high, c.flow.x), alpha);
+    let high = node[b_slot + step_of(n)];
+    return carried_fluxes(stencil, carried_velocity(n, low, b.flow.x, high, c.flow.x), carrier_spread(low[n], high[n]));
 }
 
 // The same through both faces across one axis, far from walls, bodies and open sides, where nothing has to be asked.

@@ -16,43 +16,45 @@ fn unpacked(flux: vec4f, energy: f32) -> Gas {
     return Gas(flux, energy);
 }
 
-// The same with one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`,
-// at least upwind.
-fn carried_fluxes(a: Gas, b: Gas, c: Gas, d: Gas, carried: f32, alpha: f32) -> Fluxes {
+// Cells a, b, c, d along an axis, and which weights their values at the face have [shared/reconstruct.wgsl].
+struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, even: f32 }
+
+// With one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`, at least upwind.
+fn carried_fluxes(s: Stencil, carried: f32, alpha: f32) -> Fluxes {
     let spread = max(alpha, abs(carried));
     let up = 0.5 * (carried + spread);
     let down = 0.5 * (carried - spread);
     var out: Fluxes;
-    let flow = up * weno3_vector(packed(a), packed(b), packed(c)) + down * weno3_vector(packed(d), packed(c), packed(b));
+    let flow = weno3_from_both(s.even, up, down, packed(s.a), packed(s.b), packed(s.c), packed(s.d));
     var energy = 0.0;
-    if DIM == 3u { energy = up * weno3(a.energy, b.energy, c.energy) + down * weno3(d.energy, c.energy, b.energy); }
+    if DIM == 3u {
+        energy = weno3_from_both(s.even, up, down, vec4f(s.a.energy), vec4f(s.b.energy), vec4f(s.c.energy), vec4f(s.d.energy)).x;
+    }
     out.high = unpacked(flow, energy);
-    if ARS { out.heat = central_heat(b, c, carried); }
-    if LIMITER { out.low = Gas(up * b.flow + down * c.flow, up * b.energy + down * c.energy); }
+    if ARS { out.heat = central_heat(s.b, s.c, carried); }
+    if LIMITER { out.low = Gas(up * s.b.flow + down * s.c.flow, up * s.b.energy + down * s.c.energy); }
     return out;
 }
 
-fn face_fluxes_of(n: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxes {
-    let ua = a.flow[n + 1u] / a.flow.x;
-    let ub = b.flow[n + 1u] / b.flow.x;
-    let uc = c.flow[n + 1u] / c.flow.x;
-    let ud = d.flow[n + 1u] / d.flow.x;
-    let alpha = max(max(abs(ua), abs(ub)), max(abs(uc), abs(ud)));
-    let b_up = (ub + alpha) * packed(b);
-    let b_down = (ub - alpha) * packed(b);
-    let c_up = (uc + alpha) * packed(c);
-    let c_down = (uc - alpha) * packed(c);
-    let flow = weno3_vector((ua + alpha) * packed(a), b_up, c_up) + weno3_vector((ud - alpha) * packed(d), c_down, b_down);
+fn face_fluxes_of(n: u32, s: Stencil) -> Fluxes {
+    let speed = vec4f(s.a.flow[n + 1u] / s.a.flow.x, s.b.flow[n + 1u] / s.b.flow.x,
+        s.c.flow[n + 1u] / s.c.flow.x, s.d.flow[n + 1u] / s.d.flow.x);
+    let alpha = max(max(abs(speed.x), abs(speed.y)), max(abs(speed.z), abs(speed.w)));
+    let up = 0.5 * (speed + alpha);
+    let down = 0.5 * (speed - alpha);
     var out: Fluxes;
-    if ARS { out.heat = central_heat(b, c, (b.flow[n + 1u] + c.flow[n + 1u]) / (b.flow.x + c.flow.x)); }
-    if DIM < 3u {
-        out.high = unpacked(0.5 * flow, 0.0);
-        if LIMITER { out.low = unpacked(0.5 * (b_up + c_down), 0.0); }
-        return out;
+    let flow = weno3(s.even, up.x * packed(s.a), up.y * packed(s.b), up.z * packed(s.c), up.w * packed(s.d))
+        + weno3(s.even, down.w * packed(s.d), down.z * packed(s.c), down.y * packed(s.b), down.x * packed(s.a));
+    var energy = 0.0;
+    if DIM == 3u {
+        let e = vec4f(s.a.energy, s.b.energy, s.c.energy, s.d.energy);
+        let rising = up * e;
+        let falling = down * e;
+        energy = weno3(s.even, vec4f(rising.x), vec4f(rising.y), vec4f(rising.z), vec4f(rising.w)).x
+            + weno3(s.even, vec4f(falling.w), vec4f(falling.z), vec4f(falling.y), vec4f(falling.x)).x;
     }
-    let energy = weno3((ua + alpha) * a.energy, (ub + alpha) * b.energy, (uc + alpha) * c.energy)
-        + weno3((ud - alpha) * d.energy, (uc - alpha) * c.energy, (ub - alpha) * b.energy);
-    out.high = Gas(0.5 * flow, 0.5 * energy);
-    if LIMITER { out.low = Gas(0.5 * (b_up + c_down), 0.5 * ((ub + alpha) * b.energy + (uc - alpha) * c.energy)); }
+    out.high = unpacked(flow, energy);
+    if ARS { out.heat = central_heat(s.b, s.c, (s.b.flow[n + 1u] + s.c.flow[n + 1u]) / (s.b.flow.x + s.c.flow.x)); }
+    if LIMITER { out.low = Gas(up.y * s.b.flow + down.z * s.c.flow, up.y * s.b.energy + down.z * s.c.energy); }
     return out;
 }

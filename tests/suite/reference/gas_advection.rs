@@ -4,48 +4,67 @@ pub(crate) use super::boundary::fill_ghosts;
 use super::carrier::Carrier;
 use super::grid::shift;
 use super::interface::Interface;
-use super::{GAS, GHOST, Gas, Problem, SOLID, internal_energy};
+use super::{GAS, GHOST, Gas, Problem, SOLID, Weno, internal_energy};
 
 /// Fluxes of (rho, m, E) through the faces of each axis, stored at the low cell.
 pub(crate) type Fluxes = [Vec<[f64; 5]>; 3];
 
-/// Value at the face between b and c, from a, b, c upwind of it. Squares of relative differences below `smooth` count as smooth.
-pub(crate) fn reconstruct(smooth: f64, a: f64, b: f64, c: f64) -> f64 {
-    let scale = a.abs().max(b.abs()).max(c.abs());
+/// Speed that the gas may lose from cell to cell, over that of sound, up to where shocks are suspected.
+const STEEP: f64 = 0.1;
+
+/// Share of the weights for even gas at the face between the second and third of four cells.
+pub(crate) fn evenness(gamma: f64, stencil: &[[f64; 5]; 4], axis: usize) -> f64 {
+    let speed = stencil.map(|u| u[1 + axis] / u[0]);
+    let drop = speed.windows(2).fold(0.0, |most, pair| f64::max(most, pair[0] - pair[1]));
+    let heat = 0.5 * (internal_energy(stencil[1]) / stencil[1][0] + internal_energy(stencil[2]) / stencil[2][0]);
+    f64::max(0.0, 1.0 - (drop / STEEP).powi(2) / (gamma * (gamma - 1.0) * heat))
+}
+
+/// Value at the face between the second and third of four cells in a row, the first upwind, with the share `even` of the weights for
+/// even gas.
+pub(crate) fn reconstruct(weno: Weno, even: f64, values: [f64; 4]) -> f64 {
+    let scale = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     if scale == 0.0 {
         return 0.0;
     }
-    let (a, b, c) = (a / scale, b / scale, c / scale);
-    let rough = |difference: f64| (smooth + difference * difference).powi(2);
-    let (w0, w1) = (1.0 / 3.0 / rough(b - a), 2.0 / 3.0 / rough(c - b));
-    scale * (w0 * (3.0 * b - a) + w1 * (b + c)) / (2.0 * (w0 + w1))
+    let [a, b, c, d] = values.map(|value| value / scale);
+    let (outer, inner) = ((b - a).powi(2), (c - b).powi(2));
+    let tau = (a - 3.0 * b + 3.0 * c - d).powi(2);
+    let rough = |beta: f64| 1.0 / (weno.steep + beta).powi(2);
+    let share = |outer: f64, inner: f64| outer / (outer + 2.0 * inner);
+    let steep = share(rough(outer), rough(inner));
+    let weight = weno.even.map_or(steep, |smooth| {
+        let curved = |beta: f64| 1.0 + (tau / (beta + smooth)).powi(2);
+        steep + even * (share(curved(outer), curved(inner)) - steep)
+    });
+    scale * (weight * (1.5 * b - 0.5 * a) + (1.0 - weight) * 0.5 * (b + c))
 }
 
 /// WENO flux and first-order flux between the second and third of four cells.
-pub(crate) fn split_flux(smooth: f64, stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f64; 5]) {
+fn split_flux(weno: Weno, even: f64, stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f64; 5]) {
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
     let alpha = speed.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
-    let (mut weno, mut first) = ([0.0; 5], [0.0; 5]);
+    let (mut high, mut first) = ([0.0; 5], [0.0; 5]);
     for k in 0..5 {
-        let plus = |i: usize| 0.5 * (speed[i] + alpha) * stencil[i][k];
-        let minus = |i: usize| 0.5 * (speed[i] - alpha) * stencil[i][k];
-        weno[k] = reconstruct(smooth, plus(0), plus(1), plus(2)) + reconstruct(smooth, minus(3), minus(2), minus(1));
-        first[k] = plus(1) + minus(2);
+        let plus = [0, 1, 2, 3].map(|i| 0.5 * (speed[i] + alpha) * stencil[i][k]);
+        let minus = [3, 2, 1, 0].map(|i| 0.5 * (speed[i] - alpha) * stencil[i][k]);
+        high[k] = reconstruct(weno, even, plus) + reconstruct(weno, even, minus);
+        first[k] = plus[1] + minus[1];
     }
-    (weno, first)
+    (high, first)
 }
 
 /// The same with one velocity of the face: a value from each side of the state itself.
-fn carried_flux(smooth: f64, stencil: &[[f64; 5]; 4], carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
-    let (mut weno, mut first) = ([0.0; 5], [0.0; 5]);
+fn carried_flux(weno: Weno, even: f64, stencil: &[[f64; 5]; 4], carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
+    let (mut high, mut first) = ([0.0; 5], [0.0; 5]);
     let spread = carried.abs().max(alpha);
     let (up, down) = (0.5 * (carried + spread), 0.5 * (carried - spread));
     for k in 0..5 {
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| stencil[i][k]);
-        weno[k] = up * reconstruct(smooth, a, b, c) + down * reconstruct(smooth, d, c, b);
+        high[k] = up * reconstruct(weno, even, [a, b, c, d]) + down * reconstruct(weno, even, [d, c, b, a]);
         first[k] = up * b + down * c;
     }
-    (weno, first)
+    (high, first)
 }
 
 /// Both fluxes of one face, None where no gas touches it.
@@ -58,7 +77,7 @@ pub(crate) fn face_flux(
     low: [i32; 3],
 ) -> Option<([f64; 5], [f64; 5])> {
     let grid = &problem.grid;
-    let smooth = problem.numerics.smooth;
+    let weno = problem.numerics.weno;
     let at = |by: i32| {
         let mut c = shift(low, axis, by);
         if !grid.periodic[axis] {
@@ -72,6 +91,9 @@ pub(crate) fn face_flux(
         return None;
     }
     let pick = |by: i32, otherwise: i32| gas.get(at(if readable(by) { by } else { otherwise }));
+    let across = || [pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)];
+    // Next to anything but gas the outer cells of the stencil are copies.
+    let even = |stencil| if readable(-1) && readable(2) { evenness(problem.gamma, stencil, axis) } else { 0.0 };
     if let Some(carrier) = carrier {
         if !readable(0) || !readable(1) {
             return Some(([0.0; 5], [0.0; 5]));
@@ -83,20 +105,22 @@ pub(crate) fn face_flux(
             (GAS, _) => speed(1),
             _ => speed(0),
         };
-        return Some(carried_flux(smooth, &[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], carried, alpha));
+        let stencil = across();
+        return Some(carried_flux(weno, even(&stencil), &stencil, carried, alpha));
     }
     if readable(0) && readable(1) {
-        return Some(split_flux(smooth, &[pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)], axis));
+        let stencil = across();
+        return Some(split_flux(weno, even(&stencil), &stencil, axis));
     }
     let (own, other) = if kind(0) == GAS { (0, 1) } else { (1, 0) };
     let value = gas.get(at(own));
     let stencil = if own == 0 { [pick(-1, 0), value, value, value] } else { [value, value, value, pick(2, 1)] };
-    let (weno, first) = split_flux(smooth, &stencil, axis);
+    let (high, first) = split_flux(weno, 0.0, &stencil, axis);
     let blocked = if kind(other) == SOLID { interface.blocked[at(other)] } else { 1.0 };
     let velocity = if kind(other) == SOLID { interface.face_velocity[axis][at(0)] } else { 0.0 };
     let blend =
         |passable: [f64; 5]| [0, 1, 2, 3, 4].map(|k| blocked * velocity * value[k] + (1.0 - blocked) * passable[k]);
-    Some((blend(weno), blend(first)))
+    Some((blend(high), blend(first)))
 }
 
 /// All fluxes: WENO and first order.

@@ -77,6 +77,13 @@ pub(crate) enum Shared {
     Single,
 }
 
+/// Squares of relative differences that the reconstruction takes as smooth: where gas is compressed, and elsewhere; None: as there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weno {
+    pub(crate) steep: f64,
+    pub(crate) even: Option<f64>,
+}
+
 /// Choices of the method.
 #[derive(Clone, Debug)]
 pub(crate) struct Numerics {
@@ -102,8 +109,7 @@ pub(crate) struct Numerics {
     pub(crate) shared_volume: bool,
     pub(crate) ledger: bool,
     pub(crate) limiter: bool,
-    /// Squares of relative differences that the reconstruction takes as smooth.
-    pub(crate) smooth: f64,
+    pub(crate) weno: Weno,
     pub(crate) blending: bool,
     pub(crate) elastic_cfl: f64,
     pub(crate) max_substeps: usize,
@@ -136,7 +142,7 @@ impl Default for Numerics {
             shared_volume: false,
             ledger: true,
             limiter: true,
-            smooth: 7e-4,
+            weno: Weno { steep: 7e-4, even: Some(2e-4) },
             blending: true,
             elastic_cfl: 0.4,
             max_substeps: 64,
