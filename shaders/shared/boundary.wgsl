@@ -25,15 +25,29 @@ fn inflow_speed(o: Opening, outward_velocity: f32) -> f32 {
     return clamp(-outward_velocity, 0.0, critical);
 }
 
-// What comes in from afar below the speed of sound brings its entropy and its velocity along the face, but passes the face as fast
-// as the gas there: with the far velocity, advection would not let in what the pressure system moves.
-fn gas_from_afar(o: Opening, n: u32, outward_velocity: f32, here: Gas) -> Gas {
-    if outward_velocity >= 0.0 { return here; }
-    let pressure = pressure_of(here);
-    if outward_velocity <= -sound_speed(here.flow.x, pressure) { return Gas(o.flow, o.energy); }
-    var u = velocity_of(o.flow);
-    u[n] = here.flow[n + 1u] / here.flow.x;
-    return gas_from_primitive(o.flow.x * pow(pressure / o.pressure, 1.0 / params.gamma), u, pressure);
+// Least speed of sound behind a wave into the far gas, over that of the far gas.
+const LEAST_SOUND = 0.1;
+
+// Speed of sound over the far one where a simple wave that runs outward has brought the far gas to velocity u: u_in + 2 c / (gamma - 1)
+// stays. [Liepmann and Roshko 1957, section 3.9]
+fn sound_from_afar(o: Opening, n: u32, outward: f32, u: f32) -> f32 {
+    let gain = outward * (u - o.flow[n + 1u] / o.flow.x) / sound_speed(o.flow.x, o.pressure);
+    return max(1.0 + 0.5 * (params.gamma - 1.0) * gain, LEAST_SOUND);
+}
+
+fn pressure_from_afar(o: Opening, sound: f32) -> f32 { return o.pressure * pow(sound, 2.0 * params.gamma / (params.gamma - 1.0)); }
+
+// What comes in from afar below the speed of sound brings its entropy and its velocity along the face, passes the face as fast as the
+// gas there, and has the pressure that this takes. With the far velocity, advection would not let in what the pressure system
+// moves; with the pressure of the cell, cells along the side would take turns in pressure, which no vertex sees.
+fn gas_from_afar(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
+    let u = here.flow[n + 1u] / here.flow.x;
+    if outward * u >= 0.0 { return here; }
+    if outward * u <= -sound_speed(here.flow.x, pressure_of(here)) { return Gas(o.flow, o.energy); }
+    let sound = sound_from_afar(o, n, outward, u);
+    var velocity = velocity_of(o.flow);
+    velocity[n] = u;
+    return gas_from_primitive(o.flow.x * pow(sound, 2.0 / (params.gamma - 1.0)), velocity, pressure_from_afar(o, sound));
 }
 
 // State beyond a face next to `here`, across axis n, outward = -1 or 1.
@@ -52,7 +66,7 @@ fn gas_beyond(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
         case RULE_ATTENUATED: {
             return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share));
         }
-        case RULE_FAR: { return gas_from_afar(o, n, velocity, here); }
+        case RULE_FAR: { return gas_from_afar(o, n, outward, here); }
         default: { return here; }
     }
 }
@@ -91,7 +105,8 @@ fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32)
         }
         case RULE_FAR: {
             if mach >= 1.0 { return OpenFace(velocity, -1.0); }
-            return OpenFace(o.flow[n + 1u] / o.flow.x, select(o.pressure, -1.0, mach <= -1.0));
+            if mach <= -1.0 { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
+            return OpenFace(velocity, pressure_from_afar(o, sound_from_afar(o, n, outward, velocity)));
         }
         default: {
             if mach >= 1.0 { return OpenFace(velocity, -1.0); }
@@ -107,6 +122,11 @@ fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32)
 // 1 / Z of an open face, from density and predicted pressure of its cell.
 fn admittance_of(o: Opening, face: OpenFace, density: f32, predicted: f32) -> f32 {
     if face.reference < 0.0 { return 0.0; }
+    // That of the far gas behind the wave. Z of the cell would let out less where its pressure is too high.
+    if o.rule == RULE_FAR {
+        let ratio = pow(face.reference / o.pressure, 0.5 + 0.5 / params.gamma);
+        return 1.0 / (o.flow.x * sound_speed(o.flow.x, o.pressure) * ratio);
+    }
     let c = sound_speed(density, predicted);
     if o.rule == RULE_TOTAL { return 1.0 / (density * max(abs(face.velocity), LEAST_INFLOW * c)); }
     return 1.0 / (density * c);

@@ -31,6 +31,7 @@ mod fragments;
 pub mod gasdynamics;
 mod jet;
 pub mod muscl;
+mod panel;
 mod pistons;
 mod plane;
 mod plane_flows;
@@ -88,6 +89,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         pistons::CASES,
         drifting::CASES,
         driven::CASES,
+        panel::CASES,
         shells::CASES,
         cylinders::CASES,
         fragments::CASES,

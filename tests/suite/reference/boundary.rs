@@ -52,6 +52,12 @@ fn reservoir_speed(density: f64, pressure: f64, outward: f64, gamma: f64) -> f64
     (-outward).clamp(0.0, (2.0 / (gamma + 1.0) * gamma * pressure / density).sqrt())
 }
 
+/// Density and pressure of far gas behind a simple wave that runs outward and changes its outward velocity.
+fn from_afar(density: f64, pressure: f64, gain: f64, gamma: f64) -> (f64, f64) {
+    let sound = f64::max(1.0 + 0.5 * (gamma - 1.0) * gain / (gamma * pressure / density).sqrt(), 0.1);
+    (density * sound.powf(2.0 / (gamma - 1.0)), pressure * sound.powf(2.0 * gamma / (gamma - 1.0)))
+}
+
 fn beyond(problem: &Problem, rule: Side, axis: usize, outward: f64, here: [f64; 5]) -> [f64; 5] {
     let gamma = problem.gamma;
     let velocity = outward * here[1 + axis] / here[0];
@@ -76,12 +82,12 @@ fn beyond(problem: &Problem, rule: Side, axis: usize, outward: f64, here: [f64; 
             [0, 1, 2, 3, 4].map(|k| here[k] + attenuation * (far[k] - here[k]))
         }
         Side::Far { density, velocity: mut v, pressure } if velocity < 0.0 => {
-            let p = (gamma - 1.0) * internal_energy(here);
-            if velocity <= -(gamma * p / here[0]).sqrt() {
+            if velocity <= -(gamma * (gamma - 1.0) * internal_energy(here) / here[0]).sqrt() {
                 return Gas::conserved_from_primitive(density, v, pressure, gamma);
             }
-            v[axis] = here[1 + axis] / here[0];
-            Gas::conserved_from_primitive(density * (p / pressure).powf(1.0 / gamma), v, p, gamma)
+            let (rho, p) = from_afar(density, pressure, velocity - outward * v[axis], gamma);
+            v[axis] = outward * velocity;
+            Gas::conserved_from_primitive(rho, v, p, gamma)
         }
         _ => here,
     }
@@ -187,8 +193,9 @@ fn open_face(
         }
         Side::Far { velocity, .. } if mach <= -1.0 => prescribed(velocity[axis]),
         _ if mach >= 1.0 => prescribed(velocity),
-        Side::Far { velocity, pressure, .. } => {
-            OpenFace { velocity: velocity[axis], admittance: passing, reference: pressure }
+        Side::Far { density: far, velocity: u, pressure: p } => {
+            let (rho, reference) = from_afar(far, p, outward * (velocity - u[axis]), gamma);
+            OpenFace { velocity, admittance: 1.0 / (gamma * reference * rho).sqrt(), reference }
         }
         Side::Pressure { pressure: far, relaxation } => OpenFace {
             velocity: known[0] + outward * drift(relaxation) * (known[1] - far) / (density * sound),
