@@ -24,10 +24,6 @@ pub(super) const CASES: &[Case] = &[Case {
     run: step,
 }];
 
-/// Why the pressure at the face may be too high.
-const FACE: &str =
-    "the carrier `consistent` overshoots at the face; with `cell` it is 11.92 there with 40 cells per unit";
-
 fn step(session: &mut Session<'_>) -> Result<()> {
     let standard = |pair, cells| Setting { pair, integrator: Integrator::Predictor, cells };
     let settings = match session.suite {
@@ -51,18 +47,13 @@ fn report(session: &mut Session<'_>, run: &Run) {
     session.check(run, "bow shock at y = 0.1", first(0.1)).reference(0.3121, REFERENCE).pass(between(0.3121, 0.02));
     session.check(run, "bow shock at y = 0.5", first(0.5)).reference(0.4283, REFERENCE).pass(between(0.4283, 0.02));
     let stem = session.check(run, "Mach stem at the roof", first(1.0)).reference(0.5849, REFERENCE);
-    stem.pass(between(0.5849, 0.05))
-        .known(between(0.5849, 0.06), "the stem grows with the cells: MUSCL-HLLC has 0.598 with 80 per unit");
+    stem.pass(between(0.5849, 0.05));
     let surface = Profile::along(run, 0, 0.2 + 0.5 * spacing);
     let met = surface.steepest_rise(PRESSURE, [0.8, 2.0]);
     session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));
     let face = Profile::along(run, 1, 0.6 - 0.5 * spacing).extremes(PRESSURE, [0.0, 0.2])[1];
     let pitot = gasdynamics::pitot_pressure(run.scene.gas.gamma, 3.0);
-    session
-        .check(run, "highest pressure at the face", face)
-        .reference(pitot, "Rayleigh pitot")
-        .within(0.02)
-        .known(Limit::Between(pitot, 1.05 * pitot), FACE);
+    session.check(run, "highest pressure at the face", face).reference(pitot, "Rayleigh pitot").within(0.02);
 }
 
 /// Density along the middle of the tunnel.
