@@ -71,8 +71,8 @@ const TUBE: [Station; 8] = [
 /// Why the plate is early.
 const FOOT: &str = "a captured shock is some cells wide: its foot moves the plate by less than a tenth of a cell early";
 /// Why the rebound is slow.
-const CUSHION: &str = "the cushion of gas is 0.14 long, 7 and 14 cells; the error falls with the cells, and where in a step \
-the plate turns moves the velocity by 0.03";
+const CUSHION: &str = "the cushion of gas is 0.14 long, 7 and 14 cells; the error falls with the cells, and the velocity at 3.5 \
+scatters by 0.017 with the size of the steps";
 
 /// Cells of the runs of a suite.
 fn resolutions(session: &Session<'_>, quick: u32, full: &[u32]) -> Vec<u32> {
@@ -111,13 +111,14 @@ fn plate_in_tube(session: &mut Session<'_>) -> Result<()> {
         let start = path[0].1.centroid[0];
         for (station, (_, body)) in TUBE.iter().zip(&path[1..]) {
             let [time, place, velocity] = *station;
-            for (name, goal, ours) in
-                [("displacement", place, body.centroid[0] - start), ("velocity", velocity, body.velocity[0])]
-            {
+            for (name, goal, ours, known) in [
+                ("displacement", place, body.centroid[0] - start, 0.05),
+                ("velocity", velocity, body.velocity[0], 0.065),
+            ] {
                 let row = session.check(run, &format!("{name} at {time}"), ours).reference(goal, LAGRANGIAN);
                 row.pass(Limit::Between(goal - 0.02, goal + 0.02));
                 if time > 3.0 && cells < 620 {
-                    row.known(Limit::Between(goal - 0.065, goal + 0.065), CUSHION);
+                    row.known(Limit::Between(goal - known, goal + known), CUSHION);
                 }
             }
         }

@@ -1,5 +1,6 @@
-//! L1 density errors of the method in double precision, where differences of up to 0.1 % count as smooth (2.6 % on the device): what single
-//! precision on the device has to reach. Those that no table had come from `reference_tables::shock_tubes_with_predictor` in the test suite.
+//! L1 density errors of the method in double precision, which single precision on the device has to reach. They have the weights of
+//! Jiang and Shu everywhere, for which differences of up to 0.1 % count as smooth; the device: docs/method.md, step 5. Those that no
+//! table had come from `reference_tables::shock_tubes_with_predictor` in the test suite.
 
 use super::session::{Integrator, Setting};
 use crate::scene::Pair;

@@ -34,7 +34,8 @@ fn density_error(gpu: &Gpu, file: &str, overrides: &[&str]) -> f64 {
     snapshot.density.iter().enumerate().map(difference).sum::<f64>() / 400.0
 }
 
-/// Errors of the method in double precision [reference_tables::shock_tubes_of_the_device]: B1B0 without and with the predictor, B2B1 without and with, B1B0 with two solves.
+/// Errors of the method in double precision, as `reference_tables::shock_tubes_of_the_device` finds them: B1B0 without and with the
+/// predictor, B2B1 without and with, B1B0 with two solves.
 pub(crate) const TUBES: [(&str, [f64; 5]); 6] = [
     ("sod", [0.00465, 0.00302, 0.00467, 0.00323, 0.00126]),
     ("lax", [0.00693, 0.00617, 0.00689, 0.00622, 0.00510]),
