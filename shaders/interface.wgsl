@@ -16,9 +16,6 @@
 @group(0) @binding(7) var<storage, read_write> fill: array<vec2f>; // solid volume [m^DIM], mean 1 / (lambda J) [Pa^-1], below 0: of a given motion
 @group(0) @binding(8) var<storage, read_write> ghost: array<f32>;  // vertex mean of the particles' ghost pressure [Pa]
 
-// Ghost volume J^g = 1 - q / lambda is kept above this. [eq. 17]
-const SMALLEST_GHOST_VOLUME = 0.05;
-
 fn volume_of(p: u32) -> f32 {
     let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
     return velocity[p].w * determinant(f);
@@ -35,12 +32,11 @@ fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     var compliance = vec2f(0.0);    // of what gives way, and of what has a given motion
     for (var i = first; i < end; i++) {
         let p = order[i];
-        let lambda = materials[bitcast<u32>(affine[3u * p + 2u].w)].ghost_modulus;
         volume += volume_of(p);
         // A body with a given motion does not give way. A part that is held must: else its layer of vertices without compliance, on a
         // layer of nodes that is half free, has pressures that nothing bounds.
         let gives = strains(p);
-        let own = 1.0 / (lambda * max(1.0 - affine[3u * p].w / lambda, SMALLEST_GHOST_VOLUME));
+        let own = 1.0 / ghost_stiffness(materials[bitcast<u32>(affine[3u * p + 2u].w)], affine[3u * p].w);
         compliance += select(vec2f(0.0, own), vec2f(own, 0.0), gives);
     }
     // Below zero: that of a cell in which nothing gives way, for vertices that need it all the same [vertex_pressure].

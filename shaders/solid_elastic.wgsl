@@ -51,18 +51,22 @@ fn elastic_after(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots || !is_free(slot) { return; }
     let before = elastic[params.slots + slot];
-    elastic[slot] = vec4f((node[slot].xyz - before.xyz) / control.dt - elastic[slot].xyz, 0.0);
+    elastic[slot] = vec4f((node[slot].xyz - before.xyz) / control.dt - elastic[slot].xyz, before.w);
     node[slot] = before;
 }
 
-// Shared volume: the share of a sub-step.
+// More than this times the acceleration goes to no node whose mass moves on to others within a step.
+const MOST_SPREAD = 2.0;
+
+// Shared volume: the share of a sub-step. It is the impulse that is given evenly: as the body moves, nodes at its surface gain and lose
+// mass from sub-step to sub-step.
 @compute @workgroup_size(WORKGROUP)
 fn elastic_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots || !is_free(slot) { return; }
-    let time = control.dt / f32(control.substeps);
-    node[slot] = vec4f(node[slot].xyz + time * elastic[slot].xyz, node[slot].w);
+    let share = min(elastic[slot].w / node[slot].w, MOST_SPREAD) * control.dt / f32(control.substeps);
+    node[slot] = vec4f(node[slot].xyz + share * elastic[slot].xyz, node[slot].w);
 }
 
 // Coupling last: what is left of the only sub-step.

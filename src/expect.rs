@@ -73,10 +73,12 @@ impl Budget {
         for particle in &snapshot.particles {
             let mass = f64::from(particle.mass);
             let ghost = f64::from(particle.ghost_pressure);
-            let modulus = materials.get(particle.material as usize).map_or(f64::INFINITY, |m| m.ghost_modulus.into());
+            let start = scene.gas.ambient.pressure;
+            let stiffness =
+                materials.get(particle.material as usize).map_or(f64::INFINITY, |m| m.ghost_stiffness(start));
             self.solid_mass += mass;
             self.energy +=
-                f64::from(particle.kinetic_energy) + f64::from(particle.volume0) * 0.5 * ghost * ghost / modulus;
+                f64::from(particle.kinetic_energy) + f64::from(particle.volume0) * 0.5 * ghost * ghost / stiffness;
             for (sum, v) in self.momentum.iter_mut().zip(particle.velocity) {
                 *sum += mass * f64::from(v);
             }

@@ -17,6 +17,14 @@ fn elastic_part(m: MaterialParams, without_volume: bool) -> MaterialParams {
     return part;
 }
 
+// Ghost volume J^g = 1 - q / lambda is kept above this.
+const SMALLEST_GHOST_VOLUME = 0.05;
+
+// Stiffness lambda J^g against small changes of the volume at the ghost pressure q. [eq. 17]
+fn ghost_stiffness(m: MaterialParams, q: f32) -> f32 {
+    return m.ghost_modulus * max(1.0 - q / m.ghost_modulus, SMALLEST_GHOST_VOLUME);
+}
+
 // What plastic flow leaves of a deformation gradient.
 struct PlasticReturn {
     deformation: mat3x3f,  // the elastic part

@@ -179,6 +179,16 @@ pub struct MaterialParams {
     pub unused: u32,
 }
 
+impl MaterialParams {
+    /// Stiffness against small changes of the volume at a ghost pressure, lambda J^g `[Pa]`, which is lambda - q. At the pressure that bodies
+    /// start with it gives the energy of the ghost pressure, q^2 / 2 over it: what q does on the volume of the body. [eq. 17]
+    #[must_use]
+    pub fn ghost_stiffness(&self, ghost_pressure: f64) -> f64 {
+        let modulus = f64::from(self.ghost_modulus);
+        modulus * (1.0 - ghost_pressure / modulus).max(0.05)
+    }
+}
+
 impl Material {
     /// A material of the given kind; parameters that are left out take their default.
     ///

@@ -169,7 +169,7 @@ mod tests {
     fn what_is_left_open_follows_from_the_rest() {
         let plain = slab(&[]).unwrap();
         assert_eq!((plain.numerics.power, plain.numerics.ghost), (Power::Auto, Ghost::Absorbs));
-        assert!(plain.midpoint_power() && plain.max_substeps() == 64);
+        assert!(plain.midpoint_power() && plain.max_substeps() == 10_000);
         assert!(!slab(&["ghost=shared_volume"]).unwrap().midpoint_power());
         assert!(!slab(&["power=end"]).unwrap().midpoint_power());
         assert!(slab(&["power=midpoint"]).unwrap().midpoint_power());

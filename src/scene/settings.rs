@@ -89,7 +89,7 @@ pub struct Numerics {
     pub elasticity: Elasticity,
     /// Relative tolerance of the implicit elastic step, above 0 and below 1.
     pub elastic_tolerance: f64,
-    /// Elastic sub-steps per step at most; the step is shortened to fit. With `numerics.coupling = "last"` there is one.
+    /// Elastic sub-steps per step at most; a step that would need more is shortened to fit. With `numerics.coupling = "last"` there is one.
     pub max_substeps: u32,
     /// How particles give their momentum to the grid.
     pub transfer: Transfer,
@@ -119,7 +119,7 @@ impl Default for Numerics {
             elastic_cfl: 0.4,
             elasticity: Elasticity::default(),
             elastic_tolerance: 1e-4,
-            max_substeps: 64,
+            max_substeps: 10_000,
             transfer: Transfer::default(),
         }
     }

@@ -5,6 +5,9 @@ use crate::stage::MAX_ELASTIC_ITERATIONS;
 use crate::state::State;
 use crate::state::constants::MAX_ROUNDS;
 
+/// Elastic sub-steps that are recorded at a time.
+const MOST_SUBSTEPS: u32 = 64;
+
 /// What is recorded per step; a step that needs more goes on in the next recording.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Recorded {
@@ -27,7 +30,7 @@ impl Recorded {
         let most = |of: fn(&StepRecord) -> u32| newest.iter().map(of).fold(1, u32::max);
         let enough = |took: u32, now: u32| if unfinished { took.max(2 * now) } else { took };
         let iterations = enough(most(|record| record.iterations).div_ceil(solves) + 2, self.iterations);
-        let substeps = enough(most(|record| record.substeps), self.substeps).min(state.params.max_substeps.max(1));
+        let substeps = enough(most(|record| record.substeps), self.substeps).min(MOST_SUBSTEPS);
         let round_iterations = enough(most(|record| record.longest_round) + 2, self.round_iterations);
         Self {
             iterations: iterations.min(state.params.max_iterations + 1),

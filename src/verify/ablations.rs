@@ -5,6 +5,7 @@ use super::plot::{Plot, Style};
 use super::row::Limit;
 use super::session::{Run, Session, Setting, Suite};
 use crate::Result;
+use crate::scene::Pair;
 use crate::snapshot::kind;
 
 const GROUP: &str = "Ablations";
@@ -182,7 +183,22 @@ fn quiet_shell(session: &mut Session<'_>) -> Result<()> {
         let points = run.records.iter().map(|record| [record.time, f64::from(record.gas_speed).max(1e-9)]);
         plot = plot.with(name, Style::Line, points.collect());
     }
+    if session.suite == Suite::Full {
+        loaded_shell(session)?;
+    }
     session.plot(plot);
+    Ok(())
+}
+
+/// Where the law bears the pressure, local gradients must be unstable, as published, and the forces of the solve must not.
+fn loaded_shell(session: &mut Session<'_>) -> Result<()> {
+    for (form, limit) in [("forces", Limit::AtMost(1e-3)), ("gradients", Limit::AtLeast(0.03))] {
+        let mut all = numerics(&["ghost=shared_volume", &format!("solid_update={form}")]);
+        all.push("time.until=4.0".to_owned());
+        let run = session.run("paper/fig13_ghost_update.toml", Setting::standard(32), &all)?;
+        let name = format!("largest speed of the gas, shared_volume, {form}");
+        session.check(&run, &name, run.summary.max_speed).source("Cao et al. 2022, fig. 13").pass(limit);
+    }
     Ok(())
 }
 
@@ -213,6 +229,22 @@ fn blasted_ellipse(session: &mut Session<'_>) -> Result<()> {
         plot = plot.with(name, Style::Line, points.collect());
     }
     session.plot(plot);
+    if session.suite == Suite::Full {
+        energy_of_orders(session)?;
+    }
+    Ok(())
+}
+
+/// With the pair and the pressures of the paper elasticity first must make energy, and the other order may only lose it.
+fn energy_of_orders(session: &mut Session<'_>) -> Result<()> {
+    for (order, limit) in [("first", Limit::Between(-0.01, 5e-4)), ("last", Limit::AtLeast(4e-3))] {
+        let all = numerics(&["interface=h", &format!("coupling={order}")]);
+        let setting = Setting { pair: Pair::B2b1, ..Setting::standard(32) };
+        let run = session.run("paper/fig14_ordering.toml", setting, &all)?;
+        let row =
+            session.check(&run, &format!("change of the energy, interface=h coupling={order}"), energy_drift(&run));
+        row.source("Cao et al. 2022, fig. 14").pass(limit);
+    }
     Ok(())
 }
 

@@ -34,7 +34,47 @@ pub(super) const CASES: &[Case] = &[
         source: "Beam of S. P. Timoshenko (Philosophical Magazine 41 (1921) 744) in plane strain, shear coefficient 5/6.",
         run: cantilever,
     },
+    Case {
+        id: "sprung_piston",
+        title: "Piston on a spring closes a chamber",
+        group: super::plates::GROUP,
+        quick: false,
+        source: "Exact, linear: m w^2 = k + rho c w cot(w L / c). The spring is an elastic bar.",
+        run: sprung,
+    },
 ];
+
+/// Angular frequency of the piston on a spring.
+const SPRUNG: f64 = 1.025_441;
+
+fn sprung(session: &mut Session<'_>) -> Result<()> {
+    let period = 2.0 * std::f64::consts::PI / SPRUNG;
+    for cells in [220, 440] {
+        let path = "validation/sprung_piston.toml";
+        let journey = session.follow(path, Setting::standard(cells), &[], moments(3.0 * period, 48))?;
+        let run = &journey.run;
+        let times = turns(&run.records);
+        let count = times.len().saturating_sub(1) as f64;
+        let found =
+            std::f64::consts::PI * count / (times.last().unwrap_or(&f64::NAN) - times.first().unwrap_or(&f64::NAN));
+        let row = session.check(run, "angular frequency", found).reference(SPRUNG, "linear acoustics");
+        row.within(0.01);
+        session.check(run, "the same in a vacuum", 1.0).source("spring and mass");
+        let swing = |half: f64| {
+            let near = run.records.iter().filter(|r| ((r.time / period) - half).abs() < 0.3);
+            near.map(|r| f64::from(r.solid.momentum[0]).abs()).fold(0.0, f64::max)
+        };
+        let row = session.check(run, "amplitude after two periods over that after one", swing(2.0) / swing(1.0));
+        row.reference(1.0, "linear acoustics").within(0.05);
+        let row = session.check(run, "energy, drift", journey.energy_drift());
+        row.source("conservation law").pass(Limit::Between(-1e-3, 1e-3));
+        let plot = Plot::new("Piston on a spring: momentum", "time", "momentum");
+        let exact = run.records.iter().map(|r| [r.time, 0.2 * (SPRUNG * r.time).cos()]).collect();
+        let ours = run.records.iter().map(|r| [r.time, r.solid.momentum[0].into()]).collect();
+        session.plot(plot.with("linear", Style::Reference, exact).with(run.label.clone(), Style::Line, ours));
+    }
+    Ok(())
+}
 
 /// Who knows the exact vibration.
 const EXACT: &str = "wave equation";

@@ -36,6 +36,9 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
+/// Why the gas is not quite at rest.
+const RESIDUAL: &str = "what a step leaves is single precision and the tolerance of the solve, 1e-5; it does not grow";
+
 /// Largest speed over that of sound in the first and in the second half of a run, until the first end in the quick suite and the second in
 /// the full one, 1000 steps.
 fn rest(session: &mut Session<'_>, path: &str, ends: [f64; 2]) -> Result<()> {
@@ -49,7 +52,7 @@ fn rest(session: &mut Session<'_>, path: &str, ends: [f64; 2]) -> Result<()> {
     };
     let parts = [most(&journey.run.records[..half]), most(&journey.run.records[half..])];
     let row = session.check(&journey.run, "largest speed over that of sound", parts[0].max(parts[1]));
-    row.reference(0.0, "exact").pass(Limit::AtMost(1e-3)).good(Limit::AtMost(1e-6));
+    row.reference(0.0, "exact").pass(Limit::AtMost(1e-6)).known(Limit::AtMost(1e-3), RESIDUAL);
     // the quick suite is too short to tell noise from growth; the largest of some hundred noisy steps scatters by a half
     let full = session.suite == Suite::Full;
     let row = session.check(&journey.run, "second half of the steps over the first", parts[1] / parts[0]);
@@ -88,7 +91,8 @@ fn translation(session: &mut Session<'_>) -> Result<()> {
         let row = session.check(run, "pressure, largest change, mean of all steps", mean);
         row.reference(0.0, "exact").pass(Limit::AtMost(1e-2)).known(Limit::AtMost(0.1), COVERED);
         let most = change.iter().copied().fold(0.0, f32::max);
-        session.check(run, "pressure, largest change of all steps", most.into()).source("exact");
+        let row = session.check(run, "pressure, largest change of all steps", most.into());
+        row.reference(0.0, "exact").pass(Limit::AtMost(1e-2)).known(Limit::AtMost(0.25), COVERED);
         let (_, body) = journey.path(0).swap_remove(2);
         let off = (body.centroid[0] - 1.45).hypot(body.centroid[1] - 0.5) / run.scene.domain.spacing();
         session.check(run, "centre, cells off its place", off).source("exact").pass(Limit::AtMost(0.1));

@@ -165,8 +165,8 @@ pub struct Session<'a> {
     /// How much to run.
     pub suite: Suite,
     case: &'static str,
-    /// Runs of the case: label, lowest density, lowest pressure, share of the iteration bound.
-    health: Vec<(Solver, [f64; 3])>,
+    /// Runs of the case: solver, lowest density, lowest pressure, share of the iteration bound, drift of the gas mass.
+    health: Vec<(Solver, [f64; 4])>,
     findings: Findings,
 }
 
@@ -243,7 +243,7 @@ impl<'a> Session<'a> {
     /// Keeps what [`Session::report_health`] wants to know. The bound on the iterations is that of a gas without bodies.
     fn finish(&mut self, run: Run) -> Run {
         let load = if run.scene.bodies.is_empty() { run.solver_load } else { 0.0 };
-        self.health.push((run.solver, [run.summary.min_density, run.summary.min_pressure, load]));
+        self.health.push((run.solver, [run.summary.min_density, run.summary.min_pressure, load, run.mass_drift()]));
         run
     }
 
@@ -306,7 +306,7 @@ impl<'a> Session<'a> {
         Ok(profile)
     }
 
-    /// Rows that every case gets: nothing negative anywhere, and a solver that takes no longer than it must.
+    /// Rows that every case gets: nothing negative anywhere, no gas lost, and a solver that takes no longer than it must.
     fn report_health(&mut self) {
         if self.health.is_empty() {
             return;
@@ -317,7 +317,10 @@ impl<'a> Session<'a> {
         let hardest = bounded.max_by(|a, b| a.1[2].total_cmp(&b.1[2])).copied();
         self.push("lowest density of all runs", density).source("physics").pass(Limit::Above(0.0));
         self.push("lowest pressure of all runs", pressure).source("physics").pass(Limit::Above(0.0));
-        if let Some((solver, [_, _, load])) = hardest.filter(|(_, own)| own[2] > 0.0) {
+        let drift = self.health.iter().map(|(_, own)| own[3]).fold(0.0, f64::max);
+        let row = self.push("gas mass, largest drift of all runs", drift).source("conservation law");
+        row.pass(Limit::AtMost(1e-6)).known(Limit::AtMost(2e-6), "single precision, thousands of short steps");
+        if let Some((solver, [_, _, load, _])) = hardest.filter(|(_, own)| own[2] > 0.0) {
             let row = self.push("PCG iterations over bound, worst step", load);
             row.source("conjugate gradients, 1 + 4 d C^2").pass(Limit::AtMost(1.0)).solver = Some(solver);
         }
@@ -341,5 +344,17 @@ impl Run {
             bound: bound(courant),
         };
         Run { scene, snapshot, records, summary, label, solver, solver_load }
+    }
+
+    /// Largest change of the mass of the gas since the first step, owed gas and what has left included, over the mass or over what
+    /// has left, whichever is more.
+    fn mass_drift(&self) -> f64 {
+        let parts = |record: &StepRecord| [record.gas, record.owed, record.crossed].map(|part| f64::from(part.mass));
+        let Some(first) = self.records.first().map(parts) else { return 0.0 };
+        let drifts = self.records.iter().map(parts).map(|now| {
+            let change: f64 = now.iter().sum::<f64>() - first.iter().sum::<f64>();
+            change.abs() / first[0].max(now[2].abs())
+        });
+        drifts.fold(0.0, f64::max)
     }
 }

@@ -83,6 +83,7 @@ scenes! {
     driven_piston: "validation/driven_piston.toml", "domain.cells=[200]";
     compressed_chamber: "validation/compressed_chamber.toml", "domain.cells=[64]", "time.until=2.0", "expect.bodies=[]";
     flying_wedge: "validation/flying_wedge.toml", "domain.cells=[72, 14]", "time.until=0.5";
+    sprung_piston: "validation/sprung_piston.toml", "time.until=0.5";
     hanging_bar: "validation/hanging_bar.toml", "time.until=0.05";
     vibrating_bar: "validation/vibrating_bar.toml", "time.until=10.0";
     cantilever: "validation/cantilever.toml", "domain.cells=[40, 12]", "time.until=2.0";

@@ -127,18 +127,48 @@ fn a_sliding_block_slows_down_by_its_friction() {
     assert!(stuck.abs() < 0.2, "{stuck}");
 }
 
-/// The same on an obstacle, whose surface lets slip what moves along it.
+/// The same on an obstacle, in the plane and in space: its surface lets slip what moves along it, rubs, or holds it.
 #[test]
 fn a_block_slides_along_the_surface_of_an_obstacle() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let body = "density = 1.0\nvelocity = [1.0, 0.0]\nshape = { box = { center = [0.35, 0.2], size = [0.4, 0.2] } }\n\
-                [[obstacles]]\nname = \"table\"\nshape = { half_space = { point = [0.0, 0.1], normal = [0.0, 1.0] } }";
-    let domain = "dimension = 2\ncells = [60, 20]\nsize = [1.5, 0.5]";
-    let scene = scene(domain, THIN, body, "gravity = [0.0, -1.0]\n[time]\nuntil = 0.5\n");
-    let [_, after] = run(&gpu, &scene);
-    let speed = after.particles.iter().map(|p| f64::from(p.velocity[0])).sum::<f64>() / after.particles.len() as f64;
-    let height = after.particles.iter().map(|p| p.position[1]).fold(1.0, f32::min);
-    assert!((speed - 1.0).abs() < 2e-3 && height > 0.095, "{speed} {height}");
+    let slide = |space: bool, friction: &str| {
+        let flat = (
+            "2\ncells = [60, 20]\nsize = [1.5, 0.5]",
+            "[1.0, 0.0]",
+            "center = [0.35, 0.2], size = [0.4, 0.2]",
+            "[0.0, 0.1]",
+            "[0.0, 1.0]",
+            "[0.0, -1.0]",
+        );
+        let deep = (
+            "3\ncells = [48, 16, 16]\nsize = [1.5, 0.5, 0.5]",
+            "[1.0, 0.0, 0.0]",
+            "center = [0.35, 0.2, 0.25], size = [0.4, 0.2, 0.2]",
+            "[0.0, 0.09375, 0.0]",
+            "[0.0, 1.0, 0.0]",
+            "[0.0, -1.0, 0.0]",
+        );
+        let (domain, velocity, shape, point, normal, gravity) = if space { deep } else { flat };
+        let body = format!(
+            "density = 1.0\nvelocity = {velocity}\nfriction = {friction}\nshape = {{ box = {{ {shape} }} }}\n\
+             [[obstacles]]\nname = \"table\"\nshape = {{ half_space = {{ point = {point}, normal = {normal} }} }}"
+        );
+        let rest = format!("gravity = {gravity}\n[time]\nuntil = 0.5\n");
+        let [before, after] = run(&gpu, &scene(&format!("dimension = {domain}"), THIN, &body, &rest));
+        let height = after.particles.iter().map(|p| p.position[1]).fold(1.0, f32::min);
+        assert!(height > 0.088, "{height}");
+        let speed =
+            after.particles.iter().map(|p| f64::from(p.velocity[0])).sum::<f64>() / after.particles.len() as f64;
+        let pairs = before.particles.iter().zip(&after.particles).filter(|(start, _)| start.position[1] < 0.115);
+        let moved = pairs.map(|(start, end)| (end.position[0] - start.position[0]).abs()).fold(0.0, f32::max);
+        [speed, f64::from(moved)]
+    };
+    let [[slips, _], [rubs, far], [_, stuck]] = ["0.0", "0.4", "\"stick\""].map(|friction| slide(false, friction));
+    let [in_space, _] = slide(true, "0.4");
+    eprintln!("{slips} {rubs} {in_space}, the foot {far} {stuck}");
+    assert!((slips - 1.0).abs() < 2e-3, "{slips}");
+    assert!((rubs - 0.8).abs() < 0.03 && (in_space - 0.8).abs() < 0.03, "{rubs} {in_space}");
+    assert!(far > 0.4 && stuck < 0.025, "the foot moves by {far}, and by {stuck} where it sticks");
 }
 
 /// A soft column on the floor in a stream at Mach 3: its root is held, and takes pressures like those of the gas, not more and more.

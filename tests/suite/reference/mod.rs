@@ -145,7 +145,7 @@ impl Default for Numerics {
             weno: Weno { steep: 7e-4, even: Some(2e-4) },
             blending: true,
             elastic_cfl: 0.4,
-            max_substeps: 64,
+            max_substeps: 10_000,
             cfl: 0.5,
             max_courant: 2.0,
             max_growth: 2.0,
