@@ -6,7 +6,7 @@ mod recorded;
 
 use crate::diagnostics::StepRecord;
 use crate::error::Result;
-use crate::gpu::{Detail, Gpu, Pass, readback};
+use crate::gpu::{Detail, Gpu, Pass, Times, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
@@ -271,16 +271,11 @@ impl Simulation {
         self.after_batch(records)
     }
 
-    /// Runs one recording with a stopwatch: as [`Simulation::advance_batch`] with the milliseconds of each stage or kernel, none if the
-    /// device has no timestamps.
+    /// Runs one recording with a stopwatch: as [`Simulation::advance_batch`] with the milliseconds of each stage or kernel.
     ///
     /// # Errors
     /// As [`Simulation::advance_to`].
-    pub fn advance_timed(
-        &mut self,
-        records: &mut Vec<StepRecord>,
-        detail: Detail,
-    ) -> Result<(bool, Vec<(String, f64)>)> {
+    pub fn advance_timed(&mut self, records: &mut Vec<StepRecord>, detail: Detail) -> Result<(bool, Times)> {
         let mut pass = Pass::timed(&self.gpu, "steps", detail);
         self.record_step(&mut pass);
         self.totals.record(&mut pass, &self.state);

@@ -60,7 +60,7 @@ pub struct Gpu {
     pub info: wgpu::AdapterInfo,
     /// Limits of the device: those of the adapter, not the smaller defaults.
     pub limits: wgpu::Limits,
-    /// Whether [`super::Pass::timed`] can measure.
+    /// Whether passes can be timed on the device itself, see [`super::Pass::timed`].
     pub timestamps: bool,
     /// Where shaders come from.
     pub folder: Folder,

@@ -1,5 +1,7 @@
 //! Recording: one submission of dispatches, in stages that carry names and, on request, times.
 
+use std::time::Instant;
+
 use super::buffer::Buffer;
 use super::device::Gpu;
 use super::kernel::{Bound, Extent, group_counts};
@@ -27,13 +29,31 @@ pub enum Detail {
     Kernels,
 }
 
-/// Timestamps of a timed pass: two per span.
+/// Stopwatch of a timed pass.
 #[derive(Debug)]
 struct Clock {
-    queries: wgpu::QuerySet,
     detail: Detail,
-    /// Stage of each span, in order.
-    spans: Vec<String>,
+    watch: Watch,
+}
+
+/// How a stopwatch measures.
+#[derive(Debug)]
+enum Watch {
+    /// Two timestamps of the device per span; the stage of each span, in order.
+    Timestamps(wgpu::QuerySet, Vec<String>),
+    /// Each span is a submission of its own, with a wait for its end: its milliseconds, or what went wrong.
+    Waits(Result<Times>),
+}
+
+/// Stages and their milliseconds, in order of first appearance.
+pub type Times = Vec<(String, f64)>;
+
+/// Adds a time to that of its stage.
+fn add_time(times: &mut Times, stage: &str, time: f64) {
+    match times.iter_mut().find(|(known, _)| known == stage) {
+        Some((_, sum)) => *sum += time,
+        None => times.push((stage.to_owned(), time)),
+    }
 }
 
 impl Pass {
@@ -44,19 +64,21 @@ impl Pass {
         Pass { gpu: gpu.clone(), encoder, open: None, stage: label.to_owned(), in_group: false, clock: None }
     }
 
-    /// Starts recording with a stopwatch per stage or kernel; without one if the device has none ([`Gpu::timestamps`]).
+    /// Starts recording with a stopwatch per stage or kernel: timestamps of the device, or, where it has none ([`Gpu::timestamps`]), a
+    /// submission and a wait for each, which counts the launch, too.
     #[must_use]
     pub fn timed(gpu: &Gpu, label: &str, detail: Detail) -> Pass {
         let mut pass = Pass::new(gpu, label);
-        pass.clock = gpu.timestamps.then(|| Clock {
-            queries: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+        let queries = || {
+            gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some(label),
                 ty: wgpu::QueryType::Timestamp,
                 count: wgpu::QUERY_SET_MAX_QUERIES,
-            }),
-            spans: Vec::new(),
-            detail,
-        });
+            })
+        };
+        let watch =
+            if gpu.timestamps { Watch::Timestamps(queries(), Vec::new()) } else { Watch::Waits(Ok(Times::new())) };
+        pass.clock = Some(Clock { detail, watch });
         pass
     }
 
@@ -65,14 +87,33 @@ impl Pass {
         self.close_group();
         if self.clock.is_some() {
             self.open = None;
+            self.wait_for_span(None);
         }
         name.clone_into(&mut self.stage);
+    }
+
+    /// Submits what the present span has recorded and waits for it, if that is how it is timed.
+    fn wait_for_span(&mut self, kernel: Option<&str>) {
+        let Some(Clock { watch: Watch::Waits(times), .. }) = &mut self.clock else { return };
+        let label = wgpu::CommandEncoderDescriptor { label: Some(&self.stage) };
+        let encoder = std::mem::replace(&mut self.encoder, self.gpu.device.create_command_encoder(&label));
+        let start = Instant::now();
+        let submission = self.gpu.queue.submit([encoder.finish()]);
+        let outcome = self.gpu.wait(Some(submission));
+        let time = 1e3 * start.elapsed().as_secs_f64();
+        let name = kernel.map_or_else(|| self.stage.clone(), |kernel| format!("{}: {kernel}", self.stage));
+        match (times.as_mut(), outcome) {
+            (Ok(times), Ok(())) => add_time(times, &name, time),
+            (Ok(_), Err(error)) => *times = Err(error),
+            (Err(_), _) => {}
+        }
     }
 
     /// Records one dispatch. Extents of no threads record nothing.
     pub fn dispatch(&mut self, bound: &Bound, extent: &Extent<'_>) {
         let limit = self.gpu.limits.max_compute_workgroups_per_dimension;
-        if self.clock.as_ref().is_some_and(|clock| clock.detail == Detail::Kernels) {
+        let each = self.clock.as_ref().is_some_and(|clock| clock.detail == Detail::Kernels);
+        if each {
             self.close_group();
             self.open = None;
         }
@@ -88,6 +129,11 @@ impl Pass {
             }
             Extent::Groups([x, y, z]) => pass.dispatch_workgroups(*x, *y, *z),
             Extent::Indirect(buffer, offset) => pass.dispatch_workgroups_indirect(buffer.raw(), *offset),
+        }
+        if each {
+            self.close_group();
+            self.open = None;
+            self.wait_for_span(Some(&bound.name));
         }
     }
 
@@ -121,15 +167,19 @@ impl Pass {
     }
 
     /// Submits, waits, and returns the milliseconds of each stage in order of first appearance; equal names are added up.
-    /// Empty if the device has no timestamps.
     ///
     /// # Errors
     /// As [`Pass::submit`]; [`Error::Gpu`] if there were more stages than timestamps.
-    pub fn submit_timed(self) -> Result<Vec<(String, f64)>> {
+    pub fn submit_timed(mut self) -> Result<Times> {
+        self.stage("rest");
         let Pass { gpu, mut encoder, clock, .. } = self.finish();
-        let Some(Clock { queries, spans, .. }) = clock.filter(|clock| !clock.spans.is_empty()) else {
-            let submission = gpu.queue.submit([encoder.finish()]);
-            return gpu.wait(Some(submission)).map(|()| Vec::new());
+        let (queries, spans) = match clock.map(|clock| clock.watch) {
+            Some(Watch::Timestamps(queries, spans)) if !spans.is_empty() => (queries, spans),
+            Some(Watch::Waits(times)) => return times,
+            _ => {
+                let submission = gpu.queue.submit([encoder.finish()]);
+                return gpu.wait(Some(submission)).map(|()| Times::new());
+            }
         };
         if spans.len() > MAX_SPANS {
             return Err(Error::Gpu(format!("{} timed stages, at most {MAX_SPANS} in one submission", spans.len())));
@@ -146,13 +196,9 @@ impl Pass {
         gpu.queue.submit([encoder.finish()]);
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&readback::read_bytes(&gpu, &resolved, 0, size)?);
         let milliseconds_per_tick = f64::from(gpu.queue.get_timestamp_period()) * 1e-6;
-        let mut times: Vec<(String, f64)> = Vec::new();
-        for (name, ends) in spans.into_iter().zip(ticks.chunks_exact(2)) {
-            let time = ends[1].saturating_sub(ends[0]) as f64 * milliseconds_per_tick;
-            match times.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, sum)) => *sum += time,
-                None => times.push((name, time)),
-            }
+        let mut times = Times::new();
+        for (name, ends) in spans.iter().zip(ticks.chunks_exact(2)) {
+            add_time(&mut times, name, ends[1].saturating_sub(ends[0]) as f64 * milliseconds_per_tick);
         }
         Ok(times)
     }
@@ -192,15 +238,16 @@ impl Pass {
 const MAX_SPANS: usize = wgpu::QUERY_SET_MAX_QUERIES as usize / 2;
 
 impl Clock {
-    /// Opens a span; none once the queries are used up, which [`Pass::submit_timed`] reports.
+    /// Opens a span; no timestamps once the queries are used up, which [`Pass::submit_timed`] reports.
     fn span(&mut self, stage: &str, kernel: &str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
-        let first = 2 * self.spans.len() as u32;
-        self.spans.push(match self.detail {
+        let Watch::Timestamps(queries, spans) = &mut self.watch else { return None };
+        let first = 2 * spans.len() as u32;
+        spans.push(match self.detail {
             Detail::Stages => stage.to_owned(),
             Detail::Kernels => format!("{stage}: {kernel}"),
         });
-        (self.spans.len() <= MAX_SPANS).then(|| wgpu::ComputePassTimestampWrites {
-            query_set: &self.queries,
+        (spans.len() <= MAX_SPANS).then_some(wgpu::ComputePassTimestampWrites {
+            query_set: queries,
             beginning_of_pass_write_index: Some(first),
             end_of_pass_write_index: Some(first + 1),
         })

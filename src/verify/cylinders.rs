@@ -64,13 +64,14 @@ fn lifting(session: &mut Session<'_>) -> Result<()> {
     session.plot(plot);
     if let [coarse, middle, fine] = heights[..] {
         let rise = (middle - coarse).min(fine - middle);
-        session.push("y at 0.3, least rise from grid to grid", rise).source(CUT_CELLS).pass(Limit::AtLeast(0.0));
+        let row = session.push("y at 0.3, least rise from grid to grid", rise).source(CUT_CELLS);
+        row.pass(Limit::AtLeast(0.0)).known(Limit::AtLeast(-0.005), LOW);
     }
     Ok(())
 }
 
-/// Why the coarse cylinder rises a little less than the prototype's.
-const VOLUME: &str = "the particles have the volume of the disc, 0.6 % less than quarters of cells: x comes nearer to the solver's, y does not";
+/// Why the cylinder rises too little.
+const LOW: &str = "the push of the shock under the cylinder falls short, by 7 % at 0.05 on 400 cells, and that of its reflection by more";
 
 fn report_lift(session: &mut Session<'_>, journey: &Journey, [x, y]: [f64; 2], height: f64) {
     let [_, exact_x, exact_y] = PATH[PATH.len() - 1];
@@ -83,13 +84,10 @@ fn report_lift(session: &mut Session<'_>, journey: &Journey, [x, y]: [f64; 2], h
     }
     let row = session.check(run, "y at 0.3", y).reference(exact_y, CUT_CELLS);
     if fine {
-        row.pass(Limit::Between(exact_y - 0.01, exact_y + 0.01));
+        row.pass(Limit::Between(exact_y - 0.01, exact_y + 0.01)).known(Limit::Between(exact_y - 0.02, exact_y), LOW);
     }
     let row = session.check(run, "y at 0.3 against the prototype", y).reference(height, "prototype, double precision");
-    row.pass(Limit::AtLeast(height - 0.001));
-    if run.scene.domain.cells[0] <= 100 {
-        row.known(Limit::AtLeast(height - 0.003), VOLUME);
-    }
+    row.pass(Limit::AtLeast(height)).known(Limit::AtLeast(height - 0.005), LOW);
     let (_, body) = &journey.path(0)[PATH.len()];
     session.check(run, "velocity along x at 0.3", body.velocity[0]).reference(2.2672, CUT_CELLS);
     session.check(run, "velocity along y at 0.3", body.velocity[1]).reference(0.5937, CUT_CELLS);

@@ -1,6 +1,9 @@
 //! The bench: its yardstick, comparison with an earlier measurement, sizes, and what it refuses.
 
+use brisance::gpu::{Detail, Gpu};
 use brisance::numerics::copy_bandwidth;
+use brisance::scene::Scene;
+use brisance::simulation::Simulation;
 use serde_json::Value;
 
 use crate::cli::{fails, succeeds};
@@ -60,4 +63,29 @@ fn sizes_stand_one_below_the_other() {
     let cells: Vec<u64> = sizes.as_array().unwrap().iter().map(|m| m["cells"].as_u64().unwrap()).collect();
     assert_eq!(cells, [50, 100]);
     assert_eq!(bench(&["--sweep", "50,100"]).lines().count(), 5);
+}
+
+/// Without timestamps every stage is submitted alone and waited for; stages and kernels are those of the timestamps.
+#[test]
+fn a_device_without_timestamps_waits_for_each_stage() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut blind = gpu.clone();
+    blind.timestamps = false;
+    let names = |gpu: &Gpu, detail: Detail| {
+        let scene = Scene::shipped("coupled/piston.toml", &["domain.cells=[100]".to_owned()]).unwrap();
+        let mut simulation = Simulation::new(gpu, &scene).unwrap();
+        simulation.set_target(1e30).unwrap();
+        let mut records = Vec::new();
+        let (_, times) = simulation.advance_timed(&mut records, detail).unwrap();
+        assert!(times.iter().all(|(name, time)| time.is_finite() && (*time > 0.0 || gpu.timestamps)), "{times:?}");
+        assert_eq!(records.len(), 1);
+        let mut names: Vec<String> = times.into_iter().map(|(name, _)| name).collect();
+        names.sort();
+        names
+    };
+    for detail in [Detail::Stages, Detail::Kernels] {
+        let (stamped, waited) = (names(&gpu, detail), names(&blind, detail));
+        let missing: Vec<&String> = stamped.iter().filter(|name| !waited.contains(name)).collect();
+        assert!(stamped.len() > 5 && missing.is_empty(), "{missing:?} in {waited:?}");
+    }
 }

@@ -31,10 +31,6 @@ fn ratio(now: f64, before: Option<f64>) -> String {
 
 fn print_stages(m: &Measurement, before: Option<&Measurement>) {
     let width = m.stages.iter().map(|row| row.stage.len()).max().unwrap_or(0).max(24);
-    if m.stages.is_empty() {
-        say!("(this device has no timestamps: no table of stages)");
-        return;
-    }
     let compared = if before.is_some() { "     now/before" } else { "" };
     say!(
         "\n{:width$} {:>10} {:>8} {:>12} {:>8} {:>8}{compared}",
@@ -71,6 +67,7 @@ fn print_totals(m: &Measurement, before: Option<&Measurement>) {
     say!("{:24} {:>14.1}{}", "planned bytes per cell", m.bytes_per_cell_planned, of(|m| m.bytes_per_cell_planned));
     say!("{:24} {:>14.1}", "... per particle", m.bytes_per_particle_planned);
     say!("{:24} {:>14.1e}", "gas lost or gained", m.mass_drift);
+    say!("{:24} {:>14.1e}", "energy lost or gained", m.energy_drift);
 }
 
 /// One line per size: where the time per cell stops falling, launches no longer count.
