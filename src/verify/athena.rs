@@ -153,3 +153,23 @@ fn linear_wave(session: &mut Session<'_>) -> Result<()> {
     session.plot(plot);
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// The start of the scene is the simple wave but for terms of the third order in its amplitude.
+    #[test]
+    fn the_scene_starts_with_the_simple_wave() {
+        let scene = Scene::shipped("validation/linear_wave.toml", &[]).unwrap();
+        for x in [0.0, 0.2, 0.7] {
+            let (density, velocity, pressure) = sound_wave(x, 0.0);
+            let start = scene.gas_at([x, 0.0, 0.0]);
+            let off = [start.density - density, start.velocity[0] - velocity, start.pressure - pressure];
+            assert!(off.iter().all(|off| off.abs() < 0.25 * AMPLITUDES[0].powi(3)), "{x}: {off:?}");
+        }
+        // the crest runs faster than the trough
+        assert!((sound_wave(1.0 + 4.0 / 3.0 * AMPLITUDES[0], 1.0).1 - AMPLITUDES[0]).abs() < 1e-12);
+    }
+}
