@@ -189,6 +189,9 @@ impl Check<'_> {
             self.planar(format!("gas.vortices[{index}].center"), vortex.center);
         }
         self.findings.extend(super::vortex::findings(gas));
+        for (index, flow) in gas.radial_flows.iter().enumerate() {
+            self.planar(format!("gas.radial_flows[{index}].center"), flow.center);
+        }
     }
 
     fn names(&mut self) {

@@ -10,12 +10,13 @@ const SAMPLES: u32 = 4;
 impl Scene {
     /// Density, momentum and energy per volume of every cell, x fastest, without padding.
     ///
-    /// A cell that the surface of a region crosses, and every cell under waves or vortices, holds the mean over 4^dimension
+    /// A cell that the surface of a region crosses, and every cell under waves, vortices or radial flows, holds the mean over 4^dimension
     /// points; every other cell is exact.
     #[must_use]
     pub fn initial_gas(&self) -> Vec<[f64; 5]> {
         let gamma = self.gas.gamma;
-        if !self.gas.waves.is_empty() || !self.gas.vortices.is_empty() {
+        let gas = &self.gas;
+        if !(gas.waves.is_empty() && gas.vortices.is_empty() && gas.radial_flows.is_empty()) {
             return self.each_cell(|center| self.mean_over(center, |point| self.gas_at(point).conserved(gamma)));
         }
         let ambient = self.gas.ambient.conserved(gamma);
@@ -104,6 +105,9 @@ impl Scene {
         }
         for vortex in &self.gas.vortices {
             vortex.add(&mut state, self.gas.gamma, point);
+        }
+        for flow in &self.gas.radial_flows {
+            flow.add(&mut state, point);
         }
         state
     }

@@ -24,6 +24,7 @@ mod load;
 mod mesh;
 mod named;
 mod polyhedron;
+mod radial_flow;
 mod render;
 mod sample;
 mod settings;
@@ -62,6 +63,7 @@ pub use integrator::{FaceVelocity, Integrator};
 pub use mesh::Mesh;
 pub use named::Named;
 pub use polyhedron::Part;
+pub use radial_flow::RadialFlow;
 pub use render::{
     Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice, Surface,
     ToneMap,
@@ -168,6 +170,9 @@ pub struct Gas {
     /// Vortices on top of that.
     #[serde(default)]
     pub vortices: Vec<Vortex>,
+    /// Flows towards or away from a point on top of that.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub radial_flows: Vec<RadialFlow>,
 }
 
 fn default_gamma() -> f64 {
@@ -341,6 +346,7 @@ impl Scene {
             && self.obstacles.is_empty()
             && self.gas.waves.is_empty()
             && self.gas.vortices.is_empty()
+            && self.gas.radial_flows.is_empty()
             && self.gravity == [0.0; 3];
         let [region] = &self.gas.regions[..] else { return None };
         let inside = |x: f64| region.shape.distance([x, 0.0, 0.0]) < 0.0;

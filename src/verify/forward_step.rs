@@ -48,12 +48,24 @@ fn report(session: &mut Session<'_>, run: &Run) {
     session.check(run, "bow shock at y = 0.5", first(0.5)).reference(0.4283, REFERENCE).pass(between(0.4283, 0.02));
     let stem = session.check(run, "Mach stem at the roof", first(1.0)).reference(0.5849, REFERENCE);
     stem.pass(between(0.5849, 0.05));
+    let height = triple_point(run, first);
+    session.check(run, "height of the upper triple point", height).reference(0.7266, REFERENCE);
     let surface = Profile::along(run, 0, 0.2 + 0.5 * spacing);
     let met = surface.steepest_rise(PRESSURE, [0.8, 2.0]);
     session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));
     let face = Profile::along(run, 1, 0.6 - 0.5 * spacing).extremes(PRESSURE, [0.0, 0.2])[1];
     let pitot = gasdynamics::pitot_pressure(run.scene.gas.gamma, 3.0);
     session.check(run, "highest pressure at the face", face).reference(pitot, "Rayleigh pitot").within(0.02);
+}
+
+/// Height of the kink between bow shock and upper Mach stem: where the front between y = 0.6 and 0.95 is farthest from a straight line.
+fn triple_point(run: &Run, front: impl Fn(f64) -> f64) -> f64 {
+    let ends = [0.6, 0.95];
+    let slope = (front(ends[1]) - front(ends[0])) / (ends[1] - ends[0]);
+    let rows = (0..run.scene.domain.cells[1]).map(|row| run.scene.domain.cell_center([0, row, 0])[1]);
+    let distance = |y: f64| front(y) - front(ends[0]) - slope * (y - ends[0]);
+    let inside = rows.filter(|y| (ends[0]..ends[1]).contains(y));
+    inside.max_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(f64::NAN)
 }
 
 /// Density along the middle of the tunnel.

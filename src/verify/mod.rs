@@ -16,9 +16,11 @@
 //! ```
 
 mod ablations;
+mod athena;
 mod blast_2d;
 mod blasts;
 mod books;
+mod bow_shocks;
 mod buoyancy;
 mod clamped;
 mod cylinders;
@@ -30,6 +32,7 @@ mod forward_step;
 mod fragments;
 pub mod gasdynamics;
 mod jet;
+mod line_explosion;
 pub mod muscl;
 mod panel;
 mod pistons;
@@ -82,8 +85,9 @@ pub struct Case {
 
 /// All cases in the order of the report, those of a group together.
 pub fn cases() -> impl Iterator<Item = &'static Case> {
-    let lines = [tubes::CASES, blasts::CASES, waves::CASES];
-    let spaces = [blast_2d::CASES, explosions::CASES, forward_step::CASES, steady::CASES, jet::CASES];
+    let lines = [tubes::CASES, athena::CASES, blasts::CASES, waves::CASES];
+    let blasts = [blast_2d::CASES, line_explosion::CASES, explosions::CASES];
+    let streams = [forward_step::CASES, steady::CASES, bow_shocks::CASES, jet::CASES];
     let coupled = [
         plates::CASES,
         pistons::CASES,
@@ -94,7 +98,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         cylinders::CASES,
         fragments::CASES,
     ];
-    let gas = lines.into_iter().chain(spaces).chain([plane_flows::CASES, buoyancy::CASES]);
+    let gas = lines.into_iter().chain(blasts).chain(streams).chain([plane_flows::CASES, buoyancy::CASES]);
     let by_file = gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten();
     let mut cases: Vec<&Case> = by_file.collect();
     let by_file = cases.clone();

@@ -1,4 +1,4 @@
-//! Steady supersonic streams with closed formulas: wedge, corners, reflection, blunt body.
+//! Steady supersonic streams with closed formulas: wedge, corners, reflection.
 
 use super::Case;
 use super::gasdynamics::{self, ObliqueShock, prandtl_meyer};
@@ -9,11 +9,12 @@ use super::row::Limit;
 use super::session::{Run, Session, Setting, Suite};
 use crate::Result;
 
-const GROUP: &str = "Supersonic flow in 2D";
+/// Heading of steady flow in the plane.
+pub(super) const GROUP: &str = "Supersonic flow in 2D";
 /// Ratio of specific heats of all scenes here.
-const AIR: f64 = 1.4;
+pub(super) const AIR: f64 = 1.4;
 /// Mach number of the stream but in the reflection.
-const MACH: f64 = 3.0;
+pub(super) const MACH: f64 = 3.0;
 /// Where oblique shocks come from.
 const OBLIQUE: &str = "theta-beta-M relation";
 
@@ -51,18 +52,10 @@ pub(super) const CASES: &[Case] = &[
         source: "H. C. Yee, R. F. Warming, A. Harten, AIAA paper 83-1943 (1983); exact oblique shock relations.",
         run: reflection,
     },
-    Case {
-        id: "cylinder",
-        title: "Bow shock ahead of a cylinder",
-        group: GROUP,
-        quick: true,
-        source: "Rayleigh's pitot formula, NACA report 1135 (1953); stand-off of a shock-fitted second-order solution on 120 x 120 cells.",
-        run: cylinder,
-    },
 ];
 
 /// Resolutions of a case: the second in the full suite only.
-fn runs(session: &mut Session<'_>, path: &str, cells: [u32; 2]) -> Result<Vec<Run>> {
+pub(super) fn runs(session: &mut Session<'_>, path: &str, cells: [u32; 2]) -> Result<Vec<Run>> {
     let count = if session.suite == Suite::Quick { 1 } else { 2 };
     cells.iter().take(count).map(|cells| session.run(path, Setting::standard(*cells), &[])).collect()
 }
@@ -132,22 +125,32 @@ fn wall_plot(run: &Run, wall: &Profile, exact: f64) -> Plot {
         .with(run.label.clone(), Style::Marks, wall.points(PRESSURE))
 }
 
+/// Share of the turn at which the edges of the fan are measured: at the very edges the slope has a kink, which no grid resolves.
+const EDGE: f64 = 0.05;
+
+/// Pressure on the characteristic of the fan where the stream has turned by an angle \[rad\], and its angle to the wall \[deg\].
+fn characteristic(turned: f64) -> (f64, f64) {
+    let mach = gasdynamics::expanded_mach(AIR, MACH, turned);
+    let pressure = gasdynamics::total_pressure(AIR, MACH) / gasdynamics::total_pressure(AIR, mach);
+    (pressure, ((1.0 / mach).asin() + 15_f64.to_radians() - turned).to_degrees())
+}
+
 fn expansion(session: &mut Session<'_>) -> Result<()> {
-    let behind = gasdynamics::expanded_mach(AIR, MACH, 15_f64.to_radians());
+    let turn = 15_f64.to_radians();
+    let behind = gasdynamics::expanded_mach(AIR, MACH, turn);
     let exact = gasdynamics::total_pressure(AIR, MACH) / gasdynamics::total_pressure(AIR, behind);
     for run in runs(session, "validation/expansion_corner.toml", [100, 200])? {
         let wall = Profile::along(&run, 0, 0.0);
         let pressure = wall.mean(PRESSURE, [0.5, 0.9]);
         session.check(&run, "pressure at the wall", pressure).reference(exact, "Prandtl-Meyer").within(0.01);
-        // a characteristic in the middle of the fan, where the stream has turned by 7.5 degrees
-        let turned = 7.5_f64.to_radians();
-        let mach = gasdynamics::expanded_mach(AIR, MACH, turned);
-        let level = gasdynamics::total_pressure(AIR, MACH) / gasdynamics::total_pressure(AIR, mach);
-        let goal = ((1.0 / mach).asin() + turned).to_degrees();
-        let points = upper_crossings(&run, PRESSURE, level, [0.3, 0.9]);
-        let angle = fitted_line(&points)[0].atan().to_degrees();
-        let row = session.check(&run, "middle of the fan, degrees", angle).reference(goal, "Prandtl-Meyer");
-        row.pass(Limit::Between(goal - 1.0, goal + 1.0));
+        for (name, share) in [("leading edge", EDGE), ("middle", 0.5), ("trailing edge", 1.0 - EDGE)] {
+            let (level, goal) = characteristic(share * turn);
+            let points = upper_crossings(&run, PRESSURE, level, [0.3, 0.9]);
+            let angle = fitted_line(&points)[0].atan().to_degrees();
+            let row =
+                session.check(&run, &format!("{name} of the fan, degrees"), angle).reference(goal, "Prandtl-Meyer");
+            row.pass(Limit::Between(goal - 1.0, goal + 1.0));
+        }
         session.plot(fan_plot(&run, behind));
     }
     Ok(())
@@ -191,28 +194,6 @@ fn reflection(session: &mut Session<'_>) -> Result<()> {
         let goal = (reflected.angle - incident.deflection).to_degrees();
         session.check(&run, "reflected shock to the wall, degrees", angle).reference(goal, OBLIQUE);
         session.plot(wall_plot(&run, &wall, exact));
-    }
-    Ok(())
-}
-
-/// Distance of the bow shock from the nose over the radius: shock-fitted solution.
-const STAND_OFF: f64 = 0.6988;
-
-fn cylinder(session: &mut Session<'_>) -> Result<()> {
-    let pitot = gasdynamics::pitot_pressure(AIR, MACH);
-    for run in runs(session, "validation/cylinder.toml", [60, 120])? {
-        let line = Profile::along(&run, 0, 0.0);
-        let level = 0.5 * (1.0 + gasdynamics::normal_shock_pressure(AIR, MACH));
-        let found = -1.0 - line.crossings(PRESSURE, level).next().unwrap_or(f64::NAN);
-        let row = session.check(&run, "stand-off over radius", found).reference(STAND_OFF, "shock-fitted solution");
-        // the gate is for 30 cells per radius; half as many may miss by twice as much
-        row.within(0.05 * 30.0 * run.scene.domain.spacing());
-        let nose = line.extremes(PRESSURE, [-1.0 - 3.0 * line.spacing, -1.0])[1];
-        session.check(&run, "pressure at the nose", nose).reference(pitot, "Rayleigh pitot").within(0.02);
-        let marks = vec![[-1.0 - STAND_OFF, 1.0], [-1.0 - STAND_OFF, pitot], [-1.0, pitot]];
-        let plot = Plot::new("Bow shock: pressure ahead of the nose", "x", "pressure");
-        let plot = plot.with("shock and pitot pressure", Style::Reference, marks);
-        session.plot(plot.with(run.label.clone(), Style::Marks, line.points(PRESSURE)));
     }
     Ok(())
 }

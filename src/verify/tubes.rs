@@ -126,7 +126,7 @@ fn tube(session: &mut Session<'_>, tube: &Tube) -> Result<()> {
         for &cells in &sweep.cells {
             let setting = Setting { pair: sweep.pair, integrator: sweep.integrator, cells };
             let run = session.run(tube.path, setting, &[])?;
-            let (exact, jump) = exact(&run)?;
+            let (exact, jump) = exact_riemann(&run)?;
             let reference = Profile::exact(&run.scene, &exact, jump, run.snapshot.time);
             let ours = Profile::of(&run.scene, &run.snapshot);
             let (error, deviation) = (ours.l1(&reference, DENSITY), ours.density_deviation(&reference));
@@ -155,7 +155,8 @@ fn tube(session: &mut Session<'_>, tube: &Tube) -> Result<()> {
     Ok(())
 }
 
-fn exact(run: &Run) -> Result<(ExactRiemann, f64)> {
+/// The exact solution of a tube and the place of its jump.
+pub(super) fn exact_riemann(run: &Run) -> Result<(ExactRiemann, f64)> {
     run.scene.riemann().ok_or_else(|| Error::Scene(format!("{}: no Riemann problem", run.scene.title)))
 }
 
@@ -328,7 +329,8 @@ const CONTACT: Tube = Tube {
 
 /// The layer of dense gas between contact and shock is thin: its peak must not drown.
 fn strong_peak(session: &mut Session<'_>, run: &Run, ours: &Profile) {
-    let place = exact(run).map(|(exact, jump)| jump + exact.wave_speeds()[2] * run.snapshot.time).unwrap_or(f64::NAN);
+    let place =
+        exact_riemann(run).map(|(exact, jump)| jump + exact.wave_speeds()[2] * run.snapshot.time).unwrap_or(f64::NAN);
     let layer = (0..ours.cells()).filter(|cell| ours.center(*cell) > place).map(|cell| ours.state[DENSITY][cell]);
     let peak = layer.fold(f64::NAN, f64::max);
     session.check(run, "density peak behind the shock", peak).reference(0.75, EXACT).pass(Limit::AtLeast(0.70));

@@ -237,7 +237,7 @@ fn acoustic_wave(session: &mut Session<'_>) -> Result<()> {
     let error = ours.l1(&standing_wave(&run, &ours), PRESSURE) / (SOUND[0] + SOUND[1]);
     let row = session.check(&run, "L1 pressure error over amplitude, Courant 0.5", error).source("explicit schemes");
     row.pass(Limit::AtMost(0.005))
-        .known(Limit::AtMost(0.03), "means over cells and vertices delay short waves, however short the step");
+        .known(Limit::AtMost(0.01), "means over cells and vertices delay short waves, however short the step");
     plot_errors(session, "Standing sound waves", measured);
     Ok(())
 }

@@ -54,6 +54,11 @@ scenes! {
     compression_corner: "validation/compression_corner.toml", "domain.cells=[50, 20]";
     expansion_corner: "validation/expansion_corner.toml", "domain.cells=[50, 40]";
     regular_reflection: "validation/regular_reflection.toml", "domain.cells=[60, 15]", "expect.peak_density=[2.5, 2.9]";
+    noh_cylindrical: "validation/noh_cylindrical.toml", "domain.cells=[50, 50]", "expect.peak_density=[25.0, 45.0]";
+    line_explosion: "validation/line_explosion.toml", "domain.cells=[56, 56]";
+    linear_wave: "validation/linear_wave.toml";
+    entropy_wave: "validation/linear_wave.toml", "variant=entropy";
+    sphere: "validation/sphere.toml", "domain.cells=[9, 14, 14]", "expect.peak_density=[4.0, 7.0]";
     cylinder: "validation/cylinder.toml", "domain.cells=[15, 30]", "time.until=4.0", "expect.peak_density=[4.5, 7.0]";
     mach_diamond: "validation/mach_diamond.toml", "domain.cells=[60, 10]", "time.until=4.0";
     riemann_2d: "validation/riemann_2d.toml", "domain.cells=[50, 50]";
