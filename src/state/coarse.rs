@@ -34,8 +34,9 @@ pub(crate) const EXTENTS: usize = 4 * (2 + pcg::LEVELS);
 pub(crate) fn least_courant(scene: &Scene) -> f64 {
     match (scene.numerics.preconditioner, scene.numerics.pair) {
         (Preconditioner::Multigrid, _) => 0.0,
-        (_, Pair::B1b0) => 3.0,
-        (_, Pair::B2b1) => 8.0,
+        (_, Pair::B1b0) if scene.bodies.is_empty() => 3.0,
+        (_, Pair::B1b0) => 5.0,
+        (_, Pair::B2b1) => 12.0,
     }
 }
 

@@ -208,7 +208,8 @@ fn the_device_applies_what_the_twin_does() {
         &BLOCK,
     ];
     for case in cases {
-        let common = ["domain.cells=[48,48]", "time.fixed_step=0.17", "numerics.tolerance=0.999", dense];
+        let always = "numerics.preconditioner=multigrid";
+        let common = ["domain.cells=[48,48]", "time.fixed_step=0.17", "numerics.tolerance=0.999", dense, always];
         let overrides: Vec<String> = common.iter().chain(case).map(|&text| text.to_owned()).collect();
         let scene = Scene::parse(BOX, "box.toml", &overrides).unwrap_or_else(|error| panic!("{error}"));
         let mut simulation = Simulation::new(&gpu, &scene).unwrap();

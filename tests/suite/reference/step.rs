@@ -95,7 +95,10 @@ fn differences(after: &[[f64; 3]], before: &[[f64; 3]]) -> Vec<[f64; 3]> {
     after.iter().zip(before).map(|(a, b)| [0, 1, 2].map(|d| a[d] - b[d])).collect()
 }
 
-/// Moves the particles; `push`: acceleration that is spread over the sub-steps. Returns their number.
+/// Most that a node takes of the acceleration that is spread over the sub-steps, as its mass moves on to others.
+const MOST_SPREAD: f64 = 2.0;
+
+/// Moves the particles; `push`: acceleration of the nodes as they are now, whose impulse is spread over the sub-steps. Returns their number.
 fn elastic_substeps(
     problem: &Problem,
     cells: &[u32],
@@ -111,12 +114,14 @@ fn elastic_substeps(
     }
     let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);
     let (share, sub_dt) = (1.0 / substeps as f64, dt / substeps as f64);
+    let start = nodes.mass.clone();
     for index in 0..if state.particles.is_empty() { 0 } else { substeps } {
         if index > 0 {
             *nodes = p2g::p2g(problem, &state.particles);
         }
-        for (v, push) in nodes.velocity.iter_mut().zip(push.into_iter().flatten()) {
-            *v = [0, 1, 2].map(|d| v[d] + sub_dt * push[d]);
+        for (i, push) in push.into_iter().flatten().enumerate().filter(|(i, _)| nodes.mass[*i] > 0.0) {
+            let time = sub_dt * (start[i] / nodes.mass[i]).min(MOST_SPREAD);
+            nodes.velocity[i] = [0, 1, 2].map(|d| nodes.velocity[i][d] + time * push[d]);
         }
         if !problem.numerics.coupling_last {
             mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, sub_dt);
