@@ -92,7 +92,8 @@ fn materials(session: &mut Session<'_>) -> Result<()> {
 
 fn in_flow(session: &mut Session<'_>, (figure, modulus, poisson, yield_stress): Material) -> Result<()> {
     let elasticity = if modulus < STIFF { "explicit" } else { "implicit" };
-    let until = 7.5;
+    // the steps count: backward Euler holds them to 1000 cells of the elastic wave
+    let until = f64::min(7.5, 3.2 * (1e8 / modulus).sqrt());
     let elastic = format!("young_modulus = {modulus:e}, poisson_ratio = {poisson}");
     let law = match yield_stress {
         None => format!("{{ neo_hookean = {{ {elastic} }} }}"),
