@@ -174,7 +174,7 @@ fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Resul
 /// Fast and wrong is no result. What is not finite has stopped the run before.
 fn sound(mass_drift: f64, energy_drift: f64) -> Result<()> {
     for (name, drift, most) in [("gas", mass_drift, MASS_DRIFT), ("energy", energy_drift, ENERGY_DRIFT)] {
-        if !(drift <= most) {
+        if drift.is_nan() || drift > most {
             return Err(Error::Expectation(format!(
                 "no score: the measured steps lost or gained {drift:.1e} of the {name}, allowed are {most:.0e}; `brisance run` of the scene has \
                  the books in diagnostics.csv"
