@@ -17,7 +17,7 @@
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> elastic: array<vec4f>;           // V^
+@group(0) @binding(4) var<storage, read_write> elastic: array<vec4f>;           // V^; w: components that a wall stopped, as bits
 @group(0) @binding(5) var<storage, read> work: array<vec4f>;                    // second half: f(V)
 @group(0) @binding(6) var<storage, read_write> residual: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> product: array<vec4f>;
@@ -33,6 +33,8 @@
 
 // Shear stiffness that plastic flow leaves at least, over that of the law: the system stays definite.
 const SOFTEST = 0.01;
+// From this round on what a wall has stopped stays stopped until the step ends: nodes that are stopped and let go in turn would go on so.
+const STICKY_ROUND = 6u;
 // Cells per step: a speed below this, times the tolerance, counts as rest.
 const CREEP = 1e-3;
 
@@ -47,7 +49,7 @@ fn elastic_keep(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let here = node[slot];
-    elastic[slot] = here;
+    elastic[slot] = vec4f(here.xyz, 0.0);
     if is_free(slot) { node[slot] = vec4f(stopped_at_wall(cell_of(slot), here.xyz), here.w); }
 }
 
@@ -145,8 +147,11 @@ fn elastic_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
         r = imbalance(slot);
         inverse_entry = inverse_diagonal[slot].xyz;
         var held = held_at_wall(cell_of(slot), here.xyz + r * inverse_entry);
+        let kept = (vec3u(u32(elastic[slot].w)) & vec3u(1u, 2u, 4u)) != vec3u(0u);
+        if control.rounds >= STICKY_ROUND { held = held | kept; }
         // Nothing follows the last round: what it stopped would leave an imbalance that belongs to other velocities.
         if control.rounds + 1u >= MAX_ROUNDS { held = held & (here.xyz == vec3f(0.0)); }
+        elastic[slot].w = f32(dot(select(vec3u(0u), vec3u(1u, 2u, 4u), held), vec3u(1u)));
         if any(held & (here.xyz != vec3f(0.0))) {
             node[slot] = vec4f(select(here.xyz, vec3f(0.0), held), here.w);
             atomicAdd(&control.newly_held, 1u);
