@@ -11,7 +11,7 @@ use super::args::{BenchOptions, Cli};
 use super::{interrupt, open_device, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::{Budget, Summary};
-use crate::gpu::{Detail, Gpu, Times};
+use crate::gpu::{Detail, Gpu, Times, add_time};
 use crate::numerics::copy_bandwidth;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
@@ -227,12 +227,7 @@ fn timed_steps(simulation: &mut Simulation, steps: u32, detail: Detail) -> Resul
     while records.len() < steps as usize {
         stop_if_asked()?;
         let (_, times) = simulation.advance_timed(&mut records, detail)?;
-        for (stage, time) in times {
-            match sums.iter_mut().find(|(known, _)| *known == stage) {
-                Some((_, sum)) => *sum += time,
-                None => sums.push((stage, time)),
-            }
-        }
+        times.iter().for_each(|(stage, time)| add_time(&mut sums, stage, *time));
     }
     Ok((records, sums))
 }

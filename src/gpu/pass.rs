@@ -48,8 +48,8 @@ enum Watch {
 /// Stages and their milliseconds, in order of first appearance.
 pub type Times = Vec<(String, f64)>;
 
-/// Adds a time to that of its stage.
-fn add_time(times: &mut Times, stage: &str, time: f64) {
+/// Adds a time \[ms\] to that of its stage.
+pub fn add_time(times: &mut Times, stage: &str, time: f64) {
     match times.iter_mut().find(|(known, _)| known == stage) {
         Some((_, sum)) => *sum += time,
         None => times.push((stage.to_owned(), time)),

@@ -30,7 +30,8 @@ impl Recorded {
         let most = |of: fn(&StepRecord) -> u32| newest.iter().map(of).fold(1, u32::max);
         let enough = |took: u32, now: u32| if unfinished { took.max(2 * now) } else { took };
         let iterations = enough(most(|record| record.iterations).div_ceil(solves) + 2, self.iterations);
-        let substeps = enough(most(|record| record.substeps), self.substeps).min(MOST_SUBSTEPS);
+        let substeps = enough(most(|record| record.substeps), self.substeps)
+            .min(state.params.max_substeps.clamp(1, MOST_SUBSTEPS));
         let round_iterations = enough(most(|record| record.longest_round) + 2, self.round_iterations);
         Self {
             iterations: iterations.min(state.params.max_iterations + 1),
