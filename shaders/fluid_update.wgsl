@@ -120,7 +120,7 @@ fn face_velocity(n: u32, low: u32, high: u32) -> f32 {
     let a = conserved[low];
     let b = conserved[high];
     if CONSISTENT {
-        if near_obstacle(low, high) { return cut_velocity(cell_of(low), n) - 0.25 * (node[high].w - node[low].w); }
+        if near_obstacle(low, high) { return cut_velocity(cell_of(low), n) - given_back() * (node[high].w - node[low].w); }
         return carried_velocity(n, node[low], a.x, node[high], b.x);
     }
     return (a[n + 1u] + b[n + 1u]) / (a.x + b.x);

@@ -18,6 +18,7 @@
 #include "shared/cut.wgsl"
 #include "shared/cut_carrier.wgsl"
 #include "shared/still.wgsl"
+#include "shared/faces.wgsl"
 
 override SECOND: bool;  // stage of the Runge-Kutta scheme
 
@@ -34,89 +35,6 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 fn source(slot: u32) -> Gas {
     if SECOND && !ARS { return Gas(work[slot], energy[params.slots + slot]); }
     return Gas(conserved[slot], energy[slot]);
-}
-
-fn flow_at(slot: u32) -> vec4f { return source(slot).flow; }
-
-fn is_open(word: u32) -> bool { return kind_of(word) == GAS || kind_of(word) == GHOST; }
-
-// State of an open slot, reached along axis n.
-fn open_gas(c: vec3i, n: u32) -> Gas {
-    let here = source(slot_of(nearest_inside(c)));
-    if inside(c) { return here; }
-    return gas_beyond(opening_of(cells[slot_of(nearest_ring(c))]), n, select(1.0, -1.0, c[n] < 0), here);
-}
-
-// Carrier of an open slot; beyond an outlet that of the nearest cell.
-fn open_carrier(c: vec3i) -> vec4f {
-    if !inside(c) {
-        let opening = opening_of(cells[slot_of(nearest_ring(c))]);
-        if opening.rule <= RULE_SUBSONIC { return vec4f(velocity_of(opening.flow), 0.0); }
-    }
-    return node[slot_of(nearest_inside(c))];
-}
-
-// The four cells across the face between `near` and its neighbour; where the outer ones hold no gas, the inner ones stand for them.
-fn stencil_at(near: vec3i, n: u32, up: bool, here: Gas, next: Gas, open: bool) -> Stencil {
-    let behind = select(near + axis(n), near - axis(n), up);
-    let beyond = select(near - 2 * axis(n), near + 2 * axis(n), up);
-    let has_first = is_open(cells[slot_of(behind)]);
-    let has_last = open && is_open(cells[slot_of(nearest_ring(beyond))]);
-    var first = here;
-    var last = next;
-    if has_first { first = open_gas(behind, n); }
-    if has_last { last = open_gas(beyond, n); }
-    var out = Stencil(chosen(first, last, up), chosen(here, next, up), chosen(next, here, up), chosen(last, first, up), 0.0);
-    if has_first && has_last { out.even = evenness(n, out.a, out.b, out.c, out.d); }
-    return out;
-}
-
-// Fluxes by the carrier through the face between `near` and `far`. Without bodies only open faces pass anything.
-fn carried_face(near: vec3i, far: vec3i, n: u32, up: bool) -> Fluxes {
-    var out: Fluxes;
-    let far_word = cells[slot_of(far)];
-    if !is_open(far_word) { return out; }
-    let stencil = stencil_at(near, n, up, source(slot_of(near)), open_gas(far, n), true);
-    let own = node[slot_of(near)];
-    let other = open_carrier(far);
-    let low = select(other, own, up);
-    let high = select(own, other, up);
-    var carried = other[n];
-    if kind_of(far_word) == GAS {
-        if near_obstacle(slot_of(near), slot_of(far)) { carried = cut_velocity(min(near, far), n) - 0.25 * (high.w - low.w); }
-        else { carried = carried_velocity(n, low, stencil.b.flow.x, high, stencil.c.flow.x); }
-    }
-    out = carried_fluxes(stencil, carried, carrier_spread(low[n], high[n]));
-    out.heat *= f32(kind_of(far_word) == GAS);
-    return out;
-}
-
-// Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
-fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
-    let far = select(near - axis(n), near + axis(n), up);
-    if CONSISTENT { return carried_face(near, far, n, up); }
-    let near_slot = slot_of(near);
-    let here = source(near_slot);
-    let far_word = cells[slot_of(far)];
-    let open = is_open(far_word);
-    var next = here;
-    if open { next = open_gas(far, n); }
-    var out = face_fluxes_of(n, stencil_at(near, n, up, here, next, open));
-    out.heat *= f32(kind_of(far_word) == GAS);
-    if open { return out; }
-    // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
-    var blocked = 1.0;
-    var wall_velocity = 0.0;
-    if SOLIDS && kind_of(far_word) == SOLID {
-        blocked = blocked_of(far_word);
-        let a = node[near_slot];
-        let b = node[slot_of(far)];
-        wall_velocity = (a.w * a[n] + b.w * b[n]) / max(a.w + b.w, 1e-30);
-    }
-    let carried = blocked * wall_velocity;
-    out.high = Gas(carried * here.flow + (1.0 - blocked) * out.high.flow, carried * here.energy + (1.0 - blocked) * out.high.energy);
-    out.low = Gas(carried * here.flow + (1.0 - blocked) * out.low.flow, carried * here.energy + (1.0 - blocked) * out.low.energy);
-    return out;
 }
 
 // `sign`: 1 into the cell, -1 out of it; times the open share of the face.
@@ -170,22 +88,26 @@ fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool) {
     }
 }
 
-// Fluxes deep inside the gas, through the face above slot b.
-fn interior_fluxes(n: u32, b_slot: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> Fluxes {
-    let stencil = Stencil(a, b, c, d, evenness(n, a, b, c, d));
+// Fluxes deep inside the gas, through the face above slot `low`.
+fn interior_fluxes(n: u32, low: u32, stencil: Stencil) -> Fluxes {
     if !CONSISTENT { return face_fluxes_of(n, stencil); }
-    let low = node[b_slot];
-    let high = node[b_slot + step_of(n)];
-    return carried_fluxes(stencil, carried_velocity(n, low, b.flow.x, high, c.flow.x), carrier_spread(low[n], high[n]));
+    let below = node[low];
+    let above = node[low + step_of(n)];
+    return carried_fluxes(stencil, carried_velocity(n, below, stencil.c.flow.x, above, stencil.d.flow.x), carrier_spread(below[n], above[n]));
 }
 
-// The same through both faces across one axis, far from walls, bodies and open sides, where nothing has to be asked.
+// The same through both faces across one axis, far from walls, bodies and open sides.
 fn add_axis(change: ptr<function, Change>, slot: u32, n: u32, here: Gas) {
     let s = step_of(n);
-    let b = source(slot - s);
-    let c = source(slot + s);
-    add_face(change, interior_fluxes(n, slot - s, source(slot - 2u * s), b, here, c), 1.0, 1.0);
-    add_face(change, interior_fluxes(n, slot, b, here, c, source(slot + 2u * s)), 1.0, -1.0);
+    let last = params.slots - 1u;
+    let a = source(max(slot, 3u * s) - 3u * s);
+    let b = source(slot - 2u * s);
+    let c = source(slot - s);
+    let e = source(slot + s);
+    let f = source(slot + 2u * s);
+    let g = source(min(slot + 3u * s, last));
+    add_face(change, interior_fluxes(n, slot - s, stencil_above(n, slot - s, a, b, c, here, e, f)), 1.0, 1.0);
+    add_face(change, interior_fluxes(n, slot, stencil_above(n, slot, b, c, here, e, f, g)), 1.0, -1.0);
 }
 
 // The state that the change of this stage is added to.
@@ -250,16 +172,18 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         }
         return;
     }
-    var a = source(max(first, 2u * s) - 2u * s);
-    var b = source(max(first, s) - s);
+    let below = max(first, s) - s;
+    var b = source(max(first, 2u * s) - 2u * s);
+    var c = source(below);
     var here = source(first);
-    var c = source(min(first + s, last));
-    var low = interior_fluxes(n, max(first, s) - s, a, b, here, c);
+    var e = source(min(first + s, last));
+    var f = source(min(first + 2u * s, last));
+    var low = interior_fluxes(n, below, stencil_above(n, below, source(max(first, 3u * s) - 3u * s), b, c, here, e, f));
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
         if slot > last { break; }
-        let d = source(min(slot + 2u * s, last));
-        let high = interior_fluxes(n, slot, b, here, c, d);
+        let g = source(min(slot + 3u * s, last));
+        let high = interior_fluxes(n, slot, stencil_above(n, slot, b, c, here, e, f, g));
         if has(cells[slot], INTERIOR) {
             var change: Change;
             if LIMITER { change.velocity = velocity_of(here.flow); }
@@ -269,9 +193,11 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
             finish(slot, here, change);
         }
         low = high;
-        b = here;
-        here = c;
-        c = d;
+        b = c;
+        c = here;
+        here = e;
+        e = f;
+        f = g;
     }
 }
 

@@ -167,7 +167,7 @@ fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
-    var interior = inside(c) && away_from_seam(c, -2, 2);
+    var interior = inside(c) && away_from_seam(c, -3, 3);
     if interior {
         for (var k = 0u; k < corner_count(); k++) {
             interior = interior && has(cells[slot_of(c - corner_offset(k))], NODE_INTERIOR);

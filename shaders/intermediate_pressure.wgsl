@@ -9,6 +9,7 @@
 #include "shared/boundary.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/control.wgsl"
+#include "shared/carrier.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -64,13 +65,13 @@ fn cut_divergence(slot: u32, own: f32) -> f32 {
 // The same of the carrier, with the correction of shared/carrier.wgsl at the faces between GAS cells.
 fn carried_divergence(slot: u32) -> f32 {
     let own = node[slot].w;
-    if LISTED && CUT { return own - 0.25 * cut_divergence(slot, own) / cluster_share(slot); }
+    if LISTED && CUT { return own - given_back() * cut_divergence(slot, own) / cluster_share(slot); }
     var sum = own;
     for (var n = 0u; n < DIM; n++) {
         for (var side = 0u; side < 2u; side++) {
             var other = select(slot - step_of(n), slot + step_of(n), side == 1u);
             if LISTED && PERIODIC != 0u { other = slot_of(cell_of(slot) + select(-1, 1, side == 1u) * axis(n)); }
-            if !LISTED || kind_of(cells[other]) == GAS { sum -= 0.25 * (node[other].w - own); }
+            if !LISTED || kind_of(cells[other]) == GAS { sum -= given_back() * (node[other].w - own); }
         }
     }
     return sum;

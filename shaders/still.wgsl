@@ -11,9 +11,9 @@
 @group(0) @binding(6) var<storage, read_write> busy: array<u32>;
 @group(0) @binding(12) var<storage, read_write> still: array<u32>;
 
-// Slots that motion gets on until the solve: two per stage of the advection (the carrier of a face reaches one further than its
-// cells, and the limiter cuts fluxes there but makes none), and one in the carrier of the advected state.
-const SPAN = 5;
+// Slots that motion gets on until the solve: three per stage of the advection (a face has three cells on each side, its carrier reaches
+// less far, and the limiter cuts fluxes there but makes none), and one in the carrier of the advected state.
+const SPAN = 7;
 
 fn blocks() -> u32 {
     let rows = params.stride[DIM - 1u];

@@ -1,4 +1,4 @@
-// Advective fluxes f = u_n U through a face between cells b and c, with a and d one cell further out: third order, and first
+// Advective fluxes f = u_n U through the face between cells c and d of a stencil [shared/reconstruct.wgsl]: high order, and first
 // order with the same splitting, which the limiter falls back to.
 // Local Lax-Friedrichs splitting f+- = (u_n +- alpha) U / 2, alpha the largest |u_n| of the stencil: the pressure part of the
 // Euler flux is the solve's, so sound needs no dissipation here. [Cao et al. 2022, section 2.3; Shu & Osher 1988]
@@ -7,7 +7,7 @@
 // heat: internal energy by the mean of both sides, the part that two solves per step take from the solve instead [shared/ars.wgsl].
 struct Fluxes { high: Gas, low: Gas, heat: f32 }
 
-fn central_heat(b: Gas, c: Gas, velocity: f32) -> f32 { return 0.5 * velocity * (internal_energy(b) + internal_energy(c)); }
+fn central_heat(low: Gas, high: Gas, velocity: f32) -> f32 { return 0.5 * velocity * (internal_energy(low) + internal_energy(high)); }
 
 fn packed(gas: Gas) -> vec4f { return select(gas.flow, vec4f(gas.flow.xyz, gas.energy), vec4<bool>(DIM < 3u)); }
 
@@ -16,45 +16,47 @@ fn unpacked(flux: vec4f, energy: f32) -> Gas {
     return Gas(flux, energy);
 }
 
-// Cells a, b, c, d along an axis, and which weights their values at the face have [shared/reconstruct.wgsl].
-struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, even: f32 }
-
 // With one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`, at least upwind.
 fn carried_fluxes(s: Stencil, carried: f32, alpha: f32) -> Fluxes {
     let spread = max(alpha, abs(carried));
     let up = 0.5 * (carried + spread);
     let down = 0.5 * (carried - spread);
     var out: Fluxes;
-    let flow = weno3_from_both(s.even, up, down, packed(s.a), packed(s.b), packed(s.c), packed(s.d));
+    let flow = weno_from_both(s.even, up, down, packed(s.a), packed(s.b), packed(s.c), packed(s.d), packed(s.e), packed(s.f));
     var energy = 0.0;
     if DIM == 3u {
-        energy = weno3_from_both(s.even, up, down, vec4f(s.a.energy), vec4f(s.b.energy), vec4f(s.c.energy), vec4f(s.d.energy)).x;
+        energy = weno_from_both(s.even, up, down, vec4f(s.a.energy), vec4f(s.b.energy), vec4f(s.c.energy), vec4f(s.d.energy),
+            vec4f(s.e.energy), vec4f(s.f.energy)).x;
     }
     out.high = unpacked(flow, energy);
-    if ARS { out.heat = central_heat(s.b, s.c, carried); }
-    if LIMITER { out.low = Gas(up * s.b.flow + down * s.c.flow, up * s.b.energy + down * s.c.energy); }
+    if ARS { out.heat = central_heat(s.c, s.d, carried); }
+    if LIMITER { out.low = Gas(up * s.c.flow + down * s.d.flow, up * s.c.energy + down * s.d.energy); }
     return out;
 }
 
 fn face_fluxes_of(n: u32, s: Stencil) -> Fluxes {
-    let speed = vec4f(s.a.flow[n + 1u] / s.a.flow.x, s.b.flow[n + 1u] / s.b.flow.x,
-        s.c.flow[n + 1u] / s.c.flow.x, s.d.flow[n + 1u] / s.d.flow.x);
-    let alpha = max(max(abs(speed.x), abs(speed.y)), max(abs(speed.z), abs(speed.w)));
-    let up = 0.5 * (speed + alpha);
-    let down = 0.5 * (speed - alpha);
+    let behind = vec3f(velocity_along(n, s.a), velocity_along(n, s.b), velocity_along(n, s.c));
+    let ahead = vec3f(velocity_along(n, s.d), velocity_along(n, s.e), velocity_along(n, s.f));
+    let most = max(abs(behind), abs(ahead));
+    let alpha = max(most.x, max(most.y, most.z));
+    let u = 0.5 * (behind + alpha);
+    let v = 0.5 * (ahead + alpha);
+    let x = 0.5 * (behind - alpha);
+    let y = 0.5 * (ahead - alpha);
     var out: Fluxes;
-    let flow = weno3(s.even, up.x * packed(s.a), up.y * packed(s.b), up.z * packed(s.c), up.w * packed(s.d))
-        + weno3(s.even, down.w * packed(s.d), down.z * packed(s.c), down.y * packed(s.b), down.x * packed(s.a));
+    let flow = weno(s.even, u.x * packed(s.a), u.y * packed(s.b), u.z * packed(s.c), v.x * packed(s.d), v.y * packed(s.e))
+        + weno(s.even, y.z * packed(s.f), y.y * packed(s.e), y.x * packed(s.d), x.z * packed(s.c), x.y * packed(s.b));
     var energy = 0.0;
     if DIM == 3u {
-        let e = vec4f(s.a.energy, s.b.energy, s.c.energy, s.d.energy);
-        let rising = up * e;
-        let falling = down * e;
-        energy = weno3(s.even, vec4f(rising.x), vec4f(rising.y), vec4f(rising.z), vec4f(rising.w)).x
-            + weno3(s.even, vec4f(falling.w), vec4f(falling.z), vec4f(falling.y), vec4f(falling.x)).x;
+        let near = vec3f(s.a.energy, s.b.energy, s.c.energy);
+        let far = vec3f(s.d.energy, s.e.energy, s.f.energy);
+        let up = array<vec3f, 2>(u * near, v * far);
+        let down = array<vec3f, 2>(x * near, y * far);
+        energy = weno(s.even, vec4f(up[0].x), vec4f(up[0].y), vec4f(up[0].z), vec4f(up[1].x), vec4f(up[1].y)).x
+            + weno(s.even, vec4f(down[1].z), vec4f(down[1].y), vec4f(down[1].x), vec4f(down[0].z), vec4f(down[0].y)).x;
     }
     out.high = unpacked(flow, energy);
-    if ARS { out.heat = central_heat(s.b, s.c, (s.b.flow[n + 1u] + s.c.flow[n + 1u]) / (s.b.flow.x + s.c.flow.x)); }
-    if LIMITER { out.low = Gas(up.y * s.b.flow + down.z * s.c.flow, up.y * s.b.energy + down.z * s.c.energy); }
+    if ARS { out.heat = central_heat(s.c, s.d, (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x)); }
+    if LIMITER { out.low = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy); }
     return out;
 }

@@ -1,62 +1,86 @@
-// Third-order WENO value at the face between b and c, from the cells a, b, c and d, a being the farthest upstream.
-// Two-point sub-stencils with linear weights 1/3 and 2/3, the square of whose difference beta says how rough they are, in two forms:
-// - where the gas is compressed (`evenness` 0): weights over (beta + epsilon)^2 [Jiang & Shu 1996], which shocks need;
-// - elsewhere (`evenness` 1): weights times 1 + (tau / (beta + epsilon))^2, tau the square of the third difference of all four cells,
-//   which keep the linear weights, and so waves and contacts, as long as the four cells lie on a parabola [Borges et al. 2008].
-// All differences are relative to the largest of the four values, so that neither the unit system nor float32's range changes the scheme.
+// Value at the face between c and d of six cells in a row, from upstream, by the WENO method in two forms:
+// - where the gas is compressed (`evenness` 0), third order from b, c and d: linear weights 1/3 and 2/3 over (beta + epsilon)^2, beta the
+//   square of the difference of a two-point sub-stencil [Jiang & Shu 1996]. Shocks need it;
+// - elsewhere (`evenness` 1), fifth order from a to e: three parabolas with the linear weights 0.1, 0.6 and 0.3, times
+//   1 + (tau / (beta + epsilon))^2, tau the difference of the outer two beta. It keeps waves and contacts [Borges et al. 2008].
+// All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
 
 // Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/method.md].
 const WENO_EPSILON = 7e-4;
-// The same elsewhere: 1.4 %.
-const EVEN_EPSILON = 2e-4;
+// The same elsewhere: 0.1 %.
+const EVEN_EPSILON = 1e-6;
 // The first form takes over up to where the velocity falls from one cell to the next by this part of the speed of sound.
 const STEEP = 0.1;
 
+// Cells a to f along an axis, the face between c and d, and the share of the second form there.
+struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32 }
+
+// Of four cells, where others beyond them are no gas.
+fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d, e, e, 0.0); }
+
+fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
+    return Stencil(a, b, c, d, e, f, evenness(n, a, b, c, d, e, f));
+}
+
+fn velocity_along(n: u32, gas: Gas) -> f32 { return gas.flow[n + 1u] / gas.flow.x; }
+
 // Share of the second form at a face with normal n.
-fn evenness(n: u32, a: Gas, b: Gas, c: Gas, d: Gas) -> f32 {
-    let ua = a.flow[n + 1u] / a.flow.x;
-    let ub = b.flow[n + 1u] / b.flow.x;
-    let uc = c.flow[n + 1u] / c.flow.x;
-    let ud = d.flow[n + 1u] / d.flow.x;
-    let drop = max(max(ua - ub, ub - uc), max(uc - ud, 0.0)) / STEEP;
-    let energy = 0.5 * (internal_energy(b) / b.flow.x + internal_energy(c) / c.flow.x);
+fn evenness(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> f32 {
+    let ub = velocity_along(n, b);
+    let uc = velocity_along(n, c);
+    let ud = velocity_along(n, d);
+    let ue = velocity_along(n, e);
+    let ends = max(velocity_along(n, a) - ub, ue - velocity_along(n, f));
+    let drop = max(max(max(ub - uc, uc - ud), max(ud - ue, ends)), 0.0) / STEEP;
+    let energy = 0.5 * (internal_energy(c) / c.flow.x + internal_energy(d) / d.flow.x);
     let sound = params.gamma * (params.gamma - 1.0) * energy;
     return max(1.0 - drop * drop / max(sound, 1e-30), 0.0);
 }
 
-// One over the largest of four values.
-fn unit_of(a: vec4f, b: vec4f, c: vec4f, d: vec4f) -> vec4f {
-    return 1.0 / max(max(max(abs(a), abs(b)), max(abs(c), abs(d))), vec4f(1e-30));
+fn largest(b: vec4f, c: vec4f, d: vec4f, e: vec4f) -> vec4f { return max(max(abs(b), abs(c)), max(abs(d), abs(e))); }
+
+fn square(x: vec4f) -> vec4f { return x * x; }
+
+// Third order: what the value differs from c by, of the differences c - b and d - c.
+fn third(unit: vec4f, low: vec4f, high: vec4f) -> vec4f {
+    let outer = square(low * unit) + WENO_EPSILON;
+    let inner = square(high * unit) + WENO_EPSILON;
+    let weight = inner * inner / (inner * inner + 2.0 * outer * outer);
+    return 0.5 * (high + weight * (low - high));
 }
 
-// Weight of the sub-stencil that extrapolates, whose roughness is `outer`; that of the one across the face is `inner`.
-fn outer_weight(even: f32, outer: vec4f, inner: vec4f, tau: vec4f) -> vec4f {
-    let steep_outer = (inner + WENO_EPSILON) * (inner + WENO_EPSILON);
-    let steep_inner = 2.0 * (outer + WENO_EPSILON) * (outer + WENO_EPSILON);
-    let p = (outer + EVEN_EPSILON) * (outer + EVEN_EPSILON);
-    let q = (inner + EVEN_EPSILON) * (inner + EVEN_EPSILON);
-    let even_outer = q * (p + tau * tau);
-    let even_inner = 2.0 * p * (q + tau * tau);
-    return mix(steep_outer / (steep_outer + steep_inner), even_outer / (even_outer + even_inner), even);
+fn even_weight(linear: f32, tau: vec4f, beta: vec4f) -> vec4f {
+    let ratio = tau / (beta + EVEN_EPSILON);
+    return linear + linear * square(ratio);
 }
 
-fn weno3(even: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f) -> vec4f {
-    let unit = unit_of(a, b, c, d);
-    let outer = (b - a) * unit;
-    let inner = (c - b) * unit;
-    let third = (d - c) * unit - 2.0 * inner + outer;
-    let weight = outer_weight(even, outer * outer, inner * inner, third * third);
-    return 0.5 * (b + c + weight * ((b - a) - (c - b)));
+// beta of a parabola: of its second difference and twice its slope.
+fn smoothness(curved: vec4f, sloped: vec4f) -> vec4f { return 13.0 / 12.0 * square(curved) + 0.25 * square(sloped); }
+
+// Fifth order: the same of b - a, c - b, d - c and e - d.
+fn fifth(unit: vec4f, p: vec4f, q: vec4f, r: vec4f, s: vec4f) -> vec4f {
+    let low = smoothness((q - p) * unit, (3.0 * q - p) * unit);
+    let middle = smoothness((r - q) * unit, (q + r) * unit);
+    let high = smoothness((s - r) * unit, (3.0 * r - s) * unit);
+    let tau = abs(high - low);
+    let u = even_weight(1.0, tau, low);
+    let v = even_weight(6.0, tau, middle);
+    let w = even_weight(3.0, tau, high);
+    return (u * (5.0 * q - 2.0 * p) + v * (q + 2.0 * r) + w * (4.0 * r - s)) / (6.0 * (u + v + w));
 }
 
-// `up` times the value from the side of a and b, and `down` times that from the side of d and c.
-fn weno3_from_both(even: f32, up: f32, down: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f) -> vec4f {
-    let unit = unit_of(a, b, c, d);
-    let low = (b - a) * unit;
-    let inner = (c - b) * unit;
-    let high = (d - c) * unit;
-    let third = high - 2.0 * inner + low;
-    let low_weight = outer_weight(even, low * low, inner * inner, third * third);
-    let high_weight = outer_weight(even, high * high, inner * inner, third * third);
-    return 0.5 * ((up + down) * (b + c) + up * low_weight * ((b - a) - (c - b)) + down * high_weight * ((c - b) - (d - c)));
+fn step_to_face(even: f32, unit: vec4f, p: vec4f, q: vec4f, r: vec4f, s: vec4f) -> vec4f {
+    return mix(third(unit, q, r), fifth(unit, p, q, r, s), even);
+}
+
+fn weno(even: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f) -> vec4f {
+    let unit = 1.0 / max(max(largest(b, c, d, e), abs(a)), vec4f(1e-30));
+    return c + step_to_face(even, unit, b - a, c - b, d - c, e - d);
+}
+
+// `up` times the value from the side of a, and `down` times that from the side of f.
+fn weno_from_both(even: f32, up: f32, down: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f, f: vec4f) -> vec4f {
+    let unit = 1.0 / max(max(largest(b, c, d, e), max(abs(a), abs(f))), vec4f(1e-30));
+    return up * (c + step_to_face(even, unit, b - a, c - b, d - c, e - d))
+        + down * (d - step_to_face(even, unit, f - e, e - d, d - c, c - b));
 }

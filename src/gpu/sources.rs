@@ -66,6 +66,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/driven.wgsl",
     "shared/element.wgsl",
     "shared/extents.wgsl",
+    "shared/faces.wgsl",
     "shared/flux.wgsl",
     "shared/gas.wgsl",
     "shared/gas_look.wgsl",

@@ -7,6 +7,8 @@ use super::{GAS, GHOST, Gas, Problem, WALL, boundary};
 pub(crate) struct Carrier {
     pub(crate) velocity: Vec<[f64; 3]>,
     divergence: Vec<f64>,
+    /// Share of the difference of the divergences that the faces get back.
+    given_back: f64,
 }
 
 fn velocity_at(problem: &Problem, cells: &[u32], gas: &Gas, c: [i32; 3], offset: [i32; 3]) -> [f64; 3] {
@@ -40,7 +42,9 @@ impl Carrier {
             return None;
         }
         let grid = &problem.grid;
-        let mut carrier = Self { velocity: vec![[0.0; 3]; grid.slots()], divergence: vec![0.0; grid.slots()] };
+        let given_back = if problem.numerics.two_solves { 1.0 / 3.0 } else { 0.25 };
+        let mut carrier =
+            Self { velocity: vec![[0.0; 3]; grid.slots()], divergence: vec![0.0; grid.slots()], given_back };
         let inside: Vec<_> = grid.interior().into_iter().filter(|c| cells[grid.slot(*c)] == GAS).collect();
         for c in &inside {
             for axis in 0..grid.dimension {
@@ -77,7 +81,7 @@ impl Carrier {
     pub(crate) fn between(&self, gas: &Gas, axis: usize, low: usize, high: usize) -> f64 {
         let (a, b) = (gas.conserved[low][0], gas.conserved[high][0]);
         let mean = (a * self.velocity[low][axis] + b * self.velocity[high][axis]) / (a + b);
-        mean - 0.25 * (self.divergence[high] - self.divergence[low])
+        mean - self.given_back * (self.divergence[high] - self.divergence[low])
     }
 
     /// Sum of the differences of the face velocities of a gas cell.
@@ -85,6 +89,6 @@ impl Carrier {
         let grid = &problem.grid;
         let own = self.divergence[grid.slot(c)];
         let neighbours = (0..grid.dimension).flat_map(|axis| [-1, 1].map(|by| grid.slot(shift(c, axis, by))));
-        own - neighbours.filter(|n| cells[*n] == GAS).map(|n| 0.25 * (self.divergence[n] - own)).sum::<f64>()
+        own - neighbours.filter(|n| cells[*n] == GAS).map(|n| self.given_back * (self.divergence[n] - own)).sum::<f64>()
     }
 }

@@ -1,4 +1,4 @@
-//! Gas advection: WENO with two-point sub-stencils, local Lax-Friedrichs split by |u|, TVD-RK2, positivity limiter.
+//! Gas advection: WENO of fifth order, of third where the gas is compressed or no gas is near, local Lax-Friedrichs split by |u|, TVD-RK2, positivity limiter.
 
 pub(crate) use super::boundary::fill_ghosts;
 use super::carrier::Carrier;
@@ -12,57 +12,72 @@ pub(crate) type Fluxes = [Vec<[f64; 5]>; 3];
 /// Speed that the gas may lose from cell to cell, over that of sound, up to where shocks are suspected.
 const STEEP: f64 = 0.1;
 
-/// Share of the weights for even gas at the face between the second and third of four cells.
-pub(crate) fn evenness(gamma: f64, stencil: &[[f64; 5]; 4], axis: usize) -> f64 {
+/// The six cells across a face, which lies between the third and fourth.
+type Stencil = [[f64; 5]; 6];
+
+/// Share of the fifth-order form at the face in the middle of six cells.
+pub(crate) fn evenness(gamma: f64, stencil: &Stencil, axis: usize) -> f64 {
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
     let drop = speed.windows(2).fold(0.0, |most, pair| f64::max(most, pair[0] - pair[1]));
-    let heat = 0.5 * (internal_energy(stencil[1]) / stencil[1][0] + internal_energy(stencil[2]) / stencil[2][0]);
+    let heat = 0.5 * (internal_energy(stencil[2]) / stencil[2][0] + internal_energy(stencil[3]) / stencil[3][0]);
     f64::max(0.0, 1.0 - (drop / STEEP).powi(2) / (gamma * (gamma - 1.0) * heat))
 }
 
-/// Value at the face between the second and third of four cells in a row, the first upwind, with the share `even` of the weights for
-/// even gas.
-pub(crate) fn reconstruct(weno: Weno, even: f64, values: [f64; 4]) -> f64 {
+/// Value at the face between the third and fourth of six cells in a row, the first upwind; the last only tells how large values are. The
+/// share `even` is the fifth-order one.
+pub(crate) fn reconstruct(weno: Weno, even: f64, values: [f64; 6]) -> f64 {
     let scale = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     if scale == 0.0 {
         return 0.0;
     }
-    let [a, b, c, d] = values.map(|value| value / scale);
-    let (outer, inner) = ((b - a).powi(2), (c - b).powi(2));
-    let tau = (a - 3.0 * b + 3.0 * c - d).powi(2);
+    let [a, b, c, d, e, _] = values.map(|value| value / scale);
     let rough = |beta: f64| 1.0 / (weno.steep + beta).powi(2);
-    let share = |outer: f64, inner: f64| outer / (outer + 2.0 * inner);
-    let steep = share(rough(outer), rough(inner));
-    let weight = weno.even.map_or(steep, |smooth| {
-        let curved = |beta: f64| 1.0 + (tau / (beta + smooth)).powi(2);
-        steep + even * (share(curved(outer), curved(inner)) - steep)
-    });
-    scale * (weight * (1.5 * b - 0.5 * a) + (1.0 - weight) * 0.5 * (b + c))
+    let (outer, inner) = (rough((c - b).powi(2)), 2.0 * rough((d - c).powi(2)));
+    let third = (outer * (1.5 * c - 0.5 * b) + inner * 0.5 * (c + d)) / (outer + inner);
+    let Some(smooth) = weno.even else { return scale * third };
+    let curved = |u: f64, v: f64, w: f64| 13.0 / 12.0 * (u - 2.0 * v + w).powi(2);
+    let beta = [
+        curved(a, b, c) + 0.25 * (a - 4.0 * b + 3.0 * c).powi(2),
+        curved(b, c, d) + 0.25 * (b - d).powi(2),
+        curved(c, d, e) + 0.25 * (3.0 * c - 4.0 * d + e).powi(2),
+    ];
+    let parabolas = [2.0 * a - 7.0 * b + 11.0 * c, 5.0 * c - b + 2.0 * d, 2.0 * c + 5.0 * d - e];
+    let tau = (beta[0] - beta[2]).abs();
+    let linear = [0.1, 0.6, 0.3];
+    let weights = [0, 1, 2].map(|k| linear[k] * (1.0 + (tau / (beta[k] + smooth)).powi(2)));
+    let fifth = (0..3).map(|k| weights[k] * parabolas[k] / 6.0).sum::<f64>() / weights.iter().sum::<f64>();
+    scale * (third + even * (fifth - third))
 }
 
-/// WENO flux and first-order flux between the second and third of four cells.
-fn split_flux(weno: Weno, even: f64, stencil: &[[f64; 5]; 4], axis: usize) -> ([f64; 5], [f64; 5]) {
+/// WENO flux and first-order flux through the face in the middle of six cells.
+fn split_flux(weno: Weno, even: f64, stencil: &Stencil, axis: usize) -> ([f64; 5], [f64; 5]) {
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
     let alpha = speed.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
     let (mut high, mut first) = ([0.0; 5], [0.0; 5]);
     for k in 0..5 {
-        let plus = [0, 1, 2, 3].map(|i| 0.5 * (speed[i] + alpha) * stencil[i][k]);
-        let minus = [3, 2, 1, 0].map(|i| 0.5 * (speed[i] - alpha) * stencil[i][k]);
-        high[k] = reconstruct(weno, even, plus) + reconstruct(weno, even, minus);
-        first[k] = plus[1] + minus[1];
+        let plus = [0, 1, 2, 3, 4].map(|i| 0.5 * (speed[i] + alpha) * stencil[i][k]);
+        let minus = [5, 4, 3, 2, 1].map(|i| 0.5 * (speed[i] - alpha) * stencil[i][k]);
+        let [up, down] = [plus, minus].map(|side| {
+            let [a, b, c, d, e] = side;
+            reconstruct(weno, even, [a, b, c, d, e, e])
+        });
+        high[k] = up + down;
+        first[k] = plus[2] + minus[2];
     }
     (high, first)
 }
 
 /// The same with one velocity of the face: a value from each side of the state itself.
-fn carried_flux(weno: Weno, even: f64, stencil: &[[f64; 5]; 4], carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
+fn carried_flux(weno: Weno, even: f64, stencil: &Stencil, carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
     let (mut high, mut first) = ([0.0; 5], [0.0; 5]);
     let spread = carried.abs().max(alpha);
     let (up, down) = (0.5 * (carried + spread), 0.5 * (carried - spread));
     for k in 0..5 {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|i| stencil[i][k]);
-        high[k] = up * reconstruct(weno, even, [a, b, c, d]) + down * reconstruct(weno, even, [d, c, b, a]);
-        first[k] = up * b + down * c;
+        let row = stencil.map(|u| u[k]);
+        let mut reversed = row;
+        reversed.reverse();
+        high[k] = up * reconstruct(weno, even, row) + down * reconstruct(weno, even, reversed);
+        first[k] = up * row[2] + down * row[3];
     }
     (high, first)
 }
@@ -91,9 +106,18 @@ pub(crate) fn face_flux(
         return None;
     }
     let pick = |by: i32, otherwise: i32| gas.get(at(if readable(by) { by } else { otherwise }));
-    let across = || [pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)];
-    // Next to anything but gas the outer cells of the stencil are copies.
-    let even = |stencil| if readable(-1) && readable(2) { evenness(problem.gamma, stencil, axis) } else { 0.0 };
+    let narrow = |[b, c, d, e]: [[f64; 5]; 4]| [b, b, c, d, e, e];
+    // Next to anything but gas the outer cells of the stencil are copies, and the order is the third.
+    let inside = |by: i32| grid.contains(shift(low, axis, by)) && kind(by) == GAS;
+    let wide = weno.even.is_some() && (-2..=3).all(inside);
+    let across = || {
+        if wide {
+            [-2, -1, 0, 1, 2, 3].map(|by| gas.get(at(by)))
+        } else {
+            narrow([pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)])
+        }
+    };
+    let even = |stencil| if wide { evenness(problem.gamma, stencil, axis) } else { 0.0 };
     if let Some(carrier) = carrier {
         if !readable(0) || !readable(1) {
             return Some(([0.0; 5], [0.0; 5]));
@@ -114,7 +138,7 @@ pub(crate) fn face_flux(
     }
     let (own, other) = if kind(0) == GAS { (0, 1) } else { (1, 0) };
     let value = gas.get(at(own));
-    let stencil = if own == 0 { [pick(-1, 0), value, value, value] } else { [value, value, value, pick(2, 1)] };
+    let stencil = narrow(if own == 0 { [pick(-1, 0), value, value, value] } else { [value, value, value, pick(2, 1)] });
     let (high, first) = split_flux(weno, 0.0, &stencil, axis);
     let blocked = if kind(other) == SOLID { interface.blocked[at(other)] } else { 1.0 };
     let velocity = if kind(other) == SOLID { interface.face_velocity[axis][at(0)] } else { 0.0 };

@@ -77,7 +77,8 @@ pub(crate) enum Shared {
     Single,
 }
 
-/// Squares of relative differences that the reconstruction takes as smooth: where gas is compressed, and elsewhere; None: as there.
+/// Squares of relative differences that the reconstruction takes as smooth: where gas is compressed, and in the fifth-order form
+/// elsewhere; None: the first everywhere.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weno {
     pub(crate) steep: f64,
@@ -142,7 +143,7 @@ impl Default for Numerics {
             shared_volume: false,
             ledger: true,
             limiter: true,
-            weno: Weno { steep: 7e-4, even: Some(2e-4) },
+            weno: Weno { steep: 7e-4, even: Some(1e-6) },
             blending: true,
             elastic_cfl: 0.4,
             max_substeps: 10_000,
