@@ -71,6 +71,8 @@ fn rest_noise_in(
         format!("domain.size=[{}]", list(&format!("{cells}.0"))),
         format!("time.fixed_step={step}"),
         format!("time.until={until}"),
+        "probes=[]".to_owned(),
+        "expect.probes=[]".to_owned(),
     ];
     let setting = Setting { pair: Pair::default(), integrator, cells: 0 };
     let run = session.run("validation/rest_noise.toml", setting, &overrides)?;
