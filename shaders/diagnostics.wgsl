@@ -117,6 +117,7 @@ fn totals_record(@builtin(local_invocation_index) lane: u32) {
         if lane == 0u { history[base + 2u + block] = value; }
     }
     if lane != 0u { return; }
+    history[base + 7u].z = bitcast<f32>(atomicLoad(&control.raised));
     history[base + 10u] = vec4f(history[base + 10u].x, bitcast<vec3f>(vec3u(control.rounds, control.elastic_iterations, control.longest_round)));
     history[base] = vec4f(control.duration, control.residual, bitcast<f32>(control.step), bitcast<f32>(control.iterations));
     history[base + 1u] = vec4f(bitcast<f32>(control.substeps | (control.extra << 12u)), bitcast<f32>(atomicLoad(&control.limited)),

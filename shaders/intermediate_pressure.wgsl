@@ -46,7 +46,8 @@ fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
 // Consistent predictor: conservative advection of E already compresses the gas; the solve must not do it twice. Inside shocks
 // (strong compression) the viscosity that this removes is kept.
 const COMPRESSION_SWITCH = 30.0;
-const LEAST_PREDICTED = 0.1;
+// Share of the pressure before that a solve with ARS starts from at least.
+const LEAST_STARTED = 0.1;
 
 // Difference of the divergence across the open faces of a cluster.
 fn cut_divergence(slot: u32, own: f32) -> f32 {
@@ -102,7 +103,7 @@ fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
     if !PREDICTOR { return p; }
     let change = divergence(c, slot, here) * control.dt / params.spacing;
     let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(change)), 1.0, change >= 0.0);
-    return p * max(LEAST_PREDICTED, 1.0 + smooth_share * change);
+    return p * (1.0 + smooth_share * change);    // never below 0.99 p
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -119,8 +120,14 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         return;
     }
     var p = pressure_of(here);
-    // The start of a second solve is no state of the gas: behind very strong shocks it may lack internal energy.
-    if ARS { p = max(p, LEAST_PREDICTED * pressure_of(Gas(conserved[slot], energy[slot]))); }
+    // The start of a second solve is no state of the gas: behind very strong shocks it may lack internal energy. Every such cell is counted.
+    if ARS {
+        let least = LEAST_STARTED * pressure_of(Gas(conserved[slot], energy[slot]));
+        if p < least {
+            p = least;
+            atomicAdd(&control.raised, 1u);
+        }
+    }
     if here.flow.x <= 0.0 || p <= 0.0 || is_broken(p) {
         atomicMin(&control.fault, (STAGE_GAS_ADVECTION << 27u) | slot);
     }

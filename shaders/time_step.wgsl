@@ -166,6 +166,7 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     control.substep = 0u;
     atomicStore(&control.limited, 0u);
     atomicStore(&control.floored, 0u);
+    atomicStore(&control.raised, 0u);
     atomicStore(&control.clamped, 0u);
     control.limited_before = 0u;
     control.extra = 0u;

@@ -80,6 +80,8 @@ pub struct StepRecord {
     pub limited: u32,
     /// Cells where the energy floor acted.
     pub floored: u32,
+    /// Cells whose pressure had to be raised before one of two solves (`numerics.integrator = "ars222"`).
+    pub raised: u32,
     /// Particles held back at a wall.
     pub clamped: u32,
     /// Probes.
@@ -112,6 +114,7 @@ impl StepRecord {
             pressure: [-extremes[3], extremes[2]],
             gas_speed: gas_speed[0].max(0.0),
             courant: gas_speed[1].max(0.0),
+            raised: gas_speed[2].to_bits(),
             solid: total(solid, solid_heat[0]),
             elastic_energy: solid_heat[1],
             ghost_energy: solid_heat[2],

@@ -14,6 +14,7 @@ struct Control {
     limited: atomic<u32>,       // cells where the flux limiter acted, this step
     limited_before: u32,        // the same when the first advection stage ended
     floored: atomic<u32>,       // cells where the energy floor acted, this step
+    raised: atomic<u32>,        // cells whose pressure was raised before a solve with ARS, this step
     clamped: atomic<u32>,       // particles held back at a wall, this step
     escaped: atomic<u32>,       // particles that left through an open side, since the start
     extra: u32,                 // vertices that carry P, h and Q apart, this step

@@ -192,6 +192,9 @@ impl Check<'_> {
         for (index, flow) in gas.radial_flows.iter().enumerate() {
             self.planar(format!("gas.radial_flows[{index}].center"), flow.center);
         }
+        if !gas.noise_is_possible() {
+            self.add("gas.noise", format!("{} is out of range", gas.noise), "give a share from 0 to 0.5");
+        }
     }
 
     fn names(&mut self) {

@@ -14,6 +14,15 @@ impl Scene {
     /// points; every other cell is exact.
     #[must_use]
     pub fn initial_gas(&self) -> Vec<[f64; 5]> {
+        let mut cells = self.gas_without_noise();
+        if self.gas.noise > 0.0 {
+            let axes = self.domain.axes();
+            cells.par_iter_mut().enumerate().for_each(|(cell, state)| self.gas.disturb(cell, axes, state));
+        }
+        cells
+    }
+
+    fn gas_without_noise(&self) -> Vec<[f64; 5]> {
         let gamma = self.gas.gamma;
         let gas = &self.gas;
         if !(gas.waves.is_empty() && gas.vortices.is_empty() && gas.radial_flows.is_empty()) {

@@ -23,6 +23,7 @@ mod integrator;
 mod load;
 mod mesh;
 mod named;
+mod noise;
 mod polyhedron;
 mod radial_flow;
 mod render;
@@ -173,6 +174,9 @@ pub struct Gas {
     /// Flows towards or away from a point on top of that.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub radial_flows: Vec<RadialFlow>,
+    /// Noise on top of that, as a share of density, pressure and speed of sound.
+    #[serde(default)]
+    pub noise: f64,
 }
 
 fn default_gamma() -> f64 {
@@ -347,6 +351,7 @@ impl Scene {
             && self.gas.waves.is_empty()
             && self.gas.vortices.is_empty()
             && self.gas.radial_flows.is_empty()
+            && self.gas.noise == 0.0
             && self.gravity == [0.0; 3];
         let [region] = &self.gas.regions[..] else { return None };
         let inside = |x: f64| region.shape.distance([x, 0.0, 0.0]) < 0.0;

@@ -262,7 +262,7 @@ fn touch(a: &Shape, b: &Shape) -> bool {
 }
 
 /// A number from -1 to 1 that depends on `number` alone. [Steele, Lea, Flood 2014: splitmix64]
-fn random(number: usize) -> f64 {
+pub(super) fn random(number: usize) -> f64 {
     let mut x = (number as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

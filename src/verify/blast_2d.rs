@@ -1,6 +1,7 @@
 //! Strong cylindrical shocks: a blast wave and gas that runs together. Speed, peak, centre, and whether they are round.
 
 use super::Case;
+use super::plane::asymmetry;
 use super::plot::{Plot, Style};
 use super::row::Limit;
 use super::session::{Run, Session, Setting, Suite};
@@ -89,14 +90,6 @@ const COLD: &str = "single precision leaves a pressure of 1e-6 beside a kinetic 
 
 /// Where Noh's values come from.
 const NOH_SOURCE: &str = "Noh";
-
-/// Largest difference of the density between a cell and its mirror image about the diagonal.
-fn asymmetry(run: &Run) -> f64 {
-    let n = run.scene.domain.cells[0] as usize;
-    let density = |x: usize, y: usize| f64::from(run.snapshot.density[y * n + x]);
-    let differences = (0..n).flat_map(|y| (0..y).map(move |x| (density(x, y) - density(y, x)).abs()));
-    differences.fold(0.0, f64::max)
-}
 
 /// Energy of the whole plane at the start: the domain has a quarter of it.
 fn energy(run: &Run) -> f64 {

@@ -13,6 +13,10 @@ const REFERENCE: &str = "MUSCL-HLLC, 320 per unit";
 /// Pressure at which shocks are looked for.
 const LEVEL: f64 = 4.0;
 
+/// Why the triple point lies too high.
+const TRIPLE_POINT: &str =
+    "the more a method smears, the shorter the stem: 0.7312 by MUSCL-HLLC with 80 cells per unit";
+
 /// The cases of this module.
 pub(super) const CASES: &[Case] = &[Case {
     id: "forward_step",
@@ -38,7 +42,8 @@ fn step(session: &mut Session<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Positions at t = 4. The gates are those for 80 cells per unit; half as many may miss by twice as much.
+/// Positions at t = 4. The gates are those for 80 cells per unit; half as many may miss by twice as much. That of the triple point is the one
+/// of the double Mach reflection.
 fn report(session: &mut Session<'_>, run: &Run) {
     let wide = 80.0 * run.scene.domain.spacing();
     let between = |value: f64, width: f64| Limit::Between(value - wide * width, value + wide * width);
@@ -49,7 +54,8 @@ fn report(session: &mut Session<'_>, run: &Run) {
     let stem = session.check(run, "Mach stem at the roof", first(1.0)).reference(0.5849, REFERENCE);
     stem.pass(between(0.5849, 0.05));
     let height = triple_point(run, first);
-    session.check(run, "height of the upper triple point", height).reference(0.7266, REFERENCE);
+    let row = session.check(run, "height of the upper triple point", height).reference(0.7266, REFERENCE);
+    row.pass(between(0.7266, 0.03)).known(between(0.7266, 0.06), TRIPLE_POINT);
     let surface = Profile::along(run, 0, 0.2 + 0.5 * spacing);
     let met = surface.steepest_rise(PRESSURE, [0.8, 2.0]);
     session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));

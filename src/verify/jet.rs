@@ -33,7 +33,7 @@ fn diamond(session: &mut Session<'_>) -> Result<()> {
         let crossing = report_crossing(session, &run, &axis);
         let spacing = spacing(&cell_starts(&axis));
         let row = session.check(&run, "length of cells 2 to 4", spacing).reference(length, "Prandtl, Pack; weak waves");
-        row.within(0.15).good(Limit::Between(0.9 * length, 1.1 * length));
+        row.within(0.1);
         session.plot(axis_plot(&run, &axis, crossing, length));
     }
     // the first crossing alone with 40 cells across the nozzle

@@ -27,6 +27,7 @@ mod cylinders;
 mod document;
 mod drifting;
 mod driven;
+mod duct;
 mod explosions;
 mod forward_step;
 mod fragments;
@@ -34,6 +35,7 @@ pub mod gasdynamics;
 mod jet;
 mod line_explosion;
 pub mod muscl;
+pub mod muscl_plane;
 mod panel;
 mod pistons;
 mod plane;
@@ -41,6 +43,8 @@ mod plane_flows;
 mod plates;
 mod plot;
 mod profile;
+mod quiet;
+mod riemann_2d;
 mod row;
 mod session;
 mod shells;
@@ -98,7 +102,13 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         cylinders::CASES,
         fragments::CASES,
     ];
-    let gas = lines.into_iter().chain(blasts).chain(streams).chain([plane_flows::CASES, buoyancy::CASES]);
+    let gas = lines.into_iter().chain(blasts).chain(streams).chain([
+        duct::CASES,
+        riemann_2d::CASES,
+        plane_flows::CASES,
+        buoyancy::CASES,
+        quiet::CASES,
+    ]);
     let by_file = gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten();
     let mut cases: Vec<&Case> = by_file.collect();
     let by_file = cases.clone();

@@ -7,9 +7,9 @@ use super::profile::Profile;
 use crate::scene::{Boundary, Scene};
 
 /// Fraction of the explicit time step.
-const COURANT: f64 = 0.4;
+pub(super) const COURANT: f64 = 0.4;
 /// Cells beyond each end.
-const GHOSTS: usize = 2;
+pub(super) const GHOSTS: usize = 2;
 
 /// Density, momentum and energy per volume, or their fluxes.
 type Flow = [f64; 3];
@@ -21,8 +21,8 @@ type Primitive = [f64; 3];
 pub fn solve(scene: &Scene) -> Profile {
     let start = scene.initial_gas().into_iter().map(|cell| [cell[0], cell[1], cell[4]]);
     let walls = [&scene.boundary.x_min, &scene.boundary.x_max].map(|side| *side == Boundary::Wall);
-    let (gamma, spacing) = (scene.gas.gamma, scene.domain.spacing());
-    let mut tube = Tube { gamma, spacing, symmetry: 0, walls, cells: start.collect() };
+    let (gas, spacing) = (IdealGas { gamma: scene.gas.gamma }, scene.domain.spacing());
+    let mut tube = Tube { gas, spacing, symmetry: 0, walls, cells: start.collect() };
     tube.advance(scene.time.until);
     Profile { origin: scene.domain.origin[0], spacing, state: tube.columns() }
 }
@@ -38,13 +38,21 @@ pub fn solve_radial(scene: &Scene, cells: u32) -> Profile {
         [state[0], state[1], state[4]]
     });
     let symmetry = domain.dimension.saturating_sub(1) as i32;
-    let mut tube = Tube { gamma, spacing, symmetry, walls: [true, false], cells: start.collect() };
+    let gas = IdealGas { gamma };
+    let mut tube = Tube { gas, spacing, symmetry, walls: [true, false], cells: start.collect() };
     tube.advance(scene.time.until);
     Profile { origin: 0.0, spacing, state: tube.columns() }
 }
 
+/// What the flux knows of the gas.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct IdealGas {
+    /// Ratio of specific heats.
+    pub gamma: f64,
+}
+
 struct Tube {
-    gamma: f64,
+    gas: IdealGas,
     spacing: f64,
     /// 0 between planes, 1 around a line, 2 around a point: faces grow with this power of the radius.
     symmetry: i32,
@@ -53,11 +61,6 @@ struct Tube {
 }
 
 impl Tube {
-    fn primitive(&self, &[density, momentum, energy]: &Flow) -> Primitive {
-        let velocity = momentum / density;
-        [density, velocity, (self.gamma - 1.0) * (energy - 0.5 * momentum * velocity)]
-    }
-
     fn advance(&mut self, until: f64) {
         let mut time = 0.0;
         while time < until {
@@ -69,14 +72,14 @@ impl Tube {
 
     /// Density, velocity and pressure of all cells.
     fn columns(&self) -> [Vec<f64>; 3] {
-        let cells = self.cells.iter().map(|cell| self.primitive(cell)).collect::<Vec<_>>();
+        let cells = self.cells.iter().map(|cell| self.gas.primitive(cell)).collect::<Vec<_>>();
         [0, 1, 2].map(|k| cells.iter().map(|cell| cell[k]).collect())
     }
 
     fn time_step(&self) -> f64 {
         let speed = |cell: &Flow| {
-            let [density, velocity, pressure] = self.primitive(cell);
-            velocity.abs() + (self.gamma * pressure / density).sqrt()
+            let [density, velocity, pressure] = self.gas.primitive(cell);
+            velocity.abs() + (self.gas.gamma * pressure / density).sqrt()
         };
         COURANT * self.spacing / self.cells.iter().map(speed).fold(0.0, f64::max)
     }
@@ -97,7 +100,7 @@ impl Tube {
         let face = |k: usize| {
             let left = std::array::from_fn(|i| states[k][i] + 0.5 * slopes[k - 1][i]);
             let right = std::array::from_fn(|i| states[k + 1][i] - 0.5 * slopes[k][i]);
-            self.hllc(left, right)
+            self.gas.hllc(left, right)
         };
         let fluxes: Vec<Flow> = (1..states.len() - 2).map(face).collect();
         let pressures: Vec<f64> = states.iter().skip(GHOSTS).map(|state| state[2]).collect();
@@ -115,7 +118,7 @@ impl Tube {
 
     /// The cells with those beyond the ends.
     fn padded(&self) -> Vec<Primitive> {
-        let inner = self.cells.iter().map(|cell| self.primitive(cell)).collect::<Vec<_>>();
+        let inner = self.cells.iter().map(|cell| self.gas.primitive(cell)).collect::<Vec<_>>();
         let ghost = |wall: bool, depth: usize, from_low: bool| {
             let at = |k: usize| if from_low { inner[k] } else { inner[inner.len() - 1 - k] };
             if wall { [at(depth)[0], -at(depth)[1], at(depth)[2]] } else { at(0) }
@@ -124,9 +127,16 @@ impl Tube {
         let high = (0..GHOSTS).map(|depth| ghost(self.walls[1], depth, false));
         low.chain(inner.iter().copied()).chain(high).collect()
     }
+}
 
-    /// [Toro, section 10.4, with the wave speeds of 10.5.1 by Davis and Einfeldt]
-    fn hllc(&self, left: Primitive, right: Primitive) -> Flow {
+impl IdealGas {
+    fn primitive(&self, &[density, momentum, energy]: &Flow) -> Primitive {
+        let velocity = momentum / density;
+        [density, velocity, (self.gamma - 1.0) * (energy - 0.5 * momentum * velocity)]
+    }
+
+    /// Flux between two states. [Toro, section 10.4, with the wave speeds of 10.5.1 by Davis and Einfeldt]
+    pub(super) fn hllc(&self, left: Primitive, right: Primitive) -> Flow {
         let sound = |state: Primitive| (self.gamma * state[2] / state[0]).sqrt();
         let (roots, sounds) = ([left[0].sqrt(), right[0].sqrt()], [sound(left), sound(right)]);
         let mean = |a: f64, b: f64| (roots[0] * a + roots[1] * b) / (roots[0] + roots[1]);
@@ -170,7 +180,7 @@ impl Tube {
 }
 
 /// Monotonised central differences. [van Leer 1977]
-fn limited_slope(states: &[Primitive]) -> Primitive {
+pub(super) fn limited_slope<const N: usize>(states: &[[f64; N]]) -> [f64; N] {
     std::array::from_fn(|k| {
         let (low, high) = (states[1][k] - states[0][k], states[2][k] - states[1][k]);
         if low * high <= 0.0 {

@@ -80,3 +80,12 @@ pub(super) fn upper_crossings(run: &Run, quantity: usize, level: f64, [low, high
     });
     found.collect()
 }
+
+/// Largest difference of the density between a cell and its mirror image about the diagonal.
+#[must_use]
+pub(super) fn asymmetry(run: &Run) -> f64 {
+    let n = run.scene.domain.cells[0] as usize;
+    let density = |x: usize, y: usize| f64::from(run.snapshot.density[y * n + x]);
+    let differences = (0..n).flat_map(|y| (0..y).map(move |x| (density(x, y) - density(y, x)).abs()));
+    differences.fold(0.0, f64::max)
+}

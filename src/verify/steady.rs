@@ -176,7 +176,8 @@ fn reflection(session: &mut Session<'_>) -> Result<()> {
     let Some(reflected) = ObliqueShock::weak(AIR, incident.mach, incident.deflection) else { return Ok(()) };
     let before = incident.pressure / AIR;
     let exact = before * reflected.pressure;
-    for run in runs(session, "validation/regular_reflection.toml", [120, 240])? {
+    for cells in [80, 160, 320] {
+        let run = session.run("validation/regular_reflection.toml", Setting::standard(cells), &[])?;
         let wall = Profile::along(&run, 0, 0.0);
         let pressure = wall.mean(PRESSURE, [2.6, 3.8]);
         session.check(&run, "pressure behind", pressure).reference(exact, OBLIQUE).within(0.01);

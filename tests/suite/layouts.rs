@@ -95,6 +95,7 @@ fn control() {
             limited,
             limited_before,
             floored,
+            raised,
             clamped,
             escaped,
             extra,

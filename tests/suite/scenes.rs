@@ -61,7 +61,13 @@ scenes! {
     sphere: "validation/sphere.toml", "domain.cells=[9, 14, 14]", "expect.peak_density=[4.0, 7.0]";
     cylinder: "validation/cylinder.toml", "domain.cells=[15, 30]", "time.until=4.0", "expect.peak_density=[4.5, 7.0]";
     mach_diamond: "validation/mach_diamond.toml", "domain.cells=[60, 10]", "time.until=4.0";
+    subsonic_duct: "validation/subsonic_duct.toml";
+    subsonic_duct_with_fixed_inlet: "validation/subsonic_duct.toml", "variant=fixed";
     riemann_2d: "validation/riemann_2d.toml", "domain.cells=[50, 50]";
+    riemann_2d_4: "validation/riemann_2d.toml", "variant=configuration_4", "domain.cells=[50, 50]";
+    riemann_2d_6: "validation/riemann_2d.toml", "variant=configuration_6", "domain.cells=[50, 50]";
+    riemann_2d_12: "validation/riemann_2d.toml", "variant=configuration_12", "domain.cells=[50, 50]";
+    rest_noise: "validation/rest_noise.toml", "domain.cells=[16, 16]", "domain.size=[16.0, 16.0]", "probes[0].position=[8.0, 8.0]";
     double_mach_reflection: "validation/double_mach_reflection.toml", "domain.cells=[52, 16]", "expect.peak_density=[10.0, 33.0]";
     isentropic_vortex: "validation/isentropic_vortex.toml", "domain.cells=[32, 32]", "time.until=2.0";
     hydrostatic_column: "validation/hydrostatic_column.toml", "time.until=20.0";

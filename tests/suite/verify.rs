@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use brisance::scene::Scene;
-use brisance::verify::{self, Head, Limit, Plot, Profile, Row, Style, Suite, Verdict, muscl};
+use brisance::verify::{self, Head, Limit, Plot, Profile, Row, Style, Suite, Verdict, muscl, muscl_plane};
 
 use crate::common::gpu_or_skip;
 
@@ -164,6 +164,29 @@ fn the_independent_solver_keeps_mass_between_walls() {
     assert!((mass - 1.0).abs() < 1e-12, "{mass}");
     let (peak, place) = profile.peak(0, [0.0, 1.0]);
     assert!((5.0..6.6).contains(&peak) && (0.75..0.79).contains(&place), "{peak} at {place}");
+}
+
+#[test]
+fn the_solver_in_the_plane_is_the_one_along_each_axis() {
+    let [_, y] = [0, 1].map(|axis| {
+        let (cells, normal) = [([100, 4], [1.0, 0.0]), ([4, 100], [0.0, 1.0])][axis];
+        let size = cells.map(|n| f64::from(n) / 100.0);
+        let text = format!(
+            "title = \"tube\"\n[domain]\ndimension = 2\ncells = {cells:?}\nsize = {size:?}\n\
+             [gas]\nambient = {{ density = 0.125, pressure = 0.1, velocity = {:?} }}\n\
+             [[gas.regions]]\nshape = {{ half_space = {{ point = [0.5, 0.5], normal = {normal:?} }} }}\n\
+             density = 1.0\npressure = 1.0\n[time]\nuntil = 0.15\n",
+            [0.0, 0.0],
+        );
+        let density = muscl_plane::solve(&Scene::parse(&text, "tube.toml", &[]).unwrap());
+        let tube = muscl::solve(&Scene::shipped("gas/sod.toml", &[]).unwrap().with_resolution(100).unwrap());
+        let error = (0..100).map(|k| (density[if axis == 0 { k } else { 4 * k }] - tube.state[0][k]).abs());
+        let error = error.fold(0.0, f64::max);
+        // steps are the same, so that only rounding differs
+        assert!(error < 1e-12, "axis {axis}: {error:e}");
+        density
+    });
+    assert!(y.chunks(4).all(|row| row.iter().all(|value| (value - row[0]).abs() < 1e-12)));
 }
 
 #[test]

@@ -1,0 +1,53 @@
+//! Noise on the gas at the start.
+
+use super::sample::random;
+use super::{Gas, GasState};
+
+/// Above this share a state might lose its pressure.
+const MOST: f64 = 0.5;
+
+impl Gas {
+    /// Whether the amplitude of the noise leaves something of every state.
+    pub(super) fn noise_is_possible(&self) -> bool {
+        (0.0..=MOST).contains(&self.noise)
+    }
+
+    /// Puts noise on density, momentum and energy per volume of a cell: shares of density and pressure and, along `axes` axes, of the
+    /// speed of sound. The same cell always gets the same noise.
+    pub(super) fn disturb(&self, cell: usize, axes: usize, state: &mut [f64; 5]) {
+        let share = |entry: usize| self.noise * random(5 * cell + entry);
+        let [density, _, _, _, energy] = *state;
+        let mut velocity = [1, 2, 3].map(|k| state[k] / density);
+        let kinetic = 0.5 * density * velocity.iter().map(|v| v * v).sum::<f64>();
+        let pressure = (self.gamma - 1.0) * (energy - kinetic);
+        let sound = (self.gamma * pressure / density).sqrt();
+        for (entry, v) in (2..).zip(&mut velocity[..axes]) {
+            *v += sound * share(entry);
+        }
+        let (density, pressure) = (density * (1.0 + share(0)), pressure * (1.0 + share(1)));
+        *state = GasState { density, velocity, pressure }.conserved(self.gamma);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::Scene;
+
+    #[test]
+    fn noise_has_its_size_and_no_bias() {
+        let size = 1e-3;
+        let scene = Scene::shipped("validation/rest_noise.toml", &[format!("gas.noise={size}")]).unwrap();
+        let cells = scene.initial_gas();
+        assert_eq!(cells, scene.initial_gas());
+        let speed = 1.4_f64.sqrt();
+        let shares = |k: usize, scale: f64, rest: f64| cells.iter().map(move |cell| (cell[k] / scale - rest) / size);
+        for (k, scale, rest) in [(0, 1.0, 1.0), (1, speed, 0.0), (2, speed, 0.0), (4, 2.5, 1.0)] {
+            let most = shares(k, scale, rest).fold(0.0, |most: f64, share| most.max(share.abs()));
+            let mean = shares(k, scale, rest).sum::<f64>() / cells.len() as f64;
+            // the mean of n even numbers from -1 to 1 deviates by 0.58 / sqrt n
+            assert!(most > 0.99 && most < 1.01 && mean.abs() < 3.0 / (cells.len() as f64).sqrt(), "{k}: {most} {mean}");
+        }
+        assert!(cells.iter().all(|cell| cell[3] == 0.0), "noise along an axis that is not there");
+        assert!(Scene::shipped("validation/rest_noise.toml", &["gas.noise=0.6".to_owned()]).is_err());
+    }
+}
