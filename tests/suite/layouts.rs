@@ -110,6 +110,7 @@ fn control() {
             elastic_iterations,
             longest_round,
             imbalance,
+            borrowed,
         ]
     );
 }
@@ -151,6 +152,7 @@ fn conjugate_gradients() {
             size,
             most,
             levels,
+            joined,
             level_groups,
         ]
     );
