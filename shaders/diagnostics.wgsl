@@ -7,6 +7,7 @@
 #include "shared/reduce4.wgsl"
 #include "shared/material.wgsl"
 #include "shared/cut.wgsl"
+#include "shared/books.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -42,7 +43,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
         let kind = kind_of(cells[slot]);
         let u = Gas(conserved[slot], energy[slot]);
-        if kind == GAS || kind == SOLID {
+        if !RING_BOOKS && (kind == GAS || kind == SOLID) {
             owed += owed_flow[slot];
             heat.y += owed_energy[slot];
         }
@@ -56,10 +57,17 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         } else if kind == SOLID {
             owed += volume * u.flow;
             heat.y += volume * u.energy;
+        } else if RING_BOOKS {
+            crossed += volume * u.flow;
+            heat.z += volume * u.energy;
         } else {
             crossed += volume * (owed_flow[slot] + u.flow);
             heat.z += volume * (owed_energy[slot] + u.energy);
         }
+    }
+    for (var k = thread_index(group, groups, lane); RING_BOOKS && k < ring_count(); k += groups.x * groups.y * WORKGROUP) {
+        crossed += volume * owed_flow[k];
+        heat.z += volume * owed_energy[k];
     }
     let at = thread_index(group, groups, 0u) / WORKGROUP;
     put(0u, at, lane, workgroup_sum4(lane, gas));
@@ -108,6 +116,12 @@ fn block_total(block: u32, lane: u32, largest: bool) -> vec4f {
     return workgroup_sum4(lane, value);
 }
 
+// One of the numbers in control.borrowed.
+fn borrowed(number: u32) -> f32 {
+    let high = bitcast<i32>(atomicLoad(&control.borrowed[2u * number + 1u]));
+    return f32(high) + f32(atomicLoad(&control.borrowed[2u * number])) / 4294967296.0;
+}
+
 // One workgroup: the record of the step that has just ended.
 @compute @workgroup_size(WORKGROUP)
 fn totals_record(@builtin(local_invocation_index) lane: u32) {
@@ -118,6 +132,9 @@ fn totals_record(@builtin(local_invocation_index) lane: u32) {
     }
     if lane != 0u { return; }
     history[base + 7u].z = bitcast<f32>(atomicLoad(&control.raised));
+    let unit = borrowed_unit();
+    history[base + 3u] += unit.x * vec4f(0.0, borrowed(0u), borrowed(1u), borrowed(2u));
+    history[base + 5u].y += unit.y * borrowed(3u);
     history[base + 10u] = vec4f(history[base + 10u].x, bitcast<vec3f>(vec3u(control.rounds, control.elastic_iterations, control.longest_round)));
     history[base] = vec4f(control.duration, control.residual, bitcast<f32>(control.step), bitcast<f32>(control.iterations));
     history[base + 1u] = vec4f(bitcast<f32>(control.substeps | (control.extra << 12u)), bitcast<f32>(atomicLoad(&control.limited)),

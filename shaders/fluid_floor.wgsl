@@ -9,6 +9,7 @@
 #include "shared/control.wgsl"
 #include "shared/ars.wgsl"
 #include "shared/cut.wgsl"
+#include "shared/books.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -27,12 +28,39 @@ const RESOLVED_SHARE = 2e-5;
 // step. Thousands of equal parts, as those of an inlet, would else be cut short by the same amount each. (A driver that reorders sums
 // would leave nothing; the books then wear as without.)
 fn keep_crossed(slot: u32) {
-    let flow = owed_flow[slot];
-    let total = owed_energy[slot];
-    owed_flow[slot] = flow + conserved[slot];
-    owed_energy[slot] = total + energy[slot];
-    conserved[slot] -= owed_flow[slot] - flow;
-    energy[slot] -= owed_energy[slot] - total;
+    let book = book_of(slot);
+    let flow = owed_flow[book];
+    let total = owed_energy[book];
+    owed_flow[book] = flow + conserved[slot];
+    owed_energy[book] = total + energy[slot];
+    conserved[slot] -= owed_flow[book] - flow;
+    energy[slot] -= owed_energy[book] - total;
+}
+
+// Adds to one of the numbers in control.borrowed.
+fn borrow(number: u32, value: f32) {
+    let size = abs(value);
+    let whole = u32(floor(size));
+    let part = u32(fract(size) * 4294967296.0);
+    if value < 0.0 {
+        let old = atomicSub(&control.borrowed[2u * number], part);
+        atomicSub(&control.borrowed[2u * number + 1u], whole + u32(old < part));
+    } else {
+        let old = atomicAdd(&control.borrowed[2u * number], part);
+        atomicAdd(&control.borrowed[2u * number + 1u], whole + u32(old > ~part));
+    }
+}
+
+// What a gas cell has lost.
+fn book_loss(slot: u32, momentum: vec3f, heat: f32) {
+    if !RING_BOOKS {
+        owed_flow[slot] += vec4f(0.0, momentum);
+        owed_energy[slot] += heat;
+        return;
+    }
+    let unit = borrowed_unit();
+    for (var a = 0u; a < DIM; a++) { borrow(a, momentum[a] / unit.x); }
+    borrow(3u, heat / unit.y);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -44,7 +72,7 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     // Between two solves of a step the second still builds upon what the first collected.
     if (kind == GHOST || kind == WALL) && !(ARS && control.stage == 0u) { keep_crossed(slot); }
     if kind != GAS { return; }
-    var flow = conserved[slot];
+    let flow = conserved[slot];
     let total = energy[slot];
     if is_broken(total) || is_broken(flow.x) || flow.x <= 0.0 {
         atomicMin(&control.fault, (STAGE_FLUID_UPDATE << 27u) | slot);
@@ -58,13 +86,8 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     // What the first of two solves loses counts more than once in the second [shared/ars.wgsl].
     let booked = select(1.0, 1.0 + ARS_KEPT, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
     atomicAdd(&control.floored, 1u);
-    if total < least {
-        energy[slot] = least;
-        if LEDGER { owed_energy[slot] -= (least - total) * booked; }
-        flow = vec4f(flow.x, vec3f(0.0));
-    } else {
-        flow = vec4f(flow.x, flow.yzw * sqrt((total - least) / kinetic));
-    }
-    if LEDGER { owed_flow[slot] += (conserved[slot] - flow) * booked; }
-    conserved[slot] = flow;
+    let left = flow.yzw * select(0.0, sqrt((total - least) / kinetic), total > least);
+    if LEDGER { book_loss(slot, (flow.yzw - left) * booked, min(total - least, 0.0) * booked); }
+    energy[slot] = max(total, least);
+    conserved[slot] = vec4f(flow.x, left);
 }

@@ -1,6 +1,9 @@
 // The vector kernels of the conjugate gradient method with a diagonal preconditioner. All scalars stay on the device; a zero
-// entry in pcg_extents ends the iteration. The solution is a step behind, so that the kernel which reads the direction anyway takes it
-// along: what has converged is solution + alpha direction. [Saad 2003, algorithm 9.1]
+// entry in pcg_extents ends the iteration. [Saad 2003, algorithm 9.1]
+// Two forms. Apart: residual, then direction; between them comes what a preconditioner adds to the diagonal. The solution is a step
+// behind, so that the kernel which reads the direction anyway takes it along: what has converged is solution + alpha direction.
+// Joined, where the diagonal is all: the operator leaves q . D^-1 q beside p . q, so that beta is known with alpha and one kernel
+// takes everything along; r . z for step length and tolerance is still summed from the residual itself. [Meurant 1987]
 #include "shared/thread.wgsl"
 #include "shared/reduce4.wgsl"
 
@@ -25,6 +28,7 @@ struct Pcg {
     size: f32,              // r . D^-1 r, and of the block r . z: what the tolerance looks at, levels or not
     most: f32,              // a solve that begins with a larger size is not worth it: it ends with nothing done
     levels: u32,            // coarse levels in use
+    joined: u32,            // 1 where the operator leaves q . D^-1 q and no block has a preconditioner of its own
     level_groups: array<u32, PCG_LEVELS>,   // groups, at most as many, of the kernels of each level, the finest first; 0 without
 }
 
@@ -37,10 +41,15 @@ struct Pcg {
 @group(0) @binding(7) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> pcg_extents: array<vec4u>;
 
+fn takes_joined() -> bool { return pcg.joined != 0u && pcg.levels == 0u; }
+
 fn open_iteration(on: bool) {
     let keep = u32(on);
+    let joined = keep * u32(takes_joined());
     pcg_extents[PCG_SLOTS] = vec4u(pcg.groups_wide, pcg.groups_high, 1u, 0u) * keep;
     pcg_extents[PCG_PARTIAL] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
+    pcg_extents[PCG_APART] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * (keep - joined);
+    pcg_extents[PCG_JOINED] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * joined;
     pcg_extents[PCG_SINGLE] = vec4u(keep);
     pcg_extents[PCG_LISTED] = vec4u(pcg.listed_wide, pcg.listed_high, 1u, 0u) * keep;
     pcg_extents[PCG_BLOCK] = vec4u(pcg.groups_block, 1u, 1u, 0u) * keep;
@@ -95,7 +104,11 @@ fn decide() {
 @compute @workgroup_size(WORKGROUP)
 fn pcg_alpha(@builtin(local_invocation_index) lane: u32) {
     let sum = total(lane);
-    if lane == 0u { pcg.alpha = select(0.0, pcg.rho / sum.x, sum.x > 0.0); }
+    if lane != 0u { return; }
+    pcg.alpha = select(0.0, pcg.rho / sum.x, sum.x > 0.0);
+    // Joined: the new r . z is alpha^2 q . D^-1 q - rho, for z and q meet as p and q do. Sums of single precision make an error of
+    // 1e-7 in it, which matters as little as the old direction does then.
+    pcg.beta = max(pcg.alpha * sum.y / sum.x - 1.0, 0.0);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -118,7 +131,8 @@ fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
     let sum = total(lane);
     if lane != 0u { return; }
     let rho = sum.x + sum.z;
-    pcg.beta = select(0.0, rho / pcg.rho, pcg.rho > 0.0);
+    if takes_joined() { pcg.alpha = 0.0; } // the solution has it
+    else { pcg.beta = select(0.0, rho / pcg.rho, pcg.rho > 0.0); }
     pcg.size = sum.x;
     pcg.rho = rho;
     pcg.iterations += 1u;
@@ -135,4 +149,24 @@ fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         solution[i] += alpha * step;
         direction[i] = inverse_diagonal[i] * residual[i] + beta * step;
     }
+}
+
+// Both at once, joined.
+@compute @workgroup_size(WORKGROUP)
+fn pcg_step(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+            @builtin(local_invocation_index) lane: u32) {
+    let alpha = pcg.alpha;
+    let beta = pcg.beta;
+    var sum = vec4f(0.0);
+    for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
+        let step = direction[i];
+        let r = residual[i] - alpha * product[i];
+        let z = inverse_diagonal[i] * r;
+        solution[i] += alpha * step;
+        residual[i] = r;
+        direction[i] = z + beta * step;
+        sum.x += r * z;
+    }
+    let part = workgroup_sum4(lane, sum);
+    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = part; }
 }

@@ -1,7 +1,7 @@
 // coupled_solve, B1B0 deep inside the gas: the whole operator of a vertex at once, forces and their transpose, without storing
 // node velocities. A node between the vertices u gives its vertex v
 //   (C^T M^-1 C x)_v = 1 / (M 4^(DIM-1)) sum over u of (axes on which u and v lie on the same side - axes on which not) x_u.
-// Reads x, inverse node masses (last third of energy), stiffness. Writes right-hand side and diagonal, or product.
+// Reads x, inverse node masses (last third of energy), stiffness, diagonal. Writes right-hand side and diagonal, or product.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -82,19 +82,25 @@ fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     inverse_diagonal[slot] = 1.0 / (stiffness[slot] + scale * scale * square * of_pressure.y);
 }
 
-// y = S^-1 x + dt^2 C^T M^-1 C x; adds to the partial sums of x . y that the listed form has left.
+// y = S^-1 x + dt^2 C^T M^-1 C x; adds to the partial sums of x . y that the listed form has left. Without bodies also those of
+// y . D^-1 y, of the listed vertices, too: they have their y by now.
 @compute @workgroup_size(WORKGROUP)
 fn interior_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                      @builtin(local_invocation_index) lane: u32) {
     let scale = control.dt * face_area();
     var product = 0.0;
+    var image = 0.0;
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
-        if !has(cells[slot], INTERIOR) { continue; }
+        if !has(cells[slot], INTERIOR) {
+            if !SOLIDS { image += y[slot] * y[slot] * inverse_diagonal[slot]; }
+            continue;
+        }
         let own = x[slot];
         let value = stiffness[slot] * own + scale * scale * operator_at(slot, own).x;
         y[slot] = value;
         product += own * value;
+        if !SOLIDS { image += value * value * inverse_diagonal[slot]; }
     }
-    let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
+    let sum = workgroup_sum4(lane, vec4f(product, image, 0.0, 0.0));
     if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }
 }

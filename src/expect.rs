@@ -46,18 +46,27 @@ impl Budget {
         let cells = readback::read(gpu, &state.interface.cells)?;
         let owed = readback::read(gpu, &state.gas.owed_flow)?;
         let owed_energy = readback::read(gpu, &state.gas.owed_energy)?;
+        let mut books = owed.iter().zip(&owed_energy);
+        let everywhere = owed.len() == cells.len();
         let mut budget = Self { energy: stored, ..Self::default() };
         for (slot, &word) in cells.iter().enumerate() {
             let inside = matches!((word & u32::from(kind::MASK)) as u8, kind::GAS | kind::SOLID);
             // What has crossed the boundary is kept per volume, like the gas; debts are not.
             let share = if inside { 1.0 } else { volume };
-            let mass = share * f64::from(owed[slot][0]) + volume * f64::from(flow[slot][0]);
+            let book = if everywhere || !inside { books.next() } else { None };
+            let (owed, owed_energy) = book.map_or(([0.0; 4], 0.0), |(flow, energy)| (*flow, *energy));
+            let mass = share * f64::from(owed[0]) + volume * f64::from(flow[slot][0]);
             budget.gas_mass += if inside { mass } else { 0.0 };
             budget.gas_mass_with_crossed += mass;
-            budget.energy += share * f64::from(owed_energy[slot]) + volume * f64::from(energy[slot]);
+            budget.energy += share * f64::from(owed_energy) + volume * f64::from(energy[slot]);
             for (axis, sum) in budget.momentum.iter_mut().enumerate() {
-                *sum += share * f64::from(owed[slot][axis + 1]) + volume * f64::from(flow[slot][axis + 1]);
+                *sum += share * f64::from(owed[axis + 1]) + volume * f64::from(flow[slot][axis + 1]);
             }
+        }
+        let borrowed = simulation.borrowed()?;
+        budget.energy += borrowed[3];
+        for (sum, borrowed) in budget.momentum.iter_mut().zip(borrowed) {
+            *sum += borrowed;
         }
         budget.add_solids(&simulation.snapshot()?, scene);
         let [x, y, z, work] = simulation.given();

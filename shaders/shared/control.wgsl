@@ -30,6 +30,8 @@ struct Control {
     elastic_iterations: u32,    // of all rounds, this step
     longest_round: u32,         // iterations of the longest one
     imbalance: f32,             // r . D^-1 r at the start of this round
+    borrowed: array<atomic<u32>, 8>,    // what floors took from gas without a place of its own [shared/books.wgsl]: momentum, energy, each
+                                        // a number of 64 bits, the low half first, in 2^-32 of the unit: integers, so order does not matter
 }
 
 // True for NaN and infinities; comparisons alone do not find a NaN on every driver.

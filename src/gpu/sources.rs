@@ -50,6 +50,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "reduce.wgsl",
     "scan.wgsl",
     "shared/ars.wgsl",
+    "shared/books.wgsl",
     "shared/boundary.wgsl",
     "shared/bspline.wgsl",
     "shared/carrier.wgsl",

@@ -2,8 +2,8 @@
 //! all scalars on the device.
 //!
 //! The operator is given as dispatches that turn `direction` into `product` and leave the partial sums of their dot product
-//! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. The solution is a step behind, so that
-//! the kernel which reads the direction anyway takes it along. [Saad 2003, algorithm 9.1]
+//! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. [Saad 2003, algorithm 9.1]
+//! An operator that leaves [`Dots::Both`] lets an iteration without block and levels do with one kernel besides it.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -13,20 +13,23 @@ use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP,
 /// WGSL constants of this method.
 const SOURCE: &str = "const PCG_RUNNING = 0u;\nconst PCG_CONVERGED = 1u;\nconst PCG_STALLED = 2u;\n\
                       const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\nconst PCG_LISTED = 3u;\n\
-                      const PCG_FRONTIER = 4u;\nconst PCG_BLOCK = 5u;\n\
-                      const PCG_LEVEL = 6u;\nconst PCG_LEVELS = 12u;\n";
+                      const PCG_FRONTIER = 4u;\nconst PCG_BLOCK = 5u;\nconst PCG_APART = 6u;\nconst PCG_JOINED = 7u;\n\
+                      const PCG_LEVEL = 8u;\nconst PCG_LEVELS = 12u;\n";
 
 /// Levels at most, the finest included.
 pub const LEVELS: usize = 12;
+/// Entries of residual and direction, one after the other or at once.
+const APART: u64 = 6;
+const JOINED: u64 = 7;
 /// Entry of the finest level in the group counts of an iteration.
-const LEVEL: u64 = 6;
+const LEVEL: u64 = 8;
 /// Numbers of the group counts of an iteration.
 pub(crate) const EXTENTS: usize = 4 * (LEVEL as usize + LEVELS);
 
 /// The vectors of one system.
 #[derive(Debug)]
 pub struct PcgVectors {
-    /// The solution, from zero, a step behind: add [`PcgControl::alpha`] times the direction.
+    /// The solution, from zero, where it is a step behind: add [`PcgControl::alpha`] times the direction.
     pub solution: Buffer<f32>,
     /// Right-hand side at the start, residual after.
     pub residual: Buffer<f32>,
@@ -98,6 +101,8 @@ pub struct PcgControl {
     pub most: f32,
     /// Coarse levels in use.
     pub levels: u32,
+    /// 1 for [`Dots::Both`].
+    pub joined: u32,
     /// Groups, at most as many as leave partial sums, of the kernels of each of [`Levels`], the finest first; 0 without.
     pub level_groups: [u32; LEVELS],
 }
@@ -114,6 +119,17 @@ pub struct Pcg {
     update: Bound,
     beta: Bound,
     direction: Bound,
+    /// Update and direction at once, for [`Dots::Both`].
+    step: Option<Bound>,
+}
+
+/// What an operator leaves in `partials`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dots {
+    /// direction . product, in the first component.
+    Product,
+    /// In the second component product . D^-1 product, too; such a solve has no [`Block`].
+    Both,
 }
 
 /// A block of unknowns with a preconditioner of its own; their inverse diagonal is 0. The caller sets
@@ -173,7 +189,7 @@ impl Pcg {
         gpu.queue.write_buffer(self.control.raw(), place, &tolerance.to_ne_bytes());
     }
 
-    /// Prepares a system of `length` unknowns whose operator runs one thread per slot of `slots`, with
+    /// Prepares a system of `length` unknowns whose operator leaves `dots` and runs one thread per slot of `slots`, with
     /// `groups` groups in the kernels that leave partial sums.
     ///
     /// # Errors
@@ -185,6 +201,7 @@ impl Pcg {
         slots: usize,
         groups: u32,
         limits: (f32, u32),
+        dots: Dots,
     ) -> Result<Self> {
         let length = vectors.solution.len();
         let control = Buffer::new(gpu, "pcg", 1)?;
@@ -198,6 +215,7 @@ impl Pcg {
             groups_partial: groups,
             outcome: 1,
             most: f32::MAX,
+            joined: u32::from(dots == Dots::Both),
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
@@ -224,6 +242,7 @@ impl Pcg {
             update: bound("pcg_update")?,
             beta: bound("pcg_beta")?,
             direction: bound("pcg_direction")?,
+            step: (dots == Dots::Both).then(|| bound("pcg_step")).transpose()?,
             control,
             extents,
         })
@@ -261,13 +280,21 @@ impl Pcg {
             pass.dispatch(kernel, &extent(*width as u64));
         }
         pass.dispatch(&self.alpha, &extent(2));
-        pass.dispatch(&self.update, &extent(1));
+        if let Some(step) = &self.step {
+            pass.dispatch(step, &extent(JOINED));
+        }
+        let apart = self.step.is_none() || levels.opened.is_some();
+        if apart {
+            pass.dispatch(&self.update, &extent(APART));
+        }
         for term in &block.terms {
             pass.dispatch(term, &extent(5));
         }
         levels.record_down(pass, &self.extents, LEVEL);
         pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
-        pass.dispatch(&self.direction, &extent(1));
+        if apart {
+            pass.dispatch(&self.direction, &extent(APART));
+        }
         if let Some(direction) = block.direction {
             pass.dispatch(direction, &extent(5));
         }

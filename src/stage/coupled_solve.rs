@@ -9,7 +9,7 @@ use super::time_step::slots;
 use super::{Parts, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::numerics::{Block, Levels, Pcg, Width};
+use crate::numerics::{Block, Dots, Levels, Pcg, Width};
 use crate::scene::{Scene, SolidUpdate};
 use crate::state::State;
 use crate::state::constants::Entry;
@@ -79,7 +79,10 @@ impl CoupledSolve {
     pub fn new(parts: Parts<'_>, scene: &Scene) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let limits = (state.params.tolerance, state.params.max_iterations);
-        let pcg = Pcg::new(gpu, &state.pcg, &state.partials, state.grid.slots(), state.params.groups, limits)?;
+        let (slots, groups) = (state.grid.slots(), state.params.groups);
+        // Interface pressures have a preconditioner of their own, and the B2B1 operator has no room for another buffer.
+        let dots = if state.has_solids() || state.is_quadratic() { Dots::Product } else { Dots::Both };
+        let pcg = Pcg::new(gpu, &state.pcg, &state.partials, slots, groups, limits, dots)?;
         let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
         let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
         let solid = |shader: &str, entries: &[&str]| -> Result<Vec<Bound>> {

@@ -5,7 +5,7 @@ use super::p2g::Force;
 use super::{Parts, Transfer, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
-use crate::numerics::{Block, Levels, Pcg, PcgVectors, Width};
+use crate::numerics::{Block, Dots, Levels, Pcg, PcgVectors, Width};
 use crate::scene::{Elasticity, Scene};
 use crate::state::State;
 use crate::state::constants::Entry;
@@ -44,7 +44,8 @@ impl ElasticSolve {
             return Ok(None);
         };
         let limits = (scene.numerics.elastic_tolerance as f32, MAX_ITERATIONS);
-        let pcg = Pcg::new(gpu, &own.vectors, &state.partials, state.grid.slots(), state.params.groups, limits)?;
+        let (slots, groups) = (state.grid.slots(), state.params.groups);
+        let pcg = Pcg::new(gpu, &own.vectors, &state.partials, slots, groups, limits, Dots::Product)?;
         let PcgVectors { solution, residual, direction, product, inverse_diagonal } = &own.vectors;
         let renamed = [
             ("solution", solution.raw()),

@@ -17,6 +17,8 @@ pub struct Traffic {
     pub slot_with_solids: u32,
     /// Bytes per slot that the consistent face velocity adds.
     pub slot_with_carrier: u32,
+    /// Bytes per slot that the element pair B2B1 adds.
+    pub slot_with_quadratic: u32,
     /// Bytes per particle.
     pub particle: u32,
 }
@@ -33,16 +35,20 @@ pub enum Per {
 }
 
 const fn row(stage: &'static str, per: Per, slot: u32, slot_with_solids: u32, particle: u32) -> Traffic {
-    Traffic { stage, per, slot, slot_with_solids, slot_with_carrier: 0, particle }
+    Traffic { stage, per, slot, slot_with_solids, slot_with_carrier: 0, slot_with_quadratic: 0, particle }
 }
 
 const fn carrier(stage: &'static str, slot_with_carrier: u32) -> Traffic {
-    Traffic { stage, per: Per::Step, slot: 0, slot_with_solids: 0, slot_with_carrier, particle: 0 }
+    Traffic { slot_with_carrier, ..row(stage, Per::Step, 0, 0, 0) }
+}
+
+const fn quadratic(stage: &'static str, per: Per, slot_with_quadratic: u32) -> Traffic {
+    Traffic { slot_with_quadratic, ..row(stage, per, 0, 0, 0) }
 }
 
 /// The bytes of all stages; stages with several parts have several lines. Particle transfers are those of the gather form in
 /// 3D, whose nine colors each read and write the nodes.
-pub const TRAFFIC: [Traffic; 18] = [
+pub const TRAFFIC: [Traffic; 19] = [
     row("time_step", Per::Step, 24, 0, 128),
     row("particle_sort", Per::Step, 0, 16, 88),
     row("particle_sort", Per::Substep, 0, 16, 88),
@@ -54,12 +60,16 @@ pub const TRAFFIC: [Traffic; 18] = [
     carrier("intermediate_pressure", 4),
     row("intermediate_pressure", Per::Step, 84, 8, 0),
     row("coupled_solve", Per::Step, 116, 216, 0),
-    row("coupled_solve", Per::Iteration, 60, 52, 0),
+    // The operator names kinds, direction, stiffness, node masses, product and diagonal; the vectors are direction, residual and
+    // solution, to and fro, product and diagonal. With bodies residual and direction take a sweep each: 60.
+    row("coupled_solve", Per::Iteration, 56, 56, 0),
+    // Forces and operator apart, with the nodes' velocities in between, and the vectors as with bodies.
+    quadratic("coupled_solve", Per::Iteration, 56),
     row("fluid_update", Per::Step, 176, 32, 0),
     carrier("fluid_update", 48),
     row("mpm_grid_update", Per::Substep, 0, 52, 0),
     row("g2p", Per::Substep, 0, 20, 288),
-    row("totals", Per::Step, 44, 0, 0),
+    row("totals", Per::Step, 24, 20, 0),
     row("totals", Per::Step, 0, 0, 128),
 ];
 
@@ -78,6 +88,8 @@ pub struct Load {
     pub substeps: u64,
     /// Whether the gas is carried by the consistent face velocity.
     pub carrier: bool,
+    /// Whether the element pair is B2B1.
+    pub quadratic: bool,
 }
 
 /// Bytes that a stage has moved in a run.
@@ -92,7 +104,8 @@ pub fn bytes(stage: &str, load: &Load) -> u64 {
         };
         let slot = u64::from(row.slot)
             + solids * u64::from(row.slot_with_solids)
-            + u64::from(load.carrier) * u64::from(row.slot_with_carrier);
+            + u64::from(load.carrier) * u64::from(row.slot_with_carrier)
+            + u64::from(load.quadratic) * u64::from(row.slot_with_quadratic);
         times * (slot * load.slots + u64::from(row.particle) * load.particles)
     };
     TRAFFIC.iter().filter(|row| row.stage == stage).map(of_row).sum()

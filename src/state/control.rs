@@ -64,4 +64,18 @@ pub struct Control {
     pub longest_round: u32,
     /// Norm of the imbalance at the start of this round, squared.
     pub imbalance: f32,
+    /// Momentum and energy that the energy floor has taken from gas cells that have no books of their own, since the start: each a number
+    /// of 64 bits, the low half first, in 2^-32 of a unit.
+    pub borrowed: [u32; 8],
+}
+
+impl Control {
+    /// [`Control::borrowed`] in its units: momentum, energy.
+    #[must_use]
+    pub fn borrowed(&self) -> [f64; 4] {
+        std::array::from_fn(|k| {
+            let [low, high] = [self.borrowed[2 * k], self.borrowed[2 * k + 1]].map(u64::from);
+            ((high << 32) | low).cast_signed() as f64 / 2f64.powi(32)
+        })
+    }
 }

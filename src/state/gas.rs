@@ -1,8 +1,9 @@
 //! The gas: conserved variables and the scratch space of advection and solve.
 
-use super::Openings;
+use super::{Grid, Openings};
 use crate::error::Result;
 use crate::gpu::{Buffer, Gpu};
+use crate::scene::Scene;
 
 /// Buffers of the gas, in padded slots.
 #[derive(Debug)]
@@ -14,25 +15,35 @@ pub struct GasState {
     /// Two parts of scratch: stages of advection; forces of gas nodes and of solid nodes; integer sums of p2g; the kept state.
     pub work: Buffer<[f32; 4]>,
     /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\]; in GHOST and WALL slots what has crossed the boundary, per cell volume.
+    /// Without bodies and obstacles only the slots of the ring have a place, in their order (`shaders/shared/books.wgsl`).
     pub owed_flow: Buffer<[f32; 4]>,
     /// Energy that GAS cells owe \[J\], or that has crossed, per cell volume.
     pub owed_energy: Buffer<f32>,
 }
 
 impl GasState {
-    /// Allocates for a number of slots; `kept` states beside the present one outlive a solve: 1 with two solves per step, else 0.
+    /// Allocates for a scene with so many particles.
     ///
     /// # Errors
     /// If the device has no room.
-    pub fn new(gpu: &Gpu, slots: usize, kept: usize) -> Result<Self> {
+    pub fn new(gpu: &Gpu, scene: &Scene, grid: &Grid, particles: usize) -> Result<Self> {
+        let slots = grid.slots();
+        let books = if ring_books(scene, particles > 0) { slots - grid.cell_count() } else { slots };
+        // States beside the present one that outlive a solve.
+        let kept = usize::from(scene.solves() == 2);
         Ok(Self {
             conserved: Buffer::new(gpu, "conserved", slots)?,
             energy: Buffer::new(gpu, "energy", (3 + kept) * slots)?,
             work: Buffer::new(gpu, "work", (2 + kept) * slots)?,
-            owed_flow: Buffer::new(gpu, "owed_flow", slots)?,
-            owed_energy: Buffer::new(gpu, "owed_energy", slots)?,
+            owed_flow: Buffer::new(gpu, "owed_flow", books)?,
+            owed_energy: Buffer::new(gpu, "owed_energy", books)?,
         })
     }
+}
+
+/// Whether only the ring has books: without bodies and obstacles nothing else collects gas.
+pub(super) fn ring_books(scene: &Scene, solids: bool) -> bool {
+    !solids && scene.obstacles.is_empty()
 }
 
 /// Share of the least entropy of the start and of what flows in that gas must keep: no process lowers p / rho^gamma

@@ -64,7 +64,8 @@ impl MemoryPlan {
             "gas",
             &[("conserved", slots, 16), ("energy", (3 + kept) * slots, 4), ("work", (2 + kept) * slots, 16)],
         );
-        plan.add("gas", &[("owed_flow", slots, 16), ("owed_energy", slots, 4)]);
+        let books = if super::gas::ring_books(scene, particles > 0) { slots - plan.cells } else { slots };
+        plan.add("gas", &[("owed_flow", books, 16), ("owed_energy", books, 4)]);
         plan.add(
             "interface",
             &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4), ("extra", 2 * slots + 2 + table, 4)],

@@ -133,7 +133,7 @@ impl State {
             supports: Buffer::uniform_storage(gpu, "supports", &supports.padded())?,
             motions: Buffer::from_slice(gpu, "motions", &supports.motions)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
-            gas: GasState::new(gpu, slots, usize::from(scene.solves() == 2))?,
+            gas: GasState::new(gpu, scene, &grid, start.len())?,
             interface: Interface::new(gpu, slots, !start.is_empty(), table.len(), blocks)?,
             particles: Particles::new(gpu, slots, &start, scene.consistent(), scene.elastic_vectors())?,
             pressure: Buffer::new(gpu, "pressure", unknowns)?,

@@ -2,6 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use super::gas::ring_books;
 use super::{Grid, constants, surface};
 use crate::gpu::WORKGROUP;
 use crate::numerics::Scan;
@@ -193,6 +194,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("ARS", flag(scene.solves() == 2)),
         ("LIMITER", flag(numerics.limiter)),
         ("LEDGER", flag(numerics.ledger)),
+        ("RING_BOOKS", flag(ring_books(scene, solids))),
         ("MIDPOINT_POWER", flag(scene.midpoint_power())),
         ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
         ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),

@@ -67,27 +67,44 @@ fn sizes_stand_one_below_the_other() {
     assert_eq!(bench(&["--sweep", "50,100"]).lines().count(), 5);
 }
 
+/// Stages or kernels of the first step of a scene that is shipped.
+fn names(gpu: &Gpu, scene: &str, overrides: &[&str], detail: Detail) -> BTreeSet<String> {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    let scene = Scene::shipped(scene, &overrides).unwrap();
+    let mut simulation = Simulation::new(gpu, &scene).unwrap();
+    simulation.set_target(1e30).unwrap();
+    let (mut records, mut names) = (Vec::new(), BTreeSet::new());
+    while records.is_empty() {
+        let (_, times) = simulation.advance_timed(&mut records, detail).unwrap();
+        assert!(times.iter().all(|(_, time)| time.is_finite() && (*time > 0.0 || gpu.timestamps)), "{times:?}");
+        names.extend(times.into_iter().map(|(name, _)| name));
+    }
+    names
+}
+
+/// A piston in few cells, with few sub-steps.
+const PISTON: (&str, &[&str]) =
+    ("coupled/piston.toml", &["domain.cells=[100]", "materials.stiff.neo_hookean.young_modulus=100.0"]);
+
+/// In gas alone an iteration sweeps over all vertices twice: operator with its dots, and all vectors at once.
+#[test]
+fn an_iteration_in_gas_alone_has_two_kernels() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let of = |(scene, overrides): (&str, &[&str])| names(&gpu, scene, overrides, Detail::Kernels);
+    let (gas, bodies) = (of(("gas/sod.toml", &["domain.cells=[100]"])), of(PISTON));
+    let has = |names: &BTreeSet<String>, kernel: &str| names.iter().any(|name| name.contains(kernel));
+    assert!(has(&gas, "pcg_step") && !has(&gas, "pcg_update") && !has(&gas, "pcg_direction"), "{gas:?}");
+    assert!(has(&bodies, "pcg_update") && has(&bodies, "pcg_direction") && !has(&bodies, "pcg_step"), "{bodies:?}");
+}
+
 /// Without timestamps every stage is submitted alone and waited for; stages and kernels are those of the timestamps.
 #[test]
 fn a_device_without_timestamps_waits_for_each_stage() {
     let Some(gpu) = gpu_or_skip() else { return };
     let mut blind = gpu.clone();
     blind.timestamps = false;
-    let names = |gpu: &Gpu, detail: Detail| {
-        let few = ["domain.cells=[100]", "materials.stiff.neo_hookean.young_modulus=100.0"].map(str::to_owned);
-        let scene = Scene::shipped("coupled/piston.toml", &few).unwrap();
-        let mut simulation = Simulation::new(gpu, &scene).unwrap();
-        simulation.set_target(1e30).unwrap();
-        let (mut records, mut names) = (Vec::new(), BTreeSet::new());
-        while records.is_empty() {
-            let (_, times) = simulation.advance_timed(&mut records, detail).unwrap();
-            assert!(times.iter().all(|(_, time)| time.is_finite() && (*time > 0.0 || gpu.timestamps)), "{times:?}");
-            names.extend(times.into_iter().map(|(name, _)| name));
-        }
-        names
-    };
     for detail in [Detail::Stages, Detail::Kernels] {
-        let (stamped, waited) = (names(&gpu, detail), names(&blind, detail));
+        let [stamped, waited] = [&gpu, &blind].map(|gpu| names(gpu, PISTON.0, PISTON.1, detail));
         let missing: Vec<&String> = stamped.difference(&waited).collect();
         assert!(stamped.len() > 5 && missing.is_empty(), "{missing:?} in {waited:?}");
     }

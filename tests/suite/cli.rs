@@ -227,6 +227,9 @@ fn the_memory_plan_is_what_is_allocated() {
     let large = large.unwrap().with_resolution(128).unwrap();
     let plan = MemoryPlan::new(&large, large.seed_particles().len());
     assert!(plan.per_cell() <= 170.0, "{}", plan.per_cell());
+    let gas = Scene::shipped("paper/fig16_convergence.toml", &[]).unwrap().with_resolution(512).unwrap();
+    let plan = MemoryPlan::new(&gas, 0);
+    assert!(plan.per_cell() <= 130.0, "{}", plan.per_cell());
 }
 
 #[test]

@@ -111,6 +111,7 @@ fn control() {
             elastic_iterations,
             longest_round,
             imbalance,
+            borrowed,
         ]
     );
 }
@@ -152,6 +153,7 @@ fn conjugate_gradients() {
             size,
             most,
             levels,
+            joined,
             level_groups,
         ]
     );
