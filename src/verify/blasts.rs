@@ -9,6 +9,7 @@ use super::session::{Integrator, Run, Session, Setting, Suite};
 use super::tube_errors;
 use super::tubes::{GATED, Point, plot_density, plot_errors, report_double, report_order, sweeps};
 use crate::Result;
+use crate::scene::Pair;
 
 /// Cells of the reference in the full suite, and in the quick one.
 const FINE: [u32; 2] = [6400, 3200];
@@ -80,7 +81,13 @@ fn blast(session: &mut Session<'_>, run: &Run, ours: &Profile, reference: &Profi
         return;
     }
     session.check(run, "density of the main crest", peak).reference(6.48, REFERENCE).pass(Limit::AtLeast(5.0));
-    session.check(run, "its place", place).reference(0.769, REFERENCE).pass(Limit::Between(0.759, 0.779));
+    let row = session.check(run, "its place", place).reference(0.769, REFERENCE).pass(Limit::Between(0.759, 0.779));
+    if run.scene.numerics.pair == Pair::B2b1 {
+        row.known(
+            Limit::Between(0.759, 0.7825),
+            "one cell too far right: the crest is three cells wide, as between its jumps",
+        );
+    }
     let [left, most] = [ours, reference].map(|profile| profile.peak(DENSITY, LEFT).0);
     session.check(run, "density of the left crest", left).reference(most, REFERENCE).pass(Limit::AtMost(1.01 * most));
     for (name, at) in [("jump at 0.647", 0.647), ("jump at 0.7988", 0.7988), ("jump at 0.8657", 0.8657)] {
@@ -103,7 +110,6 @@ fn shu_osher(session: &mut Session<'_>, run: &Run, ours: &Profile, reference: &P
     let fourth = shares.get(3).copied().unwrap_or(f64::NAN);
     let row = session.check(run, "fourth best crest, share of its height", fourth);
     row.source(REFERENCE).pass(Limit::AtLeast(0.6)).good(Limit::AtLeast(0.85));
-    row.known(Limit::AtLeast(0.5), "twelve cells per wave are few for this advection");
 }
 
 /// Crests of the density of the reference between 0.5 and 2.2, and what share of their height over the troughs beside them is ours.

@@ -17,6 +17,10 @@ const LEVEL: f64 = 4.0;
 const TRIPLE_POINT: &str =
     "the more a method smears, the shorter the stem: 0.7312 by MUSCL-HLLC with 80 cells per unit";
 
+/// Why the pressure just below the corner is too high with few cells.
+const CORNER: &str =
+    "two cells below the corner; beside the wall pressures alternate by 5 %; with 80 cells per unit 11.94";
+
 /// The cases of this module.
 pub(super) const CASES: &[Case] = &[Case {
     id: "forward_step",
@@ -61,7 +65,13 @@ fn report(session: &mut Session<'_>, run: &Run) {
     session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));
     let face = Profile::along(run, 1, 0.6 - 0.5 * spacing).extremes(PRESSURE, [0.0, 0.2])[1];
     let pitot = gasdynamics::pitot_pressure(run.scene.gas.gamma, 3.0);
-    session.check(run, "highest pressure at the face", face).reference(pitot, "Rayleigh pitot").within(0.02);
+    let row = session.check(run, "highest pressure at the face", face).reference(pitot, "Rayleigh pitot").within(0.02);
+    if wide > 1.5 {
+        row.known(Limit::AtMost(12.9), CORNER);
+    }
+    let foot = Profile::along(run, 1, 0.6 - 0.5 * spacing).state[PRESSURE][0];
+    let row = session.check(run, "pressure at the foot of the face", foot).reference(pitot, "Rayleigh pitot");
+    row.pass(Limit::Between(11.8, pitot));
 }
 
 /// Height of the kink between bow shock and upper Mach stem: where the front between y = 0.6 and 0.95 is farthest from a straight line.

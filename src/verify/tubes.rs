@@ -43,8 +43,6 @@ struct Tube {
     ratio: Option<f64>,
     /// Whether there is a plateau to measure.
     plateau: bool,
-    /// Where the error misses its gate, how far, and why.
-    known_error: Option<(Setting, f64, &'static str)>,
     /// How far the error per doubling misses its gate, and why.
     known_ratio: Option<(f64, &'static str)>,
     /// What else is measured at [`GATED`] cells.
@@ -171,9 +169,6 @@ fn report_error(session: &mut Session<'_>, tube: &Tube, run: &Run, setting: Sett
     if let Some([_, good]) = peers.filter(|[_, good]| good.is_finite()) {
         row.good(Limit::AtMost(good));
     }
-    if let Some((_, most, reason)) = tube.known_error.filter(|known| known.0 == setting) {
-        row.known(Limit::AtMost(most), reason);
-    }
 }
 
 /// L1 density error against that of the method in double precision.
@@ -223,7 +218,13 @@ fn report_waves(session: &mut Session<'_>, tube: &Tube, run: &Run, ours: &Profil
             let level = 0.5 * (exact.star_pressure + ends[side]);
             let found = ours.nearest_crossing(PRESSURE, level, place[4 * side]);
             let off = (found - place[4 * side]).abs() / ours.spacing;
-            session.check(run, name, off).source(EXACT).pass(Limit::AtMost(SHOCK_CELLS));
+            let row = session.check(run, name, off).source(EXACT).pass(Limit::AtMost(SHOCK_CELLS));
+            if strength < 0.1 && run.scene.numerics.pair == Pair::B2b1 {
+                row.known(
+                    Limit::AtMost(2.5),
+                    "a shock of 7 % of the pressure, spread over ten cells, on a bump that the start left",
+                );
+            }
         }
     }
 }
@@ -264,7 +265,6 @@ const SOD: Tube = Tube {
     peers: [[0.0109, 0.00334], [0.00518, 0.00139]],
     ratio: Some(0.65),
     plateau: true,
-    known_error: None,
     known_ratio: None,
     extra: nothing,
 };
@@ -295,11 +295,6 @@ const HIGH_MACH: Tube = Tube {
     errors: Some(&tube_errors::HIGH_MACH),
     peers: [[1.7, 0.867], [f64::NAN; 2]],
     ratio: None,
-    known_error: Some((
-        Setting { pair: Pair::B2b1, integrator: Integrator::Paper, cells: 200 },
-        0.93,
-        "0.05 % too much; that the reference takes smaller differences as smooth is the likely cause",
-    )),
     ..SOD
 };
 const RAREFACTIONS: Tube = Tube {

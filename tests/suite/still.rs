@@ -127,6 +127,6 @@ fn fronts() {
     let front = "[[gas.regions]]\nshape = { sphere = { center = [0.35, 0.4, 0.7], radius = 0.15 } }\ndensity = 0.5\n\
                  velocity = [2.0, -3.0, 2.5]\npressure = 0.1\n";
     for overrides in [&[][..], &["numerics.face_velocity=cell"], &["numerics.integrator=ars222", "time.cfl=0.4"]] {
-        same_bits("front", &blast(3, [48, 56, 96], front), overrides, 2);
+        same_bits("front", &blast(3, [56, 64, 128], front), overrides, 2);
     }
 }
