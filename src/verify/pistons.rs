@@ -239,7 +239,7 @@ fn report_surface(session: &mut Session<'_>, journey: &Journey, density: f64, sp
             row.known(Limit::Between(low, high), GHOST);
             let row = session.check(run, &format!("{quantity}, with the ghost modulus"), ours);
             row.reference(goals[1], HUGONIOT).within(share);
-        } else {
+        } else if goals[0] < speed {
             row.known(Limit::AtLeast(0.96 * goals[0]), SHORT);
         }
     }

@@ -82,6 +82,14 @@ fn carried_flux(weno: Weno, even: f64, stencil: &Stencil, carried: f64, alpha: f
     (high, first)
 }
 
+/// Both fluxes of a face that is closed by a share `blocked` and moves; both middle cells of the stencil are the one of gas.
+fn closed_flux(weno: Weno, stencil: &Stencil, axis: usize, [blocked, velocity]: [f64; 2]) -> ([f64; 5], [f64; 5]) {
+    let (high, first) = split_flux(weno, 0.0, stencil, axis);
+    let blend =
+        |open: [f64; 5]| [0, 1, 2, 3, 4].map(|k| blocked * velocity * stencil[2][k] + (1.0 - blocked) * open[k]);
+    (blend(high), blend(first))
+}
+
 /// Both fluxes of one face, None where no gas touches it.
 pub(crate) fn face_flux(
     problem: &Problem,
@@ -139,12 +147,9 @@ pub(crate) fn face_flux(
     let (own, other) = if kind(0) == GAS { (0, 1) } else { (1, 0) };
     let value = gas.get(at(own));
     let stencil = narrow(if own == 0 { [pick(-1, 0), value, value, value] } else { [value, value, value, pick(2, 1)] });
-    let (high, first) = split_flux(weno, 0.0, &stencil, axis);
     let blocked = if kind(other) == SOLID { interface.blocked[at(other)] } else { 1.0 };
     let velocity = if kind(other) == SOLID { interface.face_velocity[axis][at(0)] } else { 0.0 };
-    let blend =
-        |passable: [f64; 5]| [0, 1, 2, 3, 4].map(|k| blocked * velocity * value[k] + (1.0 - blocked) * passable[k]);
-    Some((blend(high), blend(first)))
+    Some(closed_flux(weno, &stencil, axis, [blocked, velocity]))
 }
 
 /// All fluxes: WENO and first order.
