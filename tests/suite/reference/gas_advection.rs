@@ -1,4 +1,5 @@
-//! Gas advection: WENO of fifth order, of third where the gas is compressed or no gas is near, local Lax-Friedrichs split by |u|, TVD-RK2, positivity limiter.
+//! Gas advection: WENO of fifth order, of third where the gas is compressed or no gas is near, local Lax-Friedrichs split by |u|,
+//! TVD-RK2, positivity limiter.
 
 pub(crate) use super::boundary::fill_ghosts;
 use super::carrier::Carrier;
