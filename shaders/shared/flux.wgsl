@@ -50,10 +50,12 @@ fn face_fluxes_of(n: u32, s: Stencil) -> Fluxes {
     if DIM == 3u {
         let near = vec3f(s.a.energy, s.b.energy, s.c.energy);
         let far = vec3f(s.d.energy, s.e.energy, s.f.energy);
-        let up = array<vec3f, 2>(u * near, v * far);
-        let down = array<vec3f, 2>(x * near, y * far);
-        energy = weno(s.even, vec4f(up[0].x), vec4f(up[0].y), vec4f(up[0].z), vec4f(up[1].x), vec4f(up[1].y)).x
-            + weno(s.even, vec4f(down[1].z), vec4f(down[1].y), vec4f(down[1].x), vec4f(down[0].z), vec4f(down[0].y)).x;
+        let p = u * near;
+        let q = v * far;
+        let r = x * near;
+        let t = y * far;
+        energy = weno(s.even, vec4f(p.x), vec4f(p.y), vec4f(p.z), vec4f(q.x), vec4f(q.y)).x
+            + weno(s.even, vec4f(t.z), vec4f(t.y), vec4f(t.x), vec4f(r.z), vec4f(r.y)).x;
     }
     out.high = unpacked(flow, energy);
     if ARS { out.heat = central_heat(s.c, s.d, (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x)); }
