@@ -1,7 +1,7 @@
 // Advective fluxes f = u_n U through the face between cells c and d of a stencil [shared/reconstruct.wgsl]: high order, and first
 // order with the same splitting, which the limiter falls back to.
 // Local Lax-Friedrichs splitting f+- = (u_n +- alpha) U / 2, alpha the largest |u_n| of the stencil: the pressure part of the
-// Euler flux is the solve's, so sound needs no dissipation here. [Cao et al. 2022, section 2.3; Shu & Osher 1988]
+// Euler flux is the solve's, so sound needs no dissipation here; shocks do, see reconstruct.wgsl. [Cao et al. 2022, section 2.3; Shu & Osher 1988]
 // Without a z axis the energy travels in the place of the z momentum, which is zero.
 
 // heat: internal energy by the mean of both sides, the part that two solves per step take from the solve instead [shared/ars.wgsl].
@@ -18,7 +18,7 @@ fn unpacked(flux: vec4f, energy: f32) -> Gas {
 
 // With one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`, at least upwind.
 fn carried_fluxes(s: Stencil, carried: f32, alpha: f32) -> Fluxes {
-    let spread = max(alpha, abs(carried));
+    let spread = max(max(alpha, s.spread), abs(carried));
     let up = 0.5 * (carried + spread);
     let down = 0.5 * (carried - spread);
     var out: Fluxes;
@@ -38,7 +38,7 @@ fn face_fluxes_of(n: u32, s: Stencil) -> Fluxes {
     let behind = vec3f(velocity_along(n, s.a), velocity_along(n, s.b), velocity_along(n, s.c));
     let ahead = vec3f(velocity_along(n, s.d), velocity_along(n, s.e), velocity_along(n, s.f));
     let most = max(abs(behind), abs(ahead));
-    let alpha = max(most.x, max(most.y, most.z));
+    let alpha = max(max(most.x, s.spread), max(most.y, most.z));
     let u = 0.5 * (behind + alpha);
     let v = 0.5 * (ahead + alpha);
     let x = 0.5 * (behind - alpha);

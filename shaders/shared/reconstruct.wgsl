@@ -1,9 +1,9 @@
 // Value at the face between c and d of six cells in a row, from upstream, by the WENO method in two forms:
-// - where the gas is compressed (`evenness` 0), third order from b, c and d: linear weights 1/3 and 2/3 over (beta + epsilon)^2, beta the
+// - where the gas is compressed (`even` 0), third order from b, c and d: linear weights 1/3 and 2/3 over (beta + epsilon)^2, beta the
 //   square of the difference of a two-point sub-stencil [Jiang & Shu 1996]. Shocks need it;
-// - elsewhere (`evenness` 1), fifth order from a to e: three parabolas with the linear weights 0.1, 0.6 and 0.3, times
+// - elsewhere (`even` 1), fifth order from a to e: three parabolas with the linear weights 0.1, 0.6 and 0.3, times
 //   1 + (tau / (beta + epsilon))^2, tau the difference of the outer two beta. It keeps waves and contacts [Borges et al. 2008].
-// All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
+// Needs ARS, SECOND and the binding control. All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
 
 // Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/method.md].
 const WENO_EPSILON = 7e-4;
@@ -11,30 +11,44 @@ const WENO_EPSILON = 7e-4;
 const EVEN_EPSILON = 1e-6;
 // The first form takes over up to where the velocity falls from one cell to the next by this part of the speed of sound.
 const STEEP = 0.1;
+// Least speed of the dissipation in a shock, over that of sound. The solve captures shocks without dissipation of its own, and a shock
+// that the gas does not cross along this axis would get none: waves would trail it [docs/method.md].
+const SHOCK_SPREAD = 0.6;
 
-// Cells a to f along an axis, the face between c and d, and the share of the second form there.
-struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32 }
+// Cells a to f along an axis, the face between c and d, the share of the second form there, and the least speed of the dissipation.
+struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32, spread: f32 }
 
 // Of four cells, where others beyond them are no gas.
-fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d, e, e, 0.0); }
+fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d, e, e, 0.0, 0.0); }
 
 fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
-    return Stencil(a, b, c, d, e, f, evenness(n, a, b, c, d, e, f));
+    let sound = sound_between(c, d);
+    let share = steepness(n, sound, a, b, c, d, e, f);
+    return Stencil(a, b, c, d, e, f, 1.0 - share, min(SHOCK_SPREAD * share * sound, most_spread()));
+}
+
+// Half a cell per stage, over all axes: more would be unstable.
+fn most_spread() -> f32 {
+    let stage = control.dt * select(1.0, ARS_SECOND, ARS && SECOND);
+    return 0.5 * params.spacing / (f32(DIM) * max(stage, 1e-30));
+}
+
+fn sound_between(c: Gas, d: Gas) -> f32 {
+    let energy = 0.5 * (internal_energy(c) / c.flow.x + internal_energy(d) / d.flow.x);
+    return sqrt(max(params.gamma * (params.gamma - 1.0) * energy, 1e-30));
 }
 
 fn velocity_along(n: u32, gas: Gas) -> f32 { return gas.flow[n + 1u] / gas.flow.x; }
 
-// Share of the second form at a face with normal n.
-fn evenness(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> f32 {
+// How far a face with normal n is from even gas: 0 to 1, in a shock.
+fn steepness(n: u32, sound: f32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> f32 {
     let ub = velocity_along(n, b);
     let uc = velocity_along(n, c);
     let ud = velocity_along(n, d);
     let ue = velocity_along(n, e);
     let ends = max(velocity_along(n, a) - ub, ue - velocity_along(n, f));
-    let drop = max(max(max(ub - uc, uc - ud), max(ud - ue, ends)), 0.0) / STEEP;
-    let energy = 0.5 * (internal_energy(c) / c.flow.x + internal_energy(d) / d.flow.x);
-    let sound = params.gamma * (params.gamma - 1.0) * energy;
-    return max(1.0 - drop * drop / max(sound, 1e-30), 0.0);
+    let drop = max(max(max(ub - uc, uc - ud), max(ud - ue, ends)), 0.0) / (STEEP * sound);
+    return min(drop * drop, 1.0);
 }
 
 fn largest(b: vec4f, c: vec4f, d: vec4f, e: vec4f) -> vec4f { return max(max(abs(b), abs(c)), max(abs(d), abs(e))); }

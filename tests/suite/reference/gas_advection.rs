@@ -16,12 +16,29 @@ const STEEP: f64 = 0.1;
 /// The six cells across a face, which lies between the third and fourth.
 type Stencil = [[f64; 5]; 6];
 
-/// Share of the fifth-order form at the face in the middle of six cells.
-pub(crate) fn evenness(gamma: f64, stencil: &Stencil, axis: usize) -> f64 {
+/// What a face takes from the compression among its six cells: the share of the fifth-order form, and the least speed of the dissipation.
+#[derive(Clone, Copy)]
+pub(crate) struct Shock {
+    even: f64,
+    spread: f64,
+}
+
+/// Next to anything but gas.
+const NARROW: Shock = Shock { even: 0.0, spread: 0.0 };
+
+/// Least speed of the dissipation in a shock, over that of sound.
+const SHOCK_SPREAD: f64 = 0.6;
+
+/// The face in the middle of six cells; the dissipation crosses at most half a cell per `dt`, over all axes.
+fn shock(problem: &Problem, dt: f64, stencil: &Stencil, axis: usize) -> Shock {
+    let gamma = problem.gamma;
+    let most = 0.5 * problem.grid.spacing / (problem.grid.dimension as f64 * dt);
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
     let drop = speed.windows(2).fold(0.0, |most, pair| f64::max(most, pair[0] - pair[1]));
     let heat = 0.5 * (internal_energy(stencil[2]) / stencil[2][0] + internal_energy(stencil[3]) / stencil[3][0]);
-    f64::max(0.0, 1.0 - (drop / STEEP).powi(2) / (gamma * (gamma - 1.0) * heat))
+    let sound = (gamma * (gamma - 1.0) * heat).sqrt();
+    let share = f64::min(1.0, (drop / (STEEP * sound)).powi(2));
+    Shock { even: 1.0 - share, spread: f64::min(SHOCK_SPREAD * share * sound, most) }
 }
 
 /// Value at the face between the third and fourth of six cells in a row, the first upwind; the last only tells how large values are. The
@@ -51,16 +68,16 @@ pub(crate) fn reconstruct(weno: Weno, even: f64, values: [f64; 6]) -> f64 {
 }
 
 /// WENO flux and first-order flux through the face in the middle of six cells.
-fn split_flux(weno: Weno, even: f64, stencil: &Stencil, axis: usize) -> ([f64; 5], [f64; 5]) {
+fn split_flux(weno: Weno, shock: Shock, stencil: &Stencil, axis: usize) -> ([f64; 5], [f64; 5]) {
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
-    let alpha = speed.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+    let alpha = speed.iter().fold(shock.spread, |most, s| most.max(s.abs()));
     let (mut high, mut first) = ([0.0; 5], [0.0; 5]);
     for k in 0..5 {
         let plus = [0, 1, 2, 3, 4].map(|i| 0.5 * (speed[i] + alpha) * stencil[i][k]);
         let minus = [5, 4, 3, 2, 1].map(|i| 0.5 * (speed[i] - alpha) * stencil[i][k]);
         let [up, down] = [plus, minus].map(|side| {
             let [a, b, c, d, e] = side;
-            reconstruct(weno, even, [a, b, c, d, e, e])
+            reconstruct(weno, shock.even, [a, b, c, d, e, e])
         });
         high[k] = up + down;
         first[k] = plus[2] + minus[2];
@@ -69,15 +86,15 @@ fn split_flux(weno: Weno, even: f64, stencil: &Stencil, axis: usize) -> ([f64; 5
 }
 
 /// The same with one velocity of the face: a value from each side of the state itself.
-fn carried_flux(weno: Weno, even: f64, stencil: &Stencil, carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
+fn carried_flux(weno: Weno, shock: Shock, stencil: &Stencil, carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
     let (mut high, mut first) = ([0.0; 5], [0.0; 5]);
-    let spread = carried.abs().max(alpha);
+    let spread = carried.abs().max(alpha).max(shock.spread);
     let (up, down) = (0.5 * (carried + spread), 0.5 * (carried - spread));
     for k in 0..5 {
         let row = stencil.map(|u| u[k]);
         let mut reversed = row;
         reversed.reverse();
-        high[k] = up * reconstruct(weno, even, row) + down * reconstruct(weno, even, reversed);
+        high[k] = up * reconstruct(weno, shock.even, row) + down * reconstruct(weno, shock.even, reversed);
         first[k] = up * row[2] + down * row[3];
     }
     (high, first)
@@ -85,20 +102,20 @@ fn carried_flux(weno: Weno, even: f64, stencil: &Stencil, carried: f64, alpha: f
 
 /// Both fluxes of a face that is closed by a share `blocked` and moves; both middle cells of the stencil are the one of gas.
 fn closed_flux(weno: Weno, stencil: &Stencil, axis: usize, [blocked, velocity]: [f64; 2]) -> ([f64; 5], [f64; 5]) {
-    let (high, first) = split_flux(weno, 0.0, stencil, axis);
+    let (high, first) = split_flux(weno, NARROW, stencil, axis);
     let blend =
         |open: [f64; 5]| [0, 1, 2, 3, 4].map(|k| blocked * velocity * stencil[2][k] + (1.0 - blocked) * open[k]);
     (blend(high), blend(first))
 }
 
-/// Both fluxes of one face, None where no gas touches it.
+/// Both fluxes of one face over a stage of `dt`, None where no gas touches it.
 pub(crate) fn face_flux(
     problem: &Problem,
     interface: &Interface,
     gas: &Gas,
     carrier: Option<&Carrier>,
-    axis: usize,
-    low: [i32; 3],
+    dt: f64,
+    (axis, low): (usize, [i32; 3]),
 ) -> Option<([f64; 5], [f64; 5])> {
     let grid = &problem.grid;
     let weno = problem.numerics.weno;
@@ -126,7 +143,7 @@ pub(crate) fn face_flux(
             narrow([pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)])
         }
     };
-    let even = |stencil| if wide { evenness(problem.gamma, stencil, axis) } else { 0.0 };
+    let shock_at = |stencil| if wide { shock(problem, dt, stencil, axis) } else { NARROW };
     if let Some(carrier) = carrier {
         if !readable(0) || !readable(1) {
             return Some(([0.0; 5], [0.0; 5]));
@@ -139,11 +156,11 @@ pub(crate) fn face_flux(
             _ => speed(0),
         };
         let stencil = across();
-        return Some(carried_flux(weno, even(&stencil), &stencil, carried, alpha));
+        return Some(carried_flux(weno, shock_at(&stencil), &stencil, carried, alpha));
     }
     if readable(0) && readable(1) {
         let stencil = across();
-        return Some(split_flux(weno, even(&stencil), &stencil, axis));
+        return Some(split_flux(weno, shock_at(&stencil), &stencil, axis));
     }
     let (own, other) = if kind(0) == GAS { (0, 1) } else { (1, 0) };
     let value = gas.get(at(own));
@@ -154,7 +171,7 @@ pub(crate) fn face_flux(
 }
 
 /// All fluxes: WENO and first order.
-pub(crate) fn fluxes(problem: &Problem, interface: &Interface, gas: &Gas) -> (Fluxes, Fluxes) {
+pub(crate) fn fluxes(problem: &Problem, interface: &Interface, gas: &Gas, dt: f64) -> (Fluxes, Fluxes) {
     let grid = &problem.grid;
     let empty = || vec![[0.0; 5]; grid.slots()];
     let mut weno = [empty(), empty(), empty()];
@@ -162,7 +179,8 @@ pub(crate) fn fluxes(problem: &Problem, interface: &Interface, gas: &Gas) -> (Fl
     let carrier = Carrier::new(problem, &interface.cells, gas);
     for axis in 0..grid.dimension {
         for low in grid.faces(axis) {
-            if let Some((high_order, low_order)) = face_flux(problem, interface, gas, carrier.as_ref(), axis, low) {
+            if let Some((high_order, low_order)) = face_flux(problem, interface, gas, carrier.as_ref(), dt, (axis, low))
+            {
                 weno[axis][grid.slot(low)] = high_order;
                 first[axis][grid.slot(low)] = low_order;
             }
@@ -250,7 +268,7 @@ pub(crate) fn limited(
     implicit: f64,
 ) -> (Fluxes, usize) {
     let grid = &problem.grid;
-    let (mut weno, mut first) = fluxes(problem, interface, gas);
+    let (mut weno, mut first) = fluxes(problem, interface, gas, dt);
     if implicit != 0.0 {
         let heat = central_heat(problem, interface, gas);
         for (axis, slot) in (0..grid.dimension).flat_map(|axis| (0..grid.slots()).map(move |slot| (axis, slot))) {
