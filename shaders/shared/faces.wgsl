@@ -21,15 +21,12 @@ fn open_carrier(c: vec3i) -> vec4f {
     return node[slot_of(nearest_inside(c))];
 }
 
-// Whether three cells on each side of the face above `low` hold gas alone; with cut cells both next to it must be INTERIOR.
+// Whether three cells on each side of the face above `low` hold gas alone; with cut cells those around them, too.
 fn all_gas(low: vec3i, n: u32) -> bool {
-    if CUT {
-        let high = low + axis(n);
-        return inside(low) && inside(high) && has(cells[slot_of(low)] & cells[slot_of(high)], INTERIOR);
-    }
     for (var k = -2; k <= 3; k++) {
         let at = low + k * axis(n);
         if !inside(at) || kind_of(cells[slot_of(at)]) != GAS { return false; }
+        if CUT && k > -2 && k < 3 && !has(cells[slot_of(at)], NODE_INTERIOR) { return false; }
     }
     return true;
 }
@@ -104,7 +101,7 @@ fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
 // Whether three cells on each side of the face above a slot hold gas alone, if it or the one above is INTERIOR.
 fn is_wide(low: u32, s: u32) -> bool {
     let last = params.slots - 1u;
-    if CUT { return has(cells[low] & cells[min(low + s, last)], INTERIOR); }
+    if CUT { return has(cells[low - min(low, s)] & cells[min(low + 2u * s, last)], NODE_INTERIOR); }
     return low >= 2u * s && kind_of(cells[low - min(low, 2u * s)]) == GAS && kind_of(cells[min(low + 3u * s, last)]) == GAS;
 }
 

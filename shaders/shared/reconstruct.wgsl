@@ -3,7 +3,8 @@
 //   square of the difference of a two-point sub-stencil [Jiang & Shu 1996]. Shocks need it;
 // - elsewhere (`even` 1), fifth order from a to e: three parabolas with the linear weights 0.1, 0.6 and 0.3, times
 //   1 + (tau / (beta + epsilon))^2, tau the difference of the outer two beta. It keeps waves and contacts [Borges et al. 2008].
-// Needs ARS, SECOND and the binding control. All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
+// All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
+// Needs ARS, SECOND and the binding control.
 
 // Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/method.md].
 const WENO_EPSILON = 7e-4;
@@ -27,10 +28,10 @@ fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
     return Stencil(a, b, c, d, e, f, 1.0 - share, min(SHOCK_SPREAD * share * sound, most_spread()));
 }
 
-// Half a cell per stage, over all axes: more would be unstable.
+// A third of a cell per stage: with all three axes in a shock, the most that is stable.
 fn most_spread() -> f32 {
     let stage = control.dt * select(1.0, ARS_SECOND, ARS && SECOND);
-    return 0.5 * params.spacing / (f32(DIM) * max(stage, 1e-30));
+    return params.spacing / (3.0 * max(stage, 1e-30));
 }
 
 fn sound_between(c: Gas, d: Gas) -> f32 {

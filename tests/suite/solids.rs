@@ -183,7 +183,7 @@ fn a_steady_load_strains_a_slab_that_shares_its_volume() {
 }
 
 /// A fragment of one particle spreads its mass over all nodes around it: a solve that took them for heavier than they are would
-/// throw it to and fro.
+/// throw it to and fro. Sound that the walls send back, and the gas of a cell that it leaves, push it by up to 15 % in a step.
 #[test]
 fn gas_slows_a_fragment_of_one_particle_and_never_drives_it() {
     let Some(gpu) = gpu_or_skip() else { return };
@@ -216,15 +216,12 @@ fn gas_slows_a_fragment_of_one_particle_and_never_drives_it() {
             simulation.advance_to(scene.time.until).unwrap_or_else(|error| panic!("{dimension}D {pair}: {error}"));
         let after = simulation.snapshot().expect("a device").bodies(1)[0].velocity[0];
         assert!(after > 0.0 && after < 0.9 * before, "{dimension}D {pair}: speed {before} became {after}");
-        let mut fastest = 0.2;
+        let mut last = 0.2;
         for record in &records {
             let speed = f64::from(record.solid_speed);
-            assert!(
-                speed < 1.1 * fastest + 1e-3,
-                "{dimension}D {pair}: {speed} after {fastest} in step {}",
-                record.step
-            );
-            fastest = speed;
+            let most = f64::min(1.2 * last, 0.201);
+            assert!(speed < most, "{dimension}D {pair}: {speed} after {last} in step {}", record.step);
+            last = speed;
         }
     }
 }

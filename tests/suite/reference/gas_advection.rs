@@ -29,10 +29,10 @@ const NARROW: Shock = Shock { even: 0.0, spread: 0.0 };
 /// Least speed of the dissipation in a shock, over that of sound.
 const SHOCK_SPREAD: f64 = 0.6;
 
-/// The face in the middle of six cells; the dissipation crosses at most half a cell per `dt`, over all axes.
+/// The face in the middle of six cells; the dissipation crosses at most a third of a cell per `dt`.
 fn shock(problem: &Problem, dt: f64, stencil: &Stencil, axis: usize) -> Shock {
     let gamma = problem.gamma;
-    let most = 0.5 * problem.grid.spacing / (problem.grid.dimension as f64 * dt);
+    let most = problem.grid.spacing / (3.0 * dt);
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
     let drop = speed.windows(2).fold(0.0, |most, pair| f64::max(most, pair[0] - pair[1]));
     let heat = 0.5 * (internal_energy(stencil[2]) / stencil[2][0] + internal_energy(stencil[3]) / stencil[3][0]);
