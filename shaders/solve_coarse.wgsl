@@ -1,5 +1,7 @@
-// coupled_solve, preconditioner with two spaces: z = D^-1 r + sum over levels of P D_l^-1 P^T r, for hat functions and for hat
-// functions with alternating sign. The residual goes down level by level, the sum of all levels comes up. [Bramble, Pasciak & Xu 1990]
+// coupled_solve, preconditioner with coarse spaces: z = D^-1 r + sum over spaces and levels of P D_l^-1 P^T r, for hat functions and
+// for hat functions with alternating sign, see shared/coarse.wgsl. The residual goes down level by level, the sum of all levels comes
+// up. [Bramble, Pasciak & Xu 1990] Between the grid and its first coarse level one thread takes a block of 2^DIM vertices, with all
+// spaces at once: they need the same neighbours.
 #include "shared/params.wgsl"
 #include "shared/thread.wgsl"
 #include "shared/reduce4.wgsl"
@@ -10,69 +12,116 @@
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
 @group(0) @binding(3) var<storage, read> inverse_diagonal: array<f32>;
 @group(0) @binding(4) var<storage, read> residual: array<f32>;
-@group(0) @binding(5) var<storage, read_write> levels: array<vec4f>;    // inverse diagonals of both spaces; residuals, then sums
+@group(0) @binding(5) var<storage, read_write> levels: array<vec2f>;    // inverse diagonal; residual, then sum
 @group(0) @binding(6) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> direction: array<f32>;
 @group(0) @binding(8) var<storage, read> pcg: PcgResult;
 
-fn residual_at(slot: u32) -> f32 { return select(0.0, residual[slot], takes_part(slot)); }
-
-// Three vertices next to each other along x: their sum, and with alternating signs, the middle one positive.
-fn finest_row(near: Below, y: u32) -> vec2f {
-    let first = slot_of_vertex(vec2u(0u, y));
-    let r = near.weight_x * vec3f(residual_at(first + near.x.x), residual_at(first + near.x.y), residual_at(first + near.x.z));
-    return vec2f(r.x + r.y + r.z, r.y - r.x - r.z);
+// Unknowns that are not used have no residual.
+fn residual_at(slot: u32) -> f32 {
+    if SOLIDS { if extra[slot] != NO_EXTRA { return 0.0; } }
+    return residual[slot];
 }
 
-fn coarse_row(near: Below, y: u32) -> vec2f {
-    let first = level.fine_first + level.fine_count.x * y;
-    return near.weight_x.x * levels[first + near.x.x].zw + near.weight_x.y * levels[first + near.x.y].zw
-        + near.weight_x.z * levels[first + near.x.z].zw;
-}
+// P^T r of a block: hat functions; those that alternate, at the lower and the upper of the block's two layers.
+struct Block { plain: f32, xy: vec2f, yz: vec2f, xz: vec2f }
 
-// A coarse vertex lies where i + j of the grid is even.
-fn residual_below(near: Below) -> vec2f {
-    if FINEST {
-        return near.weight_y.y * finest_row(near, near.y.y)
-            + vec2f(1.0, -1.0) * (near.weight_y.x * finest_row(near, near.y.x) + near.weight_y.z * finest_row(near, near.y.z));
+// A coarse vertex lies where i, j and k of the grid are even.
+fn block_residual(v: vec3u) -> Block {
+    let grid = level.own[0];
+    let fine = level.below[0];
+    let x = below(grid, fine, v, 0u);
+    let y = below(grid, fine, v, 1u);
+    let z = below(grid, fine, v, 2u);
+    let turns = vec3f(-1.0, 1.0, -1.0);
+    var block: Block;
+    for (var k = select(1u, 0u, DIM > 2u); k <= select(1u, 2u, DIM > 2u); k++) {
+        for (var j = 0u; j < 3u; j++) {
+            let first = slot_of_vertex(vec3u(0u, y.at[j], z.at[k]));
+            let r = vec3f(residual_at(first + x.at.x), residual_at(first + x.at.y), residual_at(first + x.at.z));
+            let weighed = x.weight * r;
+            let both = y.weight[j] * z.weight[k];
+            let turned = weighed.y - weighed.x - weighed.z;
+            block.plain += both * (weighed.x + weighed.y + weighed.z);
+            block.xy += vec2f(vec2u(k) == vec2u(1u, 2u)) * (y.weight[j] * turns[j] * turned);
+            block.yz += (both * turns[j] * turns[k]) * r.yz;
+            block.xz += vec2f(vec2u(j) == vec2u(1u, 2u)) * (z.weight[k] * turns[k] * turned);
+        }
     }
-    return near.weight_y.x * coarse_row(near, near.y.x) + near.weight_y.y * coarse_row(near, near.y.y)
-        + near.weight_y.z * coarse_row(near, near.y.z);
+    return block;
 }
 
-// P^T r of one level and its share of r . z. FINEST: from the vertices of the grid.
-override FINEST: bool;
+// Leaves the residual of an entry; its share of r . z.
+fn put_residual(place: u32, r: f32) -> f32 {
+    let inverse = levels[place].x;
+    levels[place] = vec2f(inverse, r);
+    return inverse * r * r;
+}
 
+// The same for a space's two layers of a block, as far as they lie inside.
+fn put_layers(grid: Grid, v: vec3u, a: u32, r: vec2f) -> f32 {
+    var at = v;
+    at[a] = 2u * v[a];
+    var product = put_residual(place_of(grid, at), r.x);
+    at[a] += 1u;
+    if at[a] < grid.count[a] { product += put_residual(place_of(grid, at), r.y); }
+    return product;
+}
+
+fn block_count() -> u32 {
+    let count = level.own[0].count;
+    return count.x * count.y * count.z;
+}
+
+// P^T r of the first level.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_down(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
+fn coarse_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
     var product = 0.0;
-    for (var at = thread_index(group, groups, lane); at < level_length(); at += groups.x * groups.y * WORKGROUP) {
-        let r = residual_below(below(coarse_place(at)));
-        let inverse = levels[level.first + at].xy;
-        levels[level.first + at] = vec4f(inverse, r);
-        product += dot(inverse, r * r);
+    for (var at = thread_index(group, groups, lane); at < block_count(); at += groups.x * groups.y * WORKGROUP) {
+        let v = vertex_of(level.own[0], at);
+        let block = block_residual(v);
+        product += put_residual(level.own[0].first + at, block.plain) + put_layers(level.own[1], v, 2u, block.xy);
+        if DIM > 2u { product += put_layers(level.own[2], v, 0u, block.yz) + put_layers(level.own[3], v, 1u, block.xz); }
     }
     let sum = workgroup_sum4(lane, vec4f(0.0, 0.0, product, 0.0));
     if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }
 }
 
-// What a level gives to the four vertices of the level below at and beyond one of its own: at it, along x, along y, along both.
-struct Given { at: vec2f, x: vec2f, y: vec2f, both: vec2f }
+fn value_below(fine: Grid, v: vec3u) -> vec2f { return levels[place_of(fine, v)]; }
 
-fn given_by(place: vec2u) -> Given {
-    let near = square(place);
-    let own = levels[near.x].zw;
-    let x = own + levels[near.y].zw;
-    let y = own + levels[near.z].zw;
-    return Given(own, 0.5 * x, 0.5 * y, 0.25 * (x + y - own + levels[near.w].zw));
+// P^T r of another level.
+@compute @workgroup_size(WORKGROUP)
+fn coarse_down(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+               @builtin(local_invocation_index) lane: u32) {
+    var product = 0.0;
+    for (var at = thread_index(group, groups, lane); at < level.length; at += groups.x * groups.y * WORKGROUP) {
+        let place = level.own[0].first + at;
+        let space = space_of(place);
+        let own = level.own[space];
+        product += put_residual(place, gathered(own, level.below[space], vertex_of(own, place - own.first)).y);
+    }
+    let sum = workgroup_sum4(lane, vec4f(0.0, 0.0, product, 0.0));
+    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }
 }
 
-fn add_to_level(v: vec2u, more: vec2f) {
-    if any(v >= level.fine_count) { return; }
-    let at = level.fine_first + v.x + level.fine_count.x * v.y;
-    let own = levels[at];
-    levels[at] = vec4f(own.xy, own.xy * own.zw + more);
+// The coarse vertex beyond a place along every axis.
+fn beyond(grid: Grid, v: vec3u) -> vec3u { return select(v + vec3u(1u), vec3u(0u), v + vec3u(1u) >= grid.count); }
+
+// What a space gives to a vertex of the level below.
+fn given_to(grid: Grid, v: vec3u) -> f32 {
+    let low = v / (vec3u(1u) + grid.halves);
+    let high = beyond(grid, low);
+    let odd = v & grid.halves;
+    var sum = 0.0;
+    for (var k = 0u; k <= odd.z; k++) {
+        for (var j = 0u; j <= odd.y; j++) {
+            for (var i = 0u; i <= odd.x; i++) {
+                sum += levels[place_of(grid, select(low, high, vec3u(i, j, k) == vec3u(1u)))].y;
+            }
+        }
+    }
+    return sum / f32((1u + odd.x) * (1u + odd.y) * (1u + odd.z));
 }
 
 // Up: each level becomes D_l^-1 r and what the one above it has, unless that is not in use. `level` is the one above.
@@ -80,35 +129,74 @@ fn add_to_level(v: vec2u, more: vec2f) {
 fn coarse_up(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
              @builtin(local_invocation_index) lane: u32) {
     let higher = level.number <= pcg.levels;
-    for (var at = thread_index(group, groups, lane); at < level_length(); at += groups.x * groups.y * WORKGROUP) {
-        let place = coarse_place(at);
-        var given: Given;
-        if higher { given = given_by(place); }
-        let v = 2u * place;
-        add_to_level(v, given.at);
-        add_to_level(v + vec2u(1u, 0u), given.x);
-        add_to_level(v + vec2u(0u, 1u), given.y);
-        add_to_level(v + vec2u(1u, 1u), given.both);
+    for (var at = thread_index(group, groups, lane); at < level.below_length; at += groups.x * groups.y * WORKGROUP) {
+        let place = level.below[0].first + at;
+        let own = levels[place];
+        var sum = own.x * own.y;
+        if higher {
+            let space = space_below(place);
+            let grid = level.below[space];
+            sum += given_to(level.own[space], vertex_of(grid, place - grid.first));
+        }
+        levels[place] = vec2f(own.x, sum);
     }
 }
 
-fn add_to_direction(v: vec2u, more: f32) {
-    if any(v >= level.fine_count) { return; }
+// What a space gives to the four vertices of the grid at and beyond one of its own: at it, along axis a, along b, along both.
+fn square(grid: Grid, v: vec3u, a: u32, b: u32, sign: f32) -> vec4f {
+    let far = beyond(grid, v);
+    var along_a = v;
+    along_a[a] = far[a];
+    var along_b = v;
+    along_b[b] = far[b];
+    var along_both = along_a;
+    along_both[b] = far[b];
+    let own = levels[place_of(grid, v)].y;
+    let x = own + levels[place_of(grid, along_a)].y;
+    let y = own + levels[place_of(grid, along_b)].y;
+    return vec4f(own, 0.5 * sign * x, 0.5 * sign * y, 0.25 * (x + y - own + levels[place_of(grid, along_both)].y));
+}
+
+// The same of a space that alternates along a and b, in the upper or the lower of a block's layers along the third axis.
+fn layer(space: u32, v: vec3u, a: u32, b: u32, upper: u32) -> vec4f {
+    let grid = level.own[space];
+    let c = 3u - a - b;
+    var at = v;
+    at[c] = min(2u * v[c] + upper, grid.count[c] - 1u);
+    return square(grid, at, a, b, -1.0);
+}
+
+fn add_to_direction(v: vec3u, more: f32) {
+    if any(v >= level.below[0].count) { return; }
     let slot = slot_of_vertex(v);
     if takes_part(slot) { direction[slot] += more; }
+}
+
+fn add_layer(v: vec3u, more: vec4f) {
+    add_to_direction(v, more.x);
+    add_to_direction(v + vec3u(1u, 0u, 0u), more.y);
+    add_to_direction(v + vec3u(0u, 1u, 0u), more.z);
+    add_to_direction(v + vec3u(1u, 1u, 0u), more.w);
 }
 
 // The new direction's share of all levels.
 @compute @workgroup_size(WORKGROUP)
 fn coarse_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                     @builtin(local_invocation_index) lane: u32) {
-    for (var at = thread_index(group, groups, lane); at < level_length(); at += groups.x * groups.y * WORKGROUP) {
-        let place = coarse_place(at);
-        let given = given_by(place);
-        let v = 2u * place;
-        add_to_direction(v, given.at.x + given.at.y);
-        add_to_direction(v + vec2u(1u, 0u), given.x.x - given.x.y);
-        add_to_direction(v + vec2u(0u, 1u), given.y.x - given.y.y);
-        add_to_direction(v + vec2u(1u, 1u), given.both.x + given.both.y);
+    for (var at = thread_index(group, groups, lane); at < block_count(); at += groups.x * groups.y * WORKGROUP) {
+        let v = vertex_of(level.own[0], at);
+        var lower = square(level.own[0], v, 0u, 1u, 1.0);
+        var upper = lower;
+        if DIM > 2u {
+            upper = 0.5 * (lower + square(level.own[0], vec3u(v.xy, beyond(level.own[0], v).z), 0u, 1u, 1.0));
+            upper += layer(1u, v, 0u, 1u, 1u);
+            let yz = array(layer(2u, v, 1u, 2u, 0u), layer(2u, v, 1u, 2u, 1u));
+            let xz = array(layer(3u, v, 0u, 2u, 0u), layer(3u, v, 0u, 2u, 1u));
+            lower += vec4f(yz[0].x, yz[1].x, yz[0].y, yz[1].y) + vec4f(xz[0].xy, xz[1].xy);
+            upper += vec4f(yz[0].z, yz[1].z, yz[0].w, yz[1].w) + vec4f(xz[0].zw, xz[1].zw);
+        }
+        lower += layer(1u, v, 0u, 1u, 0u);
+        add_layer(2u * v, lower);
+        if DIM > 2u { add_layer(2u * v + vec3u(0u, 0u, 1u), upper); }
     }
 }

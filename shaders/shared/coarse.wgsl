@@ -1,50 +1,77 @@
-// The coarse levels of the preconditioner with two spaces, in 2D: hat functions, and hat functions with the sign (-1)^(i+j), which the
-// pressure operator cannot tell from them. A coarse vertex lies on every other vertex of the level below it.
+// The coarse levels of the preconditioner. In 2D two spaces: hat functions, and hat functions with the sign (-1)^(i+j), which the
+// pressure operator cannot tell from them. In 3D it sees nothing of what alternates along two axes, whatever it does along the third:
+// hat functions, and per pair of axes hats along these two alone, with that sign. A coarse vertex lies on every other vertex of the
+// level below it along the axes that its space coarsens.
 
-struct Level {
-    count: vec2u,           // vertices along x and y
-    wraps: vec2u,           // 1: the ends meet
-    fine_count: vec2u,      // vertices of the level below
+// A space on one level.
+struct Grid {
+    count: vec3u,           // vertices
     first: u32,             // place in `levels`
-    fine_first: u32,
-    number: u32,            // 1 is the finest coarse level
+    halves: vec3u,          // 1 along the axes that the space coarsens
+    wraps: u32,             // axes whose ends meet, as bits
 }
 
-fn level_length() -> u32 { return level.count.x * level.count.y; }
+// A level with all its spaces, and the one below it; `number` 1 is the finest coarse level.
+struct Level { own: array<Grid, SPACES>, below: array<Grid, SPACES>, length: u32, below_length: u32, number: u32 }
 
-fn coarse_place(at: u32) -> vec2u {
-    let row = at / level.count.x;
-    return vec2u(at - row * level.count.x, row);
+const SPACES = 4u;
+fn space_count() -> u32 { return select(2u, 4u, DIM == 3u); }
+
+// Which space an entry belongs to, among those of one level.
+fn space_of(place: u32) -> u32 {
+    var space = 0u;
+    for (var k = 1u; k < space_count(); k++) { space += u32(place >= level.own[k].first); }
+    return space;
 }
 
-// The nine vertices of the level below under a coarse vertex, three per axis, with their weights; 0 for those that there are not.
-struct Below { x: vec3u, y: vec3u, weight_x: vec3f, weight_y: vec3f }
-
-fn below(place: vec2u) -> Below {
-    let x = vec3i(2 * i32(place.x)) + vec3i(-1, 0, 1);
-    let y = vec3i(2 * i32(place.y)) + vec3i(-1, 0, 1);
-    let n = vec2i(level.fine_count);
-    let round = level.wraps == vec2u(1u);
-    let there_x = vec3<bool>(round.x) | ((x >= vec3i(0)) & (x < vec3i(n.x)));
-    let there_y = vec3<bool>(round.y) | ((y >= vec3i(0)) & (y < vec3i(n.y)));
-    let weight = vec3f(0.5, 1.0, 0.5);
-    return Below(vec3u(select(vec3i(0), x + select(vec3i(0), vec3i(n.x), x < vec3i(0)), there_x)),
-        vec3u(select(vec3i(0), y + select(vec3i(0), vec3i(n.y), y < vec3i(0)), there_y)),
-        select(vec3f(0.0), weight, there_x), select(vec3f(0.0), weight, there_y));
+fn space_below(place: u32) -> u32 {
+    var space = 0u;
+    for (var k = 1u; k < space_count(); k++) { space += u32(place >= level.below[k].first); }
+    return space;
 }
 
-// The coarse vertices at a place and beyond it along x, along y, along both.
-fn square(place: vec2u) -> vec4u {
-    let beyond = select(place + vec2u(1u), vec2u(0u), place + vec2u(1u) >= level.count);
-    let low = level.first + level.count.x * place.y;
-    let high = level.first + level.count.x * beyond.y;
-    return vec4u(low + place.x, low + beyond.x, high + place.x, high + beyond.x);
+fn vertex_of(grid: Grid, at: u32) -> vec3u {
+    let row = at / grid.count.x;
+    let layer = row / grid.count.y;
+    return vec3u(at - row * grid.count.x, row - layer * grid.count.y, layer);
 }
 
-fn slot_of_vertex(v: vec2u) -> u32 { return v.x + 1u + params.stride.x * (v.y + 1u); }
+fn place_of(grid: Grid, v: vec3u) -> u32 { return grid.first + v.x + grid.count.x * (v.y + grid.count.y * v.z); }
 
-// (-1)^(i+j).
-fn alternating(v: vec2u) -> f32 { return select(1.0, -1.0, ((v.x + v.y) & 1u) == 1u); }
+// The vertices of the level below at -1, 0 and 1 from a coarse vertex along an axis, with their weights; 0 for those that there are not.
+struct Below { at: vec3u, weight: vec3f }
+
+fn below(own: Grid, fine: Grid, v: vec3u, a: u32) -> Below {
+    let halves = i32(own.halves[a]);
+    let at = (1 + halves) * i32(v[a]) + vec3i(-1, 0, 1);
+    let n = i32(fine.count[a]);
+    let round = ((own.wraps >> a) & 1u) == 1u;
+    let there = vec3<bool>(round) | ((at >= vec3i(0)) & (at < vec3i(n)));
+    let beside = 0.5 * f32(halves);
+    return Below(vec3u(select(vec3i(0), at + select(vec3i(0), vec3i(n), at < vec3i(0)), there)),
+        select(vec3f(0.0), vec3f(beside, 1.0, beside), there));
+}
+
+// P^T of one space at a coarse vertex, of what `value_below` finds on the level below.
+fn gathered(own: Grid, fine: Grid, v: vec3u) -> vec2f {
+    let x = below(own, fine, v, 0u);
+    let y = below(own, fine, v, 1u);
+    let z = below(own, fine, v, 2u);
+    let reach = own.halves;
+    var sum = vec2f(0.0);
+    for (var k = 1u - reach.z; k <= 1u + reach.z; k++) {
+        for (var j = 1u - reach.y; j <= 1u + reach.y; j++) {
+            for (var i = 1u - reach.x; i <= 1u + reach.x; i++) {
+                sum += x.weight[i] * y.weight[j] * z.weight[k] * value_below(fine, vec3u(x.at[i], y.at[j], z.at[k]));
+            }
+        }
+    }
+    return sum;
+}
+
+fn slot_of_vertex(v: vec3u) -> u32 {
+    return v.x + 1u + params.stride.x * (v.y + 1u + params.stride.y * (v.z + u32(DIM > 2u)));
+}
 
 // Whether the slot's pressure is shared: where gas, interface and body have their own, the coarse levels do not act.
 fn takes_part(slot: u32) -> bool {

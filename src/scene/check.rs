@@ -274,9 +274,9 @@ impl Check<'_> {
             let help = "give \"cells\", or \"auto\", which chooses for the scene";
             self.add("numerics.obstacles", "\"cut\" is for obstacles in gas alone, with the pair b1b0", help);
         }
-        if numerics.preconditioner == Preconditioner::Multigrid && self.scene.domain.dimension != 2 {
+        if numerics.preconditioner == Preconditioner::Multigrid && self.scene.domain.dimension == 1 {
             let help = "give \"jacobi\", or \"auto\", which chooses for the scene";
-            self.add("numerics.preconditioner", "\"multigrid\" is for two dimensions", help);
+            self.add("numerics.preconditioner", "\"multigrid\" is for two and three dimensions", help);
         }
         if self.scene.solves() == 2 {
             self.ars222();

@@ -5,82 +5,127 @@ use bytemuck::{Pod, Zeroable};
 use crate::numerics::pcg;
 use crate::scene::{Pair, Preconditioner, Scene};
 
+/// Mirror of `Grid` in `shaders/shared/coarse.wgsl`: a space on one level.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub(crate) struct Grid {
+    /// Vertices along the axes.
+    count: [u32; 3],
+    /// Place of the first one.
+    first: u32,
+    /// 1 along the axes that the space coarsens.
+    halves: [u32; 3],
+    /// Axes whose ends meet, as bits.
+    wraps: u32,
+}
+
 /// Mirror of `Level` in `shaders/shared/coarse.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub(crate) struct Level {
-    /// Vertices along x and y.
-    pub count: [u32; 2],
-    /// 1 where the ends meet.
-    pub wraps: [u32; 2],
-    /// Vertices of the level below.
-    pub fine_count: [u32; 2],
-    /// Place of the first vertex.
-    pub first: u32,
+    /// One per space.
+    own: [Grid; SPACES],
     /// The same of the level below.
-    pub fine_first: u32,
+    below: [Grid; SPACES],
+    /// Entries of all spaces.
+    length: u32,
+    /// The same of the level below.
+    below_length: u32,
     /// From 1, the finest coarse level.
-    pub number: u32,
+    number: u32,
     /// Fills the last 16 bytes.
-    pub unused: [u32; 3],
+    unused: u32,
 }
 
-/// Vertices along the shorter axis that are not worth a coarser level.
+/// Axes that the spaces coarsen: hat functions all, those that alternate along two axes these two. In 2D the first two.
+const COARSENS: [[u32; 3]; SPACES] = [[1, 1, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]];
+/// Spaces at most.
+const SPACES: usize = 4;
+/// Vertices along the shortest axis that are not worth a coarser level.
 const FEWEST: u32 = 4;
 /// Numbers of the table of group counts before the first iteration: nodes, listed slots, levels.
 pub(crate) const EXTENTS: usize = 4 * (2 + pcg::LEVELS);
 
 /// Courant number of the gas below which the diagonal alone is quicker (measured on the software driver).
 pub(crate) fn least_courant(scene: &Scene) -> f64 {
+    let space = scene.domain.dimension == 3;
     match (scene.numerics.preconditioner, scene.numerics.pair) {
         (Preconditioner::Multigrid, _) => 0.0,
+        (_, Pair::B1b0) if space => 5.0,
+        (_, Pair::B2b1) if space => f64::INFINITY,
         (_, Pair::B1b0) if scene.bodies.is_empty() => 3.0,
         (_, Pair::B1b0) => 5.0,
         (_, Pair::B2b1) => 12.0,
     }
 }
 
+/// Spaces in so many dimensions.
+pub(crate) fn spaces(dimension: u32) -> usize {
+    if dimension == 3 { SPACES } else { 2 }
+}
+
 /// The levels from the finest coarse one, and one more that only tells how the last is seen from above. None where they cannot pay.
 pub(crate) fn plan(scene: &Scene) -> Option<Vec<Level>> {
     let steps = scene.time.fixed_step.is_some() || scene.time.max_courant >= least_courant(scene);
     let wanted = scene.numerics.preconditioner != Preconditioner::Jacobi && steps;
-    if scene.domain.dimension != 2 || !wanted {
+    let dimension = scene.domain.dimension;
+    if dimension < 2 || !wanted {
         return None;
     }
-    let wraps = [0, 1].map(|axis| u32::from(scene.boundary.periodic(axis)));
-    let count = [0, 1].map(|axis| scene.domain.cells[axis] + 1 - wraps[axis]);
+    let mut level = Level { own: COARSENS.map(|halves| Grid::finest(scene, halves)), ..Level::default() };
     let mut levels: Vec<Level> = Vec::new();
-    let mut level = Level { count, wraps, ..Level::default() };
-    let mut length = 0;
     while levels.len() < pcg::LEVELS {
-        let coarser = level.coarser(length);
-        length += coarser.count[0] * coarser.count[1];
-        levels.push(coarser);
-        if level.count[0].min(level.count[1]) < FEWEST {
+        let fewest = level.own[0].count[..dimension as usize].iter().copied().min();
+        level = level.coarser(spaces(dimension));
+        levels.push(level);
+        if fewest < Some(FEWEST) {
             break;
         }
-        level = coarser;
     }
     Some(levels).filter(|levels| levels.len() > 1)
 }
 
 /// Entries of all levels but the last.
 pub(crate) fn length(levels: &[Level]) -> usize {
-    levels.last().map_or(0, |level| level.first as usize)
+    levels.last().map_or(0, |level| level.own[0].first as usize)
 }
 
 impl Level {
-    /// Every other vertex, and one beyond where the last would be left out.
-    fn coarser(&self, first: u32) -> Self {
-        let wraps = [0, 1].map(|axis| self.wraps[axis] * u32::from(self.count[axis].is_multiple_of(2)));
-        Self {
-            count: [0, 1].map(|axis| self.count[axis] / 2 + 1 - wraps[axis]),
-            wraps,
-            fine_count: self.count,
-            first,
-            fine_first: self.first,
-            number: self.number + 1,
-            unused: [0; 3],
+    fn coarser(&self, spaces: usize) -> Self {
+        let start = self.own[0].first + self.length;
+        let mut level = Self { below: self.own, below_length: self.length, number: self.number + 1, ..Self::default() };
+        for (own, below) in level.own.iter_mut().zip(&self.own).take(spaces) {
+            *own = below.coarser(start + level.length);
+            level.length += own.count.iter().product::<u32>();
         }
+        level
+    }
+}
+
+impl Grid {
+    /// The vertices of the grid, below every first level.
+    fn finest(scene: &Scene, halves: [u32; 3]) -> Self {
+        let domain = &scene.domain;
+        let wraps = [0, 1, 2].map(|axis| u32::from(scene.boundary.periodic(axis)));
+        let beyond = |axis: usize| u32::from(axis < domain.axes() && wraps[axis] == 0);
+        let active = |axis: usize| halves[axis] * u32::from(axis < domain.axes());
+        Self {
+            count: [0, 1, 2].map(|axis| domain.cells[axis] + beyond(axis)),
+            first: 0,
+            halves: [0, 1, 2].map(active),
+            wraps: wraps[0] + 2 * wraps[1] + 4 * wraps[2],
+        }
+    }
+
+    /// Every other vertex along the axes that are coarsened, and one beyond where the last would be left out.
+    fn coarser(&self, first: u32) -> Self {
+        let mut grid = Self { first, ..*self };
+        for axis in (0..3).filter(|axis| self.halves[*axis] == 1) {
+            if !self.count[axis].is_multiple_of(2) {
+                grid.wraps &= !(1 << axis);
+            }
+            grid.count[axis] = self.count[axis] / 2 + 1 - (grid.wraps >> axis & 1);
+        }
+        grid
     }
 }

@@ -129,7 +129,7 @@ impl MemoryPlan {
     /// Coarse levels of the pressure solve.
     fn add_levels(&mut self, scene: &Scene) {
         let Some(levels) = coarse::plan(scene) else { return };
-        self.add("pressure", &[("levels", coarse::length(&levels) as u64, 16)]);
+        self.add("pressure", &[("levels", coarse::length(&levels) as u64, 8)]);
         self.add("fixed", &vec![("level", 1, size_of::<coarse::Level>() as u64); levels.len()]);
         self.add("fixed", &[("coarse_extents", coarse::EXTENTS as u64, 4)]);
     }

@@ -1,4 +1,4 @@
-//! The coarse levels of the preconditioner, in 2D: hat functions, and hat functions with alternating sign, see `shaders/solve_coarse.wgsl`.
+//! The coarse levels of the preconditioner: hat functions, and hat functions with alternating sign, see `shaders/solve_coarse.wgsl`.
 
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Extent, Pass};
@@ -20,15 +20,17 @@ pub(super) struct Coarse {
     measure: Bound,
     /// One per phase in which a solve may begin.
     choose: [(&'static str, Bound); 2],
-    /// Per space: the function, the listed operator on it, its sums on the first level.
-    sums: [[Bound; 3]; 2],
+    /// The listed operator.
+    operator: Bound,
+    /// Per space: the function, its sums on the first level.
+    sums: Vec<[Bound; 2]>,
     /// Sums on the other levels.
     coarser: Vec<Bound>,
     invert: Vec<Bound>,
     down: Vec<Bound>,
     up: Vec<Bound>,
     extents: Buffer<u32>,
-    _levels: Buffer<[f32; 4]>,
+    _levels: Buffer<[f32; 2]>,
     _plan: Vec<Buffer<Level>>,
 }
 
@@ -37,7 +39,7 @@ impl Coarse {
     pub(super) fn new(parts: Parts<'_>, scene: &Scene, pcg: &wgpu::Buffer) -> Result<Option<Self>> {
         let Parts { gpu, state } = parts;
         let Some(plan) = coarse::plan(scene) else { return Ok(None) };
-        let levels: Buffer<[f32; 4]> = Buffer::new(gpu, "levels", coarse::length(&plan))?;
+        let levels: Buffer<[f32; 2]> = Buffer::new(gpu, "levels", coarse::length(&plan))?;
         let extents = Buffer::indirect(gpu, "coarse_extents", EXTENTS)?;
         let uniform = |level: &Level| -> Result<Buffer<Level>> {
             let buffer = Buffer::uniform(gpu, "level", 1)?;
@@ -57,34 +59,30 @@ impl Coarse {
             state.bind(gpu, shader, entry, &named, &[&limits[..], switches].concat())
         };
         let setup = |entry: &str, level: usize, switches: &[(&str, f64)]| {
-            let common = [("FINEST", f64::from(u8::from(level == 0))), ("SIGNED", 0.0), ("PHASE_AT", 0.0)];
+            let common = [("FINEST", f64::from(u8::from(level == 0))), ("SPACE", 0.0), ("PHASE_AT", 0.0)];
             let others = common.into_iter().filter(|(name, _)| switches.iter().all(|(given, _)| given != name));
             bind("solve_coarse_setup.wgsl", entry, level, &others.chain(switches.iter().copied()).collect::<Vec<_>>())
         };
-        let solve = |entry: &str, level: usize, finest: bool| {
-            bind("solve_coarse.wgsl", entry, level, &[("FINEST", f64::from(u8::from(finest)))])
-        };
+        let solve = |entry: &str, level: usize| bind("solve_coarse.wgsl", entry, level, &[]);
         let choose = |phase: &'static str| -> Result<(&'static str, Bound)> {
             let at = (extent_offset(phase, Entry::Slots) / 16) as f64;
             Ok((phase, setup("coarse_choose", 0, &[("PHASE_AT", at)])?))
         };
         let image = [("x", state.pcg.direction.raw()), ("y", state.pcg.solution.raw())];
-        let sums = |signed: f64| -> Result<[Bound; 3]> {
-            let signed = [("SIGNED", signed)];
-            Ok([
-                setup("coarse_ones", 0, &signed)?,
-                state.bind(gpu, "solve_operator.wgsl", "solve_operator", &image, &[("LISTED", 1.0)])?,
-                setup("coarse_sums", 0, &signed)?,
-            ])
+        let sums = |space: usize| -> Result<[Bound; 2]> {
+            let space = [("SPACE", space as f64)];
+            Ok([setup("coarse_ones", 0, &space)?, setup("coarse_first_sums", 0, &space)?])
         };
-        let up = |level: usize| solve(if level == 0 { "coarse_direction" } else { "coarse_up" }, level, false);
+        let down = |level: usize| solve(if level == 0 { "coarse_residual" } else { "coarse_down" }, level);
+        let up = |level: usize| solve(if level == 0 { "coarse_direction" } else { "coarse_up" }, level);
         Ok(Some(Self {
             measure: setup("coarse_measure", 0, &[])?,
             choose: [choose("BEGIN")?, choose("SECOND")?],
-            sums: [sums(0.0)?, sums(1.0)?],
+            operator: state.bind(gpu, "solve_operator.wgsl", "solve_operator", &image, &[("LISTED", 1.0)])?,
+            sums: (0..coarse::spaces(scene.domain.dimension)).map(sums).collect::<Result<_>>()?,
             coarser: (1..count).map(|level| setup("coarse_sums", level, &[])).collect::<Result<_>>()?,
             invert: (0..count).map(|level| setup("coarse_invert", level, &[])).collect::<Result<_>>()?,
-            down: (0..count).map(|level| solve("coarse_down", level, level == 0)).collect::<Result<_>>()?,
+            down: (0..count).map(down).collect::<Result<_>>()?,
             up: (0..=count).map(up).collect::<Result<_>>()?,
             extents,
             _levels: levels,
@@ -102,11 +100,11 @@ impl Coarse {
         for (_, choose) in self.choose.iter().filter(|(own, _)| *own == phase) {
             pass.dispatch(choose, &Extent::Groups([1, 1, 1]));
         }
-        for [ones, operator, sums] in &self.sums {
+        for [ones, sums] in &self.sums {
             pass.dispatch(ones, &self.extent(FINEST));
             pass.dispatch(&forces[0], &self.extent(NODES));
             pass.dispatch(&forces[1], &self.extent(LISTED));
-            pass.dispatch(operator, &self.extent(FINEST));
+            pass.dispatch(&self.operator, &self.extent(FINEST));
             pass.dispatch(sums, &self.extent(FINEST + 1));
         }
         for (level, kernel) in (FINEST + 2..).zip(&self.coarser) {
