@@ -108,62 +108,62 @@ fn coarse_down(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
 // The coarse vertex beyond a place along every axis.
 fn beyond(grid: Grid, v: vec3u) -> vec3u { return select(v + vec3u(1u), vec3u(0u), v + vec3u(1u) >= grid.count); }
 
-// What a space gives to a vertex of the level below.
-fn given_to(grid: Grid, v: vec3u) -> f32 {
-    let low = v / (vec3u(1u) + grid.halves);
-    let high = beyond(grid, low);
-    let odd = v & grid.halves;
-    var sum = 0.0;
-    for (var k = 0u; k <= odd.z; k++) {
-        for (var j = 0u; j <= odd.y; j++) {
-            for (var i = 0u; i <= odd.x; i++) {
-                sum += levels[place_of(grid, select(low, high, vec3u(i, j, k) == vec3u(1u)))].y;
-            }
-        }
-    }
-    return sum / f32((1u + odd.x) * (1u + odd.y) * (1u + odd.z));
+const X = vec3u(1u, 0u, 0u);
+const Y = vec3u(0u, 1u, 0u);
+const Z = vec3u(0u, 0u, 1u);
+
+fn moved(v: vec3u, far: vec3u, along: vec3u) -> vec3u { return select(v, far, along == vec3u(1u)); }
+
+// What a space gives to the four vertices of the level below at and beyond one of its own: at it, along a, along b, along both.
+fn square(grid: Grid, v: vec3u, a: vec3u, b: vec3u, sign: f32) -> vec4f {
+    let far = beyond(grid, v);
+    let own = levels[place_of(grid, v)].y;
+    let x = own + levels[place_of(grid, moved(v, far, a))].y;
+    let y = own + levels[place_of(grid, moved(v, far, b))].y;
+    return vec4f(own, 0.5 * sign * x, 0.5 * sign * y, 0.25 * (x + y - own + levels[place_of(grid, moved(v, far, a + b))].y));
+}
+
+fn add_to_level(grid: Grid, v: vec3u, more: f32) {
+    if any(v >= grid.count) { return; }
+    let at = place_of(grid, v);
+    let own = levels[at];
+    levels[at] = vec2f(own.x, own.x * own.y + more);
+}
+
+fn add_square(grid: Grid, v: vec3u, a: vec3u, b: vec3u, more: vec4f) {
+    add_to_level(grid, v, more.x);
+    add_to_level(grid, v + a, more.y);
+    add_to_level(grid, v + b, more.z);
+    add_to_level(grid, v + a + b, more.w);
 }
 
 // Up: each level becomes D_l^-1 r and what the one above it has, unless that is not in use. `level` is the one above.
 @compute @workgroup_size(WORKGROUP)
 fn coarse_up(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
              @builtin(local_invocation_index) lane: u32) {
-    let higher = level.number <= pcg.levels;
-    for (var at = thread_index(group, groups, lane); at < level.below_length; at += groups.x * groups.y * WORKGROUP) {
-        let place = level.below[0].first + at;
-        let own = levels[place];
-        var sum = own.x * own.y;
-        if higher {
-            let space = space_below(place);
-            let grid = level.below[space];
-            sum += given_to(level.own[space], vertex_of(grid, place - grid.first));
+    let keep = f32(level.number <= pcg.levels);
+    for (var at = thread_index(group, groups, lane); at < level.length; at += groups.x * groups.y * WORKGROUP) {
+        let place = level.own[0].first + at;
+        let space = space_of(place);
+        let grid = level.own[space];
+        let fine = level.below[space];
+        let v = vertex_of(grid, place - grid.first);
+        let first = v * (vec3u(1u) + grid.halves);
+        let a = select(Y, X, grid.halves.x == 1u);
+        let b = select(Z, Y, grid.halves.x * grid.halves.y == 1u);
+        let lower = keep * square(grid, v, a, b, 1.0);
+        add_square(fine, first, a, b, lower);
+        for (var turn = 0u; turn < u32(DIM > 2u && space == 0u); turn++) {
+            let upper = keep * square(grid, moved(v, beyond(grid, v), Z), a, b, 1.0);
+            add_square(fine, first + Z, a, b, 0.5 * (lower + upper));
         }
-        levels[place] = vec2f(own.x, sum);
     }
 }
 
-// What a space gives to the four vertices of the grid at and beyond one of its own: at it, along axis a, along b, along both.
-fn square(grid: Grid, v: vec3u, a: u32, b: u32, sign: f32) -> vec4f {
-    let far = beyond(grid, v);
-    var along_a = v;
-    along_a[a] = far[a];
-    var along_b = v;
-    along_b[b] = far[b];
-    var along_both = along_a;
-    along_both[b] = far[b];
-    let own = levels[place_of(grid, v)].y;
-    let x = own + levels[place_of(grid, along_a)].y;
-    let y = own + levels[place_of(grid, along_b)].y;
-    return vec4f(own, 0.5 * sign * x, 0.5 * sign * y, 0.25 * (x + y - own + levels[place_of(grid, along_both)].y));
-}
-
-// The same of a space that alternates along a and b, in the upper or the lower of a block's layers along the third axis.
-fn layer(space: u32, v: vec3u, a: u32, b: u32, upper: u32) -> vec4f {
+// What a space that alternates along a and b gives to the vertices of a block, in the upper or the lower of its layers along the third axis.
+fn layer(space: u32, v: vec3u, a: vec3u, b: vec3u, upper: u32) -> vec4f {
     let grid = level.own[space];
-    let c = 3u - a - b;
-    var at = v;
-    at[c] = min(2u * v[c] + upper, grid.count[c] - 1u);
-    return square(grid, at, a, b, -1.0);
+    return square(grid, moved(v, min(2u * v + upper, grid.count - 1u), vec3u(1u) - a - b), a, b, -1.0);
 }
 
 fn add_to_direction(v: vec3u, more: f32) {
@@ -174,9 +174,9 @@ fn add_to_direction(v: vec3u, more: f32) {
 
 fn add_layer(v: vec3u, more: vec4f) {
     add_to_direction(v, more.x);
-    add_to_direction(v + vec3u(1u, 0u, 0u), more.y);
-    add_to_direction(v + vec3u(0u, 1u, 0u), more.z);
-    add_to_direction(v + vec3u(1u, 1u, 0u), more.w);
+    add_to_direction(v + X, more.y);
+    add_to_direction(v + Y, more.z);
+    add_to_direction(v + X + Y, more.w);
 }
 
 // The new direction's share of all levels.
@@ -185,18 +185,18 @@ fn coarse_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
                     @builtin(local_invocation_index) lane: u32) {
     for (var at = thread_index(group, groups, lane); at < block_count(); at += groups.x * groups.y * WORKGROUP) {
         let v = vertex_of(level.own[0], at);
-        var lower = square(level.own[0], v, 0u, 1u, 1.0);
+        var lower = square(level.own[0], v, X, Y, 1.0);
         var upper = lower;
         if DIM > 2u {
-            upper = 0.5 * (lower + square(level.own[0], vec3u(v.xy, beyond(level.own[0], v).z), 0u, 1u, 1.0));
-            upper += layer(1u, v, 0u, 1u, 1u);
-            let yz = array(layer(2u, v, 1u, 2u, 0u), layer(2u, v, 1u, 2u, 1u));
-            let xz = array(layer(3u, v, 0u, 2u, 0u), layer(3u, v, 0u, 2u, 1u));
+            upper = 0.5 * (lower + square(level.own[0], moved(v, beyond(level.own[0], v), Z), X, Y, 1.0));
+            upper += layer(1u, v, X, Y, 1u);
+            let yz = array(layer(2u, v, Y, Z, 0u), layer(2u, v, Y, Z, 1u));
+            let xz = array(layer(3u, v, X, Z, 0u), layer(3u, v, X, Z, 1u));
             lower += vec4f(yz[0].x, yz[1].x, yz[0].y, yz[1].y) + vec4f(xz[0].xy, xz[1].xy);
             upper += vec4f(yz[0].z, yz[1].z, yz[0].w, yz[1].w) + vec4f(xz[0].zw, xz[1].zw);
         }
-        lower += layer(1u, v, 0u, 1u, 0u);
+        lower += layer(1u, v, X, Y, 0u);
         add_layer(2u * v, lower);
-        if DIM > 2u { add_layer(2u * v + vec3u(0u, 0u, 1u), upper); }
+        if DIM > 2u { add_layer(2u * v + Z, upper); }
     }
 }

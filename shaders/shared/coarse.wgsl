@@ -12,7 +12,7 @@ struct Grid {
 }
 
 // A level with all its spaces, and the one below it; `number` 1 is the finest coarse level.
-struct Level { own: array<Grid, SPACES>, below: array<Grid, SPACES>, length: u32, below_length: u32, number: u32 }
+struct Level { own: array<Grid, SPACES>, below: array<Grid, SPACES>, length: u32, number: u32 }
 
 const SPACES = 4u;
 fn space_count() -> u32 { return select(2u, 4u, DIM == 3u); }
@@ -21,12 +21,6 @@ fn space_count() -> u32 { return select(2u, 4u, DIM == 3u); }
 fn space_of(place: u32) -> u32 {
     var space = 0u;
     for (var k = 1u; k < space_count(); k++) { space += u32(place >= level.own[k].first); }
-    return space;
-}
-
-fn space_below(place: u32) -> u32 {
-    var space = 0u;
-    for (var k = 1u; k < space_count(); k++) { space += u32(place >= level.below[k].first); }
     return space;
 }
 

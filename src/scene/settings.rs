@@ -141,12 +141,12 @@ pub enum Pair {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Preconditioner {
-    /// In 2D `multigrid` in the steps whose acoustic Courant number makes it pay, else `jacobi`.
+    /// In 2D and 3D `multigrid` in the steps whose acoustic Courant number makes it pay, else `jacobi`.
     #[default]
     Auto,
     /// The diagonal.
     Jacobi,
-    /// Diagonals on all levels of two spaces, in every step. 2D only.
+    /// Diagonals on all levels of two coarse spaces in 2D, of four in 3D, in every step.
     Multigrid,
 }
 

@@ -1,6 +1,6 @@
 //! `coupled_solve`: which pressure and velocity satisfy both sides? One symmetric positive definite system for gas, interface
 //! and ghost pressure, matrix-free, by conjugate gradients with a Jacobi preconditioner, one of its own for the
-//! interface pressures (`shaders/solve_surface.wgsl`), and coarse levels in 2D (`shaders/solve_coarse.wgsl`). [Cao et al. 2022, eqs. 34-37]
+//! interface pressures (`shaders/solve_surface.wgsl`), and coarse levels in 2D and 3D (`shaders/solve_coarse.wgsl`). [Cao et al. 2022, eqs. 34-37]
 
 mod coarse;
 mod surface;

@@ -29,12 +29,10 @@ pub(crate) struct Level {
     below: [Grid; SPACES],
     /// Entries of all spaces.
     length: u32,
-    /// The same of the level below.
-    below_length: u32,
     /// From 1, the finest coarse level.
     number: u32,
     /// Fills the last 16 bytes.
-    unused: u32,
+    unused: [u32; 2],
 }
 
 /// Axes that the spaces coarsen: hat functions all, those that alternate along two axes these two. In 2D the first two.
@@ -93,7 +91,7 @@ pub(crate) fn length(levels: &[Level]) -> usize {
 impl Level {
     fn coarser(&self, spaces: usize) -> Self {
         let start = self.own[0].first + self.length;
-        let mut level = Self { below: self.own, below_length: self.length, number: self.number + 1, ..Self::default() };
+        let mut level = Self { below: self.own, number: self.number + 1, ..Self::default() };
         for (own, below) in level.own.iter_mut().zip(&self.own).take(spaces) {
             *own = below.coarser(start + level.length);
             level.length += own.count.iter().product::<u32>();
