@@ -44,7 +44,7 @@ const FEWEST: u32 = 4;
 /// Numbers of the table of group counts before the first iteration: nodes, listed slots, levels.
 pub(crate) const EXTENTS: usize = 4 * (2 + pcg::LEVELS);
 
-/// Courant number of the gas below which the diagonal alone is quicker (measured on the software driver).
+/// Courant number of the gas below which the diagonal alone is quicker (measured on the software driver), infinite where it is not known.
 pub(crate) fn least_courant(scene: &Scene) -> f64 {
     let space = scene.domain.dimension == 3;
     match (scene.numerics.preconditioner, scene.numerics.pair) {
@@ -64,7 +64,8 @@ pub(crate) fn spaces(dimension: u32) -> usize {
 
 /// The levels from the finest coarse one, and one more that only tells how the last is seen from above. None where they cannot pay.
 pub(crate) fn plan(scene: &Scene) -> Option<Vec<Level>> {
-    let steps = scene.time.fixed_step.is_some() || scene.time.max_courant >= least_courant(scene);
+    let least = least_courant(scene);
+    let steps = least.is_finite() && (scene.time.fixed_step.is_some() || scene.time.max_courant >= least);
     let wanted = scene.numerics.preconditioner != Preconditioner::Jacobi && steps;
     let dimension = scene.domain.dimension;
     if dimension < 2 || !wanted {

@@ -3,6 +3,7 @@
 use brisance::gpu::{Gpu, readback};
 use brisance::scene::Scene;
 use brisance::simulation::Simulation;
+use brisance::state::MemoryPlan;
 
 use crate::common::gpu_or_skip;
 use crate::reference::coupled_solve::{Inputs, Q, System, assemble};
@@ -280,7 +281,9 @@ fn the_device_applies_what_the_twin_does() {
     for (common, case) in cases {
         let overrides: Vec<String> = common.iter().chain(case).map(|&text| text.to_owned()).collect();
         let scene = Scene::parse(BOX, "box.toml", &overrides).unwrap_or_else(|error| panic!("{error}"));
+        let plan = MemoryPlan::new(&scene, scene.seed_particles().len());
         let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+        assert_eq!(plan.bytes(None), gpu.allocated_bytes(), "{case:?}");
         let (problem, faces, system) = system_at_rest(&gpu, &scene, &simulation);
         simulation.set_target(0.17).unwrap();
         simulation.advance_batch_of(&mut Vec::new(), 1).unwrap();
