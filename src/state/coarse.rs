@@ -49,7 +49,7 @@ pub(crate) fn least_courant(scene: &Scene) -> f64 {
     let space = scene.domain.dimension == 3;
     match (scene.numerics.preconditioner, scene.numerics.pair) {
         (Preconditioner::Multigrid, _) => 0.0,
-        (_, Pair::B1b0) if space && scene.bodies.is_empty() => 4.0,
+        (_, Pair::B1b0) if space && scene.bodies.is_empty() => 5.0,
         (_, Pair::B1b0) if space => 7.0,
         (_, Pair::B2b1) if space => f64::INFINITY,
         (_, Pair::B1b0) if scene.bodies.is_empty() => 3.0,
