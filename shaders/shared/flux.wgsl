@@ -5,7 +5,24 @@
 // Without a z axis the energy travels in the place of the z momentum, which is zero.
 
 // heat: internal energy by the mean of both sides, the part that two solves per step take from the solve instead [shared/ars.wgsl].
-struct Fluxes { high: Gas, low: Gas, heat: f32 }
+// unit: density that passes in a stage is a multiple of it, see whole().
+struct Fluxes { high: Gas, low: Gas, heat: f32, unit: f32 }
+
+// Two units of the last place of the larger density: what one cell gives up is then, to the last bit, what the next one takes, and so
+// is the mean of two stages. At most 2^-14 of the smaller one, beside which more would count.
+const LAST_PLACE = 2.384185791015625e-7;   // 2^-22
+const THIN_SHARE = 6.103515625e-5;
+
+fn power_of_two(density: f32) -> f32 { return bitcast<f32>(bitcast<u32>(density) & 0x7f800000u); }
+
+fn unit_between(c: Gas, d: Gas) -> f32 {
+    return min(LAST_PLACE * power_of_two(max(c.flow.x, d.flow.x)), THIN_SHARE * power_of_two(min(c.flow.x, d.flow.x)));
+}
+
+fn whole(density: f32, unit: f32) -> f32 {
+    if unit == 0.0 { return density; }
+    return round(density / unit) * unit;
+}
 
 fn central_heat(low: Gas, high: Gas, velocity: f32) -> f32 { return 0.5 * velocity * (internal_energy(low) + internal_energy(high)); }
 
@@ -29,6 +46,7 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32) -> Fluxes {
             vec4f(s.e.energy), vec4f(s.f.energy)).x;
     }
     out.high = unpacked(flow, energy);
+    out.unit = unit_between(s.c, s.d);
     if ARS { out.heat = central_heat(s.c, s.d, carried); }
     if LIMITER { out.low = Gas(up * s.c.flow + down * s.d.flow, up * s.c.energy + down * s.d.energy); }
     return out;
@@ -58,6 +76,7 @@ fn face_fluxes_of(n: u32, s: Stencil) -> Fluxes {
             + weno(s.even, vec4f(t.z), vec4f(t.y), vec4f(t.x), vec4f(r.z), vec4f(r.y)).x;
     }
     out.high = unpacked(flow, energy);
+    out.unit = unit_between(s.c, s.d);
     if ARS { out.heat = central_heat(s.c, s.d, (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x)); }
     if LIMITER { out.low = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy); }
     return out;
