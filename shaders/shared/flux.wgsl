@@ -3,25 +3,19 @@
 // Local Lax-Friedrichs splitting f+- = (u_n +- alpha) U / 2, alpha the largest |u_n| of the stencil: the pressure part of the
 // Euler flux is the solve's, so sound needs no dissipation here; shocks do, see reconstruct.wgsl. [Cao et al. 2022, section 2.3; Shu & Osher 1988]
 // Without a z axis the energy travels in the place of the z momentum, which is zero.
+#include "shared/whole.wgsl"
 
 // heat: internal energy by the mean of both sides, the part that two solves per step take from the solve instead [shared/ars.wgsl].
-// unit: density that passes in a stage is a multiple of it, see whole().
+// unit: density that passes in a stage is a multiple of it, see whole.wgsl.
 struct Fluxes { high: Gas, low: Gas, heat: f32, unit: f32 }
 
-// Two units of the last place of the larger density: what one cell gives up is then, to the last bit, what the next one takes, and so
-// is the mean of two stages. At most 2^-14 of the smaller one, beside which more would count.
-const LAST_PLACE = 2.384185791015625e-7;   // 2^-22
+// At most this part of the thinner cell, 2^-14, beside which more would count.
 const THIN_SHARE = 6.103515625e-5;
 
-fn power_of_two(density: f32) -> f32 { return bitcast<f32>(bitcast<u32>(density) & 0x7f800000u); }
-
+// Two units of the last place, so that the mean of two stages is whole, too; with ARS a step takes parts of its stages that are not.
 fn unit_between(c: Gas, d: Gas) -> f32 {
-    return min(LAST_PLACE * power_of_two(max(c.flow.x, d.flow.x)), THIN_SHARE * power_of_two(min(c.flow.x, d.flow.x)));
-}
-
-fn whole(density: f32, unit: f32) -> f32 {
-    if unit == 0.0 { return density; }
-    return round(density / unit) * unit;
+    if ARS { return 0.0; }
+    return min(2.0 * LAST_PLACE * power_of_two(max(c.flow.x, d.flow.x)), THIN_SHARE * power_of_two(min(c.flow.x, d.flow.x)));
 }
 
 fn central_heat(low: Gas, high: Gas, velocity: f32) -> f32 { return 0.5 * velocity * (internal_energy(low) + internal_energy(high)); }
