@@ -65,7 +65,7 @@ pub(crate) fn unknown(interface: &Interface, field: usize, vertex: usize) -> usi
 }
 
 /// Coefficients of one row: [own field, h] by vertex offset from the node, -1..=2 per axis.
-pub(crate) fn row_block(problem: &Problem, cells: &[u32], node: [i32; 3], axis: usize, kind: u32) -> [[f64; 64]; 2] {
+fn row_block(problem: &Problem, cells: &[u32], node: [i32; 3], axis: usize, kind: u32) -> [[f64; 64]; 2] {
     let grid = &problem.grid;
     let pair = if kind == SOLID { Pair::B2b1 } else { problem.numerics.pair };
     let (gradient, overlap) = (element::gradient(pair), element::overlap(pair));
@@ -99,7 +99,13 @@ fn local(offset: [i32; 3]) -> usize {
 }
 
 /// The same of a node and its images beyond planes of symmetry, whose velocity across them is opposite.
-fn block_with_images(problem: &Problem, cells: &[u32], node: [i32; 3], axis: usize, kind: u32) -> [[f64; 64]; 2] {
+pub(crate) fn block_with_images(
+    problem: &Problem,
+    cells: &[u32],
+    node: [i32; 3],
+    axis: usize,
+    kind: u32,
+) -> [[f64; 64]; 2] {
     if kind == SOLID {
         return row_block(problem, cells, node, axis, kind);
     }
