@@ -181,12 +181,12 @@ impl Problem {
 
     /// What a node beyond such sides is the image of.
     pub(crate) fn mirrored(&self, mut node: [i32; 3]) -> [i32; 3] {
-        for axis in 0..self.grid.dimension {
+        for (axis, place) in node.iter_mut().enumerate().take(self.grid.dimension) {
             let last = self.grid.cells[axis] - 1;
-            if node[axis] < 0 && self.mirrors(2 * axis) {
-                node[axis] = 0;
-            } else if node[axis] > last && self.mirrors(2 * axis + 1) {
-                node[axis] = last;
+            if *place < 0 && self.mirrors(2 * axis) {
+                *place = 0;
+            } else if *place > last && self.mirrors(2 * axis + 1) {
+                *place = last;
             }
         }
         node
