@@ -73,9 +73,12 @@ fn store_deformation(p: u32, f: mat3x3f) {
     deformation[3u * p + 2u] = vec4f(f[2], 0.0);
 }
 
+fn cell_at(x: vec3f) -> vec3i { return nearest_inside(vec3i(floor((x - params.origin) / params.spacing))); }
+
 fn put_at(p: u32, place: vec3f) {
     var x = place;
     let inside_domain = keep_inside(&x);
+    if !inside_domain || any(cell_at(x) != cell_at(position[p].xyz)) { atomicStore(&control.unsorted, 1u); }
     if !inside_domain {
         atomicAdd(&control.escaped, 1u);
         deformation[3u * p + 1u].w = 0.0;
@@ -169,7 +172,7 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
         return;
     }
     let x = position[p].xyz;
-    let cell = nearest_inside(vec3i(floor((x - params.origin) / params.spacing)));
+    let cell = cell_at(x);
     let at = place_at(x, vec3f(cell) + 0.5);
     read_rows(slot_of(cell));
     let motion = motion_at(at);

@@ -50,7 +50,8 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
         (*change).heat += sign * control.dt / params.spacing * f.heat;
         if SECOND { implicit = (1.0 - 1.0 / ARS_SECOND) * f.heat; }
     }
-    (*change).high.flow += scale * flow;
+    let through = scale * flow;
+    (*change).high.flow += vec4f(whole(through.x, f.unit), through.yzw);
     (*change).high.energy += scale * (heat - implicit);
     if LIMITER {
         (*change).low.flow += scale * f.low.flow;

@@ -100,7 +100,7 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if solid > 0u { flags |= NODE_SOLID; }
     if solid > 0u && solid == around { flags |= NODE_DEEP; }
     if solid > 0u && closed > 0u { flags |= NODE_FILM; }
-    if is_vertex(c) { flags |= vertex_flags(c, slot); }
+    if is_vertex(c) { flags |= vertex_flags(c, slot); } else if SOLIDS { wanted[slot] = 0u; }
     cells[slot] = (cells[slot] & 0xffff000fu) | flags;
 }
 

@@ -5,6 +5,7 @@
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/cut.wgsl"
+#include "shared/whole.wgsl"
 
 override FILTER: f32;   // share of the mode that one step removes
 
@@ -16,17 +17,22 @@ override FILTER: f32;   // share of the mode that one step removes
 
 fn sign_of(corner: vec3i) -> f32 { return f32(1 - 2 * ((corner.x + corner.y + corner.z) & 1)); }
 
-// Alternating mean around a vertex, positive for the cell below it on all axes or an even number of cells away.
-fn alternating_mean(v: vec3i) -> Gas {
+// What the filter takes from a cell beside a vertex, up to the sign: positive for the one below it on all axes or an even number of
+// cells away.
+fn taken_at(v: vec3i) -> Gas {
     var sum = Gas(vec4f(0.0), 0.0);
+    var densest = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
         let c = v - reach() + corner_offset(k);
         if !inside(c) || kind_of(cells[slot_of(c)]) != GAS || cut_entry(slot_of(c)) != 0u { return Gas(vec4f(0.0), 0.0); }
         let sign = sign_of(corner_offset(k));
         sum.flow += sign * conserved[slot_of(c)];
+        densest = max(densest, conserved[slot_of(c)].x);
         sum.energy += sign * energy[slot_of(c)];
     }
-    return Gas(sum.flow / f32(corner_count()), sum.energy / f32(corner_count()));
+    let share = FILTER / f32(corner_count() * corner_count());
+    let flow = share * sum.flow;
+    return Gas(vec4f(whole(flow.x, LAST_PLACE * power_of_two(densest)), flow.yzw), share * sum.energy);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -39,10 +45,10 @@ fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         let c = cell_of(slot);
         for (var k = 0u; k < corner_count(); k++) {
             let corner = corner_offset(k);
-            let mode = alternating_mean(c + corner);
-            let sign = sign_of(reach() - corner) * FILTER / f32(corner_count());
-            change.flow -= sign * mode.flow;
-            change.energy -= sign * mode.energy;
+            let taken = taken_at(c + corner);
+            let sign = sign_of(reach() - corner);
+            change.flow -= sign * taken.flow;
+            change.energy -= sign * taken.energy;
         }
     }
     work[slot] = change.flow;

@@ -1,4 +1,5 @@
-// p2g, scatter form: each particle adds to the 3^DIM nodes around it by fixed-point integer atomics.
+// p2g, scatter form: each particle adds to the 3^DIM nodes around it by fixed-point integer atomics, first in the memory of its
+// workgroup, which takes a tile of cells and their sorted particles, then once per node of the tile in global memory. [Gao et al. 2018]
 // Integer sums do not depend on their order, so the bits are the same on every run. The unit of a sum follows from the largest
 // share in this very state and from the crowd a node may see; a node that could hold more raises a fault instead of wrapping.
 // Same reads and writes as p2g.wgsl; velocity, mass and force come out in the same places.
@@ -15,6 +16,7 @@
 @group(0) @binding(6) var<storage, read_write> sums: array<atomic<i32>>; // per slot: momentum and mass; then per slot: force
 @group(0) @binding(7) var<storage, read_write> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> bounds: array<vec4f>; // partial maxima, then the units at PARTIALS: mass, momentum, force
+@group(0) @binding(9) var<storage, read> order: array<u32>;
 
 const FULL = 1073741824.0;  // 2^30: half of what an i32 holds
 
@@ -52,25 +54,71 @@ fn scatter_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     }
 }
 
+// Cells of a tile: one per thread of a workgroup.
+fn tile_cells() -> vec3u {
+    if DIM == 1u { return vec3u(WORKGROUP, 1u, 1u); }
+    if DIM == 2u { return vec3u(8u, WORKGROUP / 8u, 1u); }
+    return vec3u(4u, 4u, WORKGROUP / 16u);
+}
+
+const TILE_NODES = 216u;    // those of a tile and around it, at most
+const PARTS = 7u;           // momentum, mass, force
+var<workgroup> tile: array<atomic<i32>, TILE_NODES * PARTS>;
+
+fn place_in(size: vec3u, index: u32) -> vec3u {
+    return vec3u(index % size.x, (index / size.x) % size.y, index / (size.x * size.y));
+}
+
+fn index_in(size: vec3u, place: vec3u) -> u32 { return place.x + size.x * (place.y + size.y * place.z); }
+
+// Adds the particles of cell c to the tile; `corner`: the first node of the tile.
+fn add_cell(c: vec3i, corner: vec3i, nodes: vec3u) {
+    let unit = bounds[PARTIALS];
+    let slot = slot_of(c);
+    for (var i = cell_start[slot]; i < cell_start[slot + 1u]; i++) {
+        let p = order[i];
+        let s = spline_at(position[p].xyz);
+        for (var k = 0u; k < block_size(); k++) {
+            let offset = block_offset(k);
+            let share = share_of(p, s, offset);
+            let at = PARTS * index_in(nodes, vec3u(c + offset - corner));
+            if WITH_MASS {
+                let whole = vec4i(round(share.momentum / vec4f(unit.yyy, unit.x)));
+                for (var a = 0u; a < 4u; a++) { atomicAdd(&tile[at + a], whole[a]); }
+            }
+            if WITH_FORCE {
+                let whole = vec3i(round(share.force / unit.z));
+                for (var a = 0u; a < 3u; a++) { atomicAdd(&tile[at + 4u + a], whole[a]); }
+            }
+        }
+    }
+}
+
+// Gives what node n of the tile holds to the sums, and leaves it empty for the next tile.
+fn hand_over(n: u32, node: vec3i) {
+    for (var a = 0u; a < PARTS; a++) {
+        let whole = atomicExchange(&tile[PARTS * n + a], 0);
+        if whole == 0 { continue; }
+        let slot = slot_of(node);
+        if a < 4u { atomicAdd(&sums[4u * slot + a], whole); } else { atomicAdd(&sums[4u * (params.slots + slot) + a - 4u], whole); }
+    }
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn scatter_add(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
-    if p >= params.particles || position[p].w == 0.0 { return; }
-    let unit = bounds[PARTIALS];
-    let s = spline_at(position[p].xyz);
-    for (var k = 0u; k < block_size(); k++) {
-        let offset = block_offset(k);
-        let share = share_of(p, s, offset);
-        let slot = slot_of(s.base + offset);
-        if WITH_MASS {
-            let whole = vec4i(round(share.momentum / vec4f(unit.yyy, unit.x)));
-            for (var a = 0u; a < 4u; a++) { atomicAdd(&sums[4u * slot + a], whole[a]); }
+    let size = tile_cells();
+    let nodes = size + 2u * vec3u(reach());
+    let tiles = (params.cells + size - 1u) / size;
+    for (var t = thread_index(group, groups, 0u) / WORKGROUP; t < tiles.x * tiles.y * tiles.z; t += groups.x * groups.y) {
+        let first = vec3i(place_in(tiles, t) * size);
+        let c = first + vec3i(place_in(size, lane));
+        if inside(c) { add_cell(c, first - reach(), nodes); }
+        workgroupBarrier();
+        for (var n = lane; n < nodes.x * nodes.y * nodes.z; n += WORKGROUP) {
+            hand_over(n, first - reach() + vec3i(place_in(nodes, n)));
         }
-        if WITH_FORCE {
-            let whole = vec3i(round(share.force / unit.z));
-            for (var a = 0u; a < 3u; a++) { atomicAdd(&sums[4u * (params.slots + slot) + a], whole[a]); }
-        }
+        workgroupBarrier();
     }
 }
 

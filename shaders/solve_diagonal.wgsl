@@ -39,7 +39,7 @@ fn entries_at(v: vec3i, kinds: u32, j: vec3i) -> Entries {
         let corner = corner_offset(k);
         let e = v - corner;
         let node_offset = j - e;
-        if !inside(e) || any(abs(node_offset) > vec3i(1)) { continue; }
+        if !inside(mirrored(e)) || any(abs(node_offset) > vec3i(1)) { continue; }
         let kind = (kinds >> (2u * k)) & 3u;
         if kind == GAS || kind == SOLID { add_entries(&entries, kinds, node_offset, corner, kind == SOLID); }
     }

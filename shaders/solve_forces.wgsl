@@ -64,7 +64,7 @@ fn regular_force(slot: u32, c: vec3i) -> vec3f {
 fn kinds_of_block(c: vec3i, count: u32) -> Kinds {
     var kinds: Kinds;
     for (var k = 0u; k < count; k++) {
-        let near = c + block_offset(k);
+        let near = mirrored(c + block_offset(k));
         var kind = WALL;
         if in_ring(near) { kind = kind_of(cells[slot_of(near)]); }
         add_kind(&kinds, kind, k);

@@ -51,12 +51,13 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     if !LISTED { mass = interior_mass(slot); }
     else if beside_obstacle(cells[slot]) {
         if kind_of(cells[slot]) == GAS { mass = conserved[slot].x * cluster_share(slot); }
-    } else if has(cells[slot], NODE_GAS) {
+    } else if has(cells[slot], NODE_GAS) && !is_image(cell_of(slot)) {
         let c = cell_of(slot);
         for (var k = 0u; k < block_size(); k++) {
             let offset = block_offset(k);
-            if !inside(c + offset) { continue; }
-            let at = slot_of(c + offset);
+            let near = mirrored(c + offset);
+            if !inside(near) { continue; }
+            let at = slot_of(near);
             if kind_of(cells[at]) == GAS { mass += conserved[at].x * mass_entry(QUADRATIC, -offset); }
         }
     }
@@ -85,6 +86,7 @@ fn nearest_gas_velocity(c: vec3i) -> vec3f {
 }
 
 fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
+    if is_image(c) { return vec3f(0.0); }
     let kind = kind_of(cells[slot]);
     if kind == GAS { return velocity_of(conserved[slot]); }
     if kind != GHOST { return nearest_gas_velocity(c); }

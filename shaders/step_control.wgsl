@@ -11,7 +11,10 @@
 
 // Before the first step: lets the marks of the start run.
 @compute @workgroup_size(1)
-fn control_start() { open_phase(PHASE_BEGIN_EXTENTS, true); }
+fn control_start() {
+    open_phase(PHASE_BEGIN_EXTENTS, true);
+    open_phase(PHASE_SORT_EXTENTS, true);
+}
 
 // After the lists of slots: their lengths rule the LISTED and FRONTIER dispatches.
 @compute @workgroup_size(1)
@@ -69,7 +72,9 @@ fn control_second() {
 fn control_substep() {
     let go = control.phase == PHASE_SUBSTEP && control.substep < control.substeps && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_SUBSTEP_EXTENTS, go);
-    open_phase(PHASE_AGAIN_EXTENTS, go && control.substep > 0u);
+    let again = go && control.substep > 0u;
+    open_phase(PHASE_AGAIN_EXTENTS, again);
+    open_sort(again);
     open_phase(PHASE_FIRST_EXTENTS, go && control.substep == 0u);
     if go { control.substep += 1u; }
 }

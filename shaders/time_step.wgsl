@@ -139,6 +139,7 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     if lane != 0u { return; }
     let start = control.phase == PHASE_IDLE && control.remaining > 0.0 && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_BEGIN_EXTENTS, start);
+    open_sort(start);
     if !start { return; }
     var dt = params.fixed_step;
     if dt == 0.0 {

@@ -1,4 +1,5 @@
-// intermediate_pressure, second half: cell values to vertices. X*_v = mean of the adjacent gas cells' predicted pressure,
+// intermediate_pressure, second half: cell values to vertices. X*_v = mean of the adjacent gas cells' predicted pressure, without
+// bodies at walls with the weight of the gas in between,
 // S^-1_v = sum of (cell volume / 2^DIM) / (stiffness of the cell). Where gas and solid share a pressure both add.
 #include "shared/index.wgsl"
 #include "shared/listed.wgsl"
@@ -13,6 +14,7 @@
 @group(0) @binding(6) var<storage, read_write> pressure: array<f32>;
 @group(0) @binding(7) var<storage, read_write> stiffness: array<f32>;
 
+@group(0) @binding(10) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> residual: array<f32>;
 @group(0) @binding(9) var<storage, read_write> inverse_diagonal: array<f32>;
 
@@ -90,6 +92,7 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         return;
     }
     var gas = vec3f(0.0);   // count, pressure sum, compliance sum
+    var weight = 0.0;       // sum of density times gravity times the way from the cell to the vertex, in cells
     var solid = 0.0;
     var rigid = 0.0;        // compliance sum of cells with a given motion
     if has(word, VERTEX_GAS | VERTEX_SOLID) {
@@ -99,7 +102,10 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
             if !inside(c) { continue; }
             let at = slot_of(c);
             let kind = kind_of(cells[at]);
-            if kind == GAS { gas += vec3f(1.0, energy[params.slots + at], fill[at].y); }
+            if kind == GAS {
+                gas += vec3f(1.0, energy[params.slots + at], fill[at].y);
+                if !SOLIDS { weight += conserved[at].x * dot(params.gravity, vec3f(corner_offset(k)) - 0.5); }
+            }
             if kind == SOLID {
                 solid += max(fill[at].y, 0.0);
                 rigid += max(-fill[at].y, 0.0);
@@ -107,7 +113,9 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         }
     }
     let part = cell_volume() / f32(corner_count());
-    let gas_pressure = gas.y / max(gas.x, 1.0);
+    // Where cells are all around, what they weigh cancels.
+    let below = select(0.0, weight * params.spacing, gas.x < f32(corner_count()));
+    let gas_pressure = (gas.y + below) / max(gas.x, 1.0);
     let s_gas = gas.z * part;
     var s_solid = 0.0;
     var q = 0.0;

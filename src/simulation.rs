@@ -103,7 +103,7 @@ impl Simulation {
         let mut pass = Pass::new(gpu, "start");
         simulation.time_step.record_start(&mut pass);
         if let Some(particle_sort) = &simulation.particle_sort {
-            particle_sort.record(&mut pass, &simulation.state, "BEGIN");
+            particle_sort.record(&mut pass, &simulation.state);
         }
         simulation.interface.record_start(&mut pass, &simulation.state);
         simulation.time_step.record_listed(&mut pass);
@@ -121,7 +121,7 @@ impl Simulation {
             supports.record_motions(pass, state);
         }
         if let (Some(particle_sort), Some(p2g)) = (&self.particle_sort, &self.p2g) {
-            particle_sort.record(pass, state, "BEGIN");
+            particle_sort.record(pass, state);
             p2g.record(pass, state); // (1) particles to grid
             if let Some(elastic_order) = &self.elastic_order {
                 p2g.record_force(pass, state);
@@ -212,7 +212,7 @@ impl Simulation {
             if recorded == 0 {
                 p2g.record_substep(pass, state, true);
             }
-            particle_sort.record(pass, state, "AGAIN");
+            particle_sort.record(pass, state);
             p2g.record_substep(pass, state, false);
             self.record_held(pass, "AGAIN");
         }

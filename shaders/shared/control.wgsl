@@ -16,6 +16,7 @@ struct Control {
     floored: atomic<u32>,       // cells where the energy floor acted, this step
     raised: atomic<u32>,        // cells whose pressure was raised before a solve with ARS, this step
     clamped: atomic<u32>,       // particles held back at a wall, this step
+    unsorted: atomic<u32>,      // 1 if a particle may have left its cell since they were sorted
     escaped: atomic<u32>,       // particles that left through an open side, since the start
     extra: u32,                 // vertices that carry P, h and Q apart, this step
     iterations: u32,            // of the last solve

@@ -21,12 +21,12 @@ fn color_marches() -> u32 {
     return columns.x * columns.y * ((params.stride[DIM - 1u] + params.march - 1u) / params.march);
 }
 
-// Switches the dispatches of one phase on or off. Needs the binding control.
 fn surface_groups() -> vec4u {
     let rows = min(control.extra, params.surface_rows);
     return vec4u(min((rows + WORKGROUP - 1u) / WORKGROUP, params.groups), 1u, 1u, 0u);
 }
 
+// Switches the dispatches of one phase on or off. Needs the binding control.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
     extents[first + EXTENT_SLOTS] = groups_for(params.slots) * keep;
@@ -39,4 +39,11 @@ fn open_phase(first: u32, on: bool) {
     extents[first + EXTENT_COLOR] = groups_for(color_marches()) * keep;
     extents[first + EXTENT_SINGLE] = vec4u(keep);
     for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
+}
+
+// Particles that are all in the cells where they were need no sorting.
+fn open_sort(due: bool) {
+    var sort = due;
+    if due { sort = atomicExchange(&control.unsorted, 0u) == 1u; }
+    open_phase(PHASE_SORT_EXTENTS, sort);
 }

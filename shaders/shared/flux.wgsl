@@ -3,9 +3,20 @@
 // Local Lax-Friedrichs splitting f+- = (u_n +- alpha) U / 2, alpha the largest |u_n| of the stencil: the pressure part of the
 // Euler flux is the solve's, so sound needs no dissipation here; shocks do, see reconstruct.wgsl. [Cao et al. 2022, section 2.3; Shu & Osher 1988]
 // Without a z axis the energy travels in the place of the z momentum, which is zero.
+#include "shared/whole.wgsl"
 
 // heat: internal energy by the mean of both sides, the part that two solves per step take from the solve instead [shared/ars.wgsl].
-struct Fluxes { high: Gas, low: Gas, heat: f32 }
+// unit: density that passes in a stage is a multiple of it, see whole.wgsl.
+struct Fluxes { high: Gas, low: Gas, heat: f32, unit: f32 }
+
+// At most this part of the thinner cell, 2^-14, beside which more would count.
+const THIN_SHARE = 6.103515625e-5;
+
+// Two units of the last place, so that the mean of two stages is whole, too; with ARS a step takes parts of its stages that are not.
+fn unit_between(c: Gas, d: Gas) -> f32 {
+    if ARS { return 0.0; }
+    return min(2.0 * LAST_PLACE * power_of_two(max(c.flow.x, d.flow.x)), THIN_SHARE * power_of_two(min(c.flow.x, d.flow.x)));
+}
 
 fn central_heat(low: Gas, high: Gas, velocity: f32) -> f32 { return 0.5 * velocity * (internal_energy(low) + internal_energy(high)); }
 
@@ -29,6 +40,7 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32) -> Fluxes {
             vec4f(s.e.energy), vec4f(s.f.energy)).x;
     }
     out.high = unpacked(flow, energy);
+    out.unit = unit_between(s.c, s.d);
     if ARS { out.heat = central_heat(s.c, s.d, carried); }
     if LIMITER { out.low = Gas(up * s.c.flow + down * s.d.flow, up * s.c.energy + down * s.d.energy); }
     return out;
@@ -58,6 +70,7 @@ fn face_fluxes_of(n: u32, s: Stencil) -> Fluxes {
             + weno(s.even, vec4f(t.z), vec4f(t.y), vec4f(t.x), vec4f(r.z), vec4f(r.y)).x;
     }
     out.high = unpacked(flow, energy);
+    out.unit = unit_between(s.c, s.d);
     if ARS { out.heat = central_heat(s.c, s.d, (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x)); }
     if LIMITER { out.low = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy); }
     return out;

@@ -61,7 +61,7 @@ fn regular_rows(slot: u32, v: vec3i) -> f32 {
 // Kinds of the cells around a vertex: the one below it along x, y and z at place 0, above them at 7. `count`: corner_count() or 0.
 fn kinds_beside(v: vec3i, count: u32) -> Kinds {
     var kinds: Kinds;
-    for (var k = 0u; k < count; k++) { add_kind(&kinds, kind_of(cells[slot_of(v - corner_offset(k))]), 7u - k); }
+    for (var k = 0u; k < count; k++) { add_kind(&kinds, kind_of(cells[slot_of(mirrored(v - corner_offset(k)))]), 7u - k); }
     return kinds;
 }
 

@@ -20,7 +20,7 @@ fn neighbour_kind(c: vec3i, n: u32, up: bool) -> u32 {
 // Kinds of the 2^DIM cells around a vertex, two bits each, in the order of corner_offset(): cell k lies at v - corner_offset(k).
 fn kinds_around_vertex(v: vec3i) -> u32 {
     var kinds = 0u;
-    for (var k = 0u; k < corner_count(); k++) { kinds |= kind_of(cells[slot_of(v - corner_offset(k))]) << (2u * k); }
+    for (var k = 0u; k < corner_count(); k++) { kinds |= kind_of(cells[slot_of(mirrored(v - corner_offset(k)))]) << (2u * k); }
     return kinds;
 }
 

@@ -101,6 +101,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/thread.wgsl",
     "shared/trial.wgsl",
     "shared/view.wgsl",
+    "shared/whole.wgsl",
     "skin.wgsl",
     "slice.wgsl",
     "solid_elastic.wgsl",

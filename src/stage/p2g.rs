@@ -1,5 +1,6 @@
 //! `p2g`: what do the solids look like on the grid? Two forms with the same result in the same buffers: gather over sorted
-//! particles, column by column in a fixed order, and scatter by fixed-point integer atomics. Both give equal bits on every run.
+//! particles, column by column in a fixed order, and scatter by fixed-point integer atomics, tile by tile. Both give equal bits on
+//! every run.
 
 use super::{Parts, extent};
 use crate::error::Result;
@@ -119,7 +120,7 @@ impl Kernels {
                 pass.dispatch(bounds, &extent(state, phase, Entry::Reduce));
                 pass.dispatch(units, &extent(state, phase, Entry::Single));
                 pass.dispatch(clear, &extent(state, phase, Entry::Slots));
-                pass.dispatch(add, &extent(state, phase, Entry::Particles));
+                pass.dispatch(add, &extent(state, phase, Entry::Reduce));
                 pass.dispatch(resolve, &extent(state, phase, Entry::Slots));
             }
         }

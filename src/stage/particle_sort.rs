@@ -41,8 +41,9 @@ impl ParticleSort {
         })
     }
 
-    /// Sorts within a phase.
-    pub fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
+    /// Sorts, if a particle may have left its cell since the last time.
+    pub fn record(&self, pass: &mut Pass, state: &State) {
+        let phase = "SORT";
         pass.stage("particle_sort");
         pass.dispatch(&self.clear, &extent(state, phase, Entry::Slots));
         pass.dispatch(&self.count, &extent(state, phase, Entry::Particles));

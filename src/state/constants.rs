@@ -52,8 +52,8 @@ pub const STILL_BLOCK: u32 = 8;
 /// Entries of a phase in the table of extents.
 pub const PHASE_WIDTH: usize = 9 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
-pub const PHASES: [&str; 10] =
-    ["BEGIN", "LIMIT", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END", "ROUND", "ITERATION"];
+pub const PHASES: [&str; 11] =
+    ["BEGIN", "SORT", "LIMIT", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END", "ROUND", "ITERATION"];
 
 /// Entries of a phase in the table of extents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -36,6 +36,8 @@ pub struct Control {
     pub raised: u32,
     /// Particles held back at a wall, this step.
     pub clamped: u32,
+    /// 1 if a particle may have left its cell since they were sorted.
+    pub unsorted: u32,
     /// Particles that left through an open side, since the start.
     pub escaped: u32,
     /// Vertices that carry P, h and Q apart, this step.

@@ -199,6 +199,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
         ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
+        ("MIRRORED", f64::from(if solids || numerics.pair == Pair::B2b1 { 0 } else { whole_walls(scene) })),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
             "INTERFACE",
@@ -209,6 +210,12 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
             },
         ),
     ]
+}
+
+/// Sides that are walls and nothing else, as bits.
+fn whole_walls(scene: &Scene) -> u32 {
+    let wall = |side: &Boundary| side.rules().iter().all(|rule| **rule == Boundary::Wall);
+    scene.boundary.sides().iter().enumerate().map(|(index, side)| u32::from(wall(side)) << index).sum()
 }
 
 /// Sides whose base rule is a wall, as bits.

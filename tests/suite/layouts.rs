@@ -97,6 +97,7 @@ fn control() {
             floored,
             raised,
             clamped,
+            unsorted,
             escaped,
             extra,
             iterations,

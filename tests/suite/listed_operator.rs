@@ -7,7 +7,7 @@ use brisance::simulation::Simulation;
 use brisance::state::State;
 
 use crate::common::{Random, gpu_or_skip};
-use crate::reference::coupled_solve::row_block;
+use crate::reference::coupled_solve::block_with_images;
 use crate::reference::grid::add;
 use crate::reference::{GAS, Problem, SOLID, interface};
 use crate::twins::problem_of;
@@ -103,18 +103,22 @@ struct Entry {
     value: f64,
 }
 
-/// C without a grid of its own: every coefficient of every node, bodies' nodes behind those of the gas.
+/// C without a grid of its own: every coefficient of every node, bodies' nodes behind those of the gas. Images beyond planes of symmetry
+/// have none.
 fn entries(problem: &Problem, marks: &Marks) -> Vec<Entry> {
     let grid = &problem.grid;
     let mut entries = Vec::new();
     for kind in [GAS, SOLID] {
         for node in grid.all() {
             let touched = |c: [i32; 3]| marks.kinds[grid.slot(c)] == kind;
+            if kind == GAS && problem.mirrored(node) != node {
+                continue;
+            }
             if !interface::elements_of(problem, node).any(|(c, _)| touched(c)) {
                 continue;
             }
             for axis in 0..grid.dimension {
-                let block = row_block(problem, &marks.kinds, node, axis, kind);
+                let block = block_with_images(problem, &marks.kinds, node, axis, kind);
                 for offset in grid.offsets(-1, 2) {
                     let at = (offset[0] + 1 + 4 * (offset[1] + 1) + 16 * (offset[2] + 1)) as usize;
                     for (own, part) in block.iter().enumerate().filter(|(_, part)| part[at] != 0.0) {
@@ -128,6 +132,12 @@ fn entries(problem: &Problem, marks: &Marks) -> Vec<Entry> {
         }
     }
     entries
+}
+
+/// Slots of gas nodes that are images of others: without mass and velocity.
+fn images(problem: &Problem) -> Vec<usize> {
+    let all = problem.grid.all().into_iter();
+    all.filter(|node| problem.mirrored(*node) != *node).map(|node| problem.grid.slot(node)).collect()
 }
 
 fn worst(found: &[f64], expected: &[f64]) -> f64 {
@@ -150,11 +160,15 @@ fn noise(length: usize) -> Vec<f32> {
 }
 
 /// Error of the forces at listed nodes. What an unknown has no use for must not matter, so all are random.
-fn error_of_forces(gpu: &Gpu, state: &State, marks: &Marks, entries: &[Entry]) -> f64 {
+fn error_of_forces(gpu: &Gpu, problem: &Problem, (state, marks): (&State, &Marks), entries: &[Entry]) -> f64 {
     let slots = marks.cells.len();
     let x = noise(marks.unknown_count());
     let x_buffer = Buffer::from_slice(gpu, "x", &x).unwrap();
-    let work = Buffer::from_slice(gpu, "work", &vec![[0.0, 0.0, 0.0, 1.0_f32]; 2 * slots]).unwrap();
+    let mut work = vec![[0.0, 0.0, 0.0, 1.0_f32]; 2 * slots];
+    for image in images(problem) {
+        work[image] = [0.0; 4];
+    }
+    let work = Buffer::from_slice(gpu, "work", &work).unwrap();
     let inertia = Buffer::from_slice(gpu, "inertia", &vec![1.0_f32; slots]).unwrap();
     let named = [("x", x_buffer.raw()), ("work", work.raw()), ("inertia", inertia.raw())];
     run(gpu, state, "solve_forces.wgsl", "solve_forces", &named);
@@ -171,10 +185,13 @@ fn error_of_forces(gpu: &Gpu, state: &State, marks: &Marks, entries: &[Entry]) -
 }
 
 /// Error of the rows at listed vertices, without stiffness and with dt = 1.
-fn error_of_rows(gpu: &Gpu, state: &State, marks: &Marks, entries: &[Entry]) -> f64 {
+fn error_of_rows(gpu: &Gpu, problem: &Problem, (state, marks): (&State, &Marks), entries: &[Entry]) -> f64 {
     let length = marks.unknown_count();
     let velocity = noise(8 * marks.cells.len());
-    let velocity: Vec<[f32; 4]> = velocity.chunks_exact(4).map(|v| [v[0], v[1], v[2], 1.0]).collect();
+    let mut velocity: Vec<[f32; 4]> = velocity.chunks_exact(4).map(|v| [v[0], v[1], v[2], 1.0]).collect();
+    for image in images(problem) {
+        velocity[image] = [0.0; 4];
+    }
     let mut control = readback::read(gpu, &state.control).unwrap();
     control[0].dt = 1.0;
     state.control.write(gpu, 0, &control);
@@ -209,9 +226,13 @@ fn compare(overrides: &[&str]) -> Option<usize> {
     simulation.advance_batch_of(&mut Vec::new(), 1).unwrap();
     let state = &simulation.state;
     let marks = Marks::of(&gpu, state);
-    let entries = entries(&problem_of(&scene), &marks);
-    let forces = error_of_forces(&gpu, state, &marks, &entries);
-    let rows = error_of_rows(&gpu, state, &marks, &entries);
+    let mut problem = problem_of(&scene);
+    if scene.bodies.is_empty() {
+        problem.materials.clear();
+    }
+    let entries = entries(&problem, &marks);
+    let forces = error_of_forces(&gpu, &problem, (state, &marks), &entries);
+    let rows = error_of_rows(&gpu, &problem, (state, &marks), &entries);
     let mut sorted = marks.listed.clone();
     sorted.sort_unstable();
     sorted.dedup();

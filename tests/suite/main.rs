@@ -40,3 +40,4 @@ mod twins;
 mod verify;
 #[cfg(feature = "viewer")]
 mod viewer;
+mod walls;

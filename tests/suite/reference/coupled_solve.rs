@@ -65,7 +65,7 @@ pub(crate) fn unknown(interface: &Interface, field: usize, vertex: usize) -> usi
 }
 
 /// Coefficients of one row: [own field, h] by vertex offset from the node, -1..=2 per axis.
-pub(crate) fn row_block(problem: &Problem, cells: &[u32], node: [i32; 3], axis: usize, kind: u32) -> [[f64; 64]; 2] {
+fn row_block(problem: &Problem, cells: &[u32], node: [i32; 3], axis: usize, kind: u32) -> [[f64; 64]; 2] {
     let grid = &problem.grid;
     let pair = if kind == SOLID { Pair::B2b1 } else { problem.numerics.pair };
     let (gradient, overlap) = (element::gradient(pair), element::overlap(pair));
@@ -98,6 +98,39 @@ fn local(offset: [i32; 3]) -> usize {
     ((offset[0] + 1) + 4 * ((offset[1] + 1) + 4 * (offset[2] + 1))) as usize
 }
 
+/// The same of a node and its images beyond planes of symmetry, whose velocity across them is opposite.
+pub(crate) fn block_with_images(
+    problem: &Problem,
+    cells: &[u32],
+    node: [i32; 3],
+    axis: usize,
+    kind: u32,
+) -> [[f64; 64]; 2] {
+    if kind == SOLID {
+        return row_block(problem, cells, node, axis, kind);
+    }
+    let grid = &problem.grid;
+    let mut sum = [[0.0; 64]; 2];
+    for off in grid.offsets(-1, 1) {
+        let image = add(node, off);
+        if problem.mirrored(image) != node {
+            continue;
+        }
+        let sign = if image[axis] == node[axis] { 1.0 } else { -1.0 };
+        let block = row_block(problem, cells, image, axis, kind);
+        for corner in grid.offsets(-1, 2) {
+            let from = subtract(add(node, corner), image);
+            if from.iter().any(|k| !(-1..=2).contains(k)) {
+                continue;
+            }
+            for (sum, block) in sum.iter_mut().zip(&block) {
+                sum[local(corner)] += sign * block[local(from)];
+            }
+        }
+    }
+    sum
+}
+
 fn rows(inputs: &Inputs) -> Vec<Row> {
     let (problem, interface) = (inputs.problem, inputs.interface);
     let grid = &problem.grid;
@@ -110,9 +143,12 @@ fn rows(inputs: &Inputs) -> Vec<Row> {
         }
         for node in grid.all() {
             let slot = grid.slot(node);
+            if kind == GAS && problem.mirrored(node) != node {
+                continue;
+            }
             let touched = interface::elements_of(problem, node).any(|(c, _)| interface.cells[grid.slot(c)] == kind);
             for axis in (0..grid.dimension).filter(|_| touched) {
-                let block = row_block(problem, &interface.cells, node, axis, kind);
+                let block = block_with_images(problem, &interface.cells, node, axis, kind);
                 let mut entries: Vec<(usize, f64)> = Vec::new();
                 for off in &vertices {
                     let values = [block[0][local(*off)], block[1][local(*off)]];

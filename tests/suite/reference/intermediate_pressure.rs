@@ -121,15 +121,23 @@ pub(crate) fn intermediate(
         predicted_pressure[slot] = factor * pressure[slot];
         for off in grid.offsets(-1, 1) {
             let share = element::node_weight(grid, problem.numerics.pair, off) * grid.volume();
-            node_mass[grid.slot(add(c, off))] += share * star.conserved[slot][0];
+            node_mass[grid.slot(problem.mirrored(add(c, off)))] += share * star.conserved[slot][0];
         }
     }
     let mut vertex_pressure = vec![0.0; grid.slots()];
     for vertex in grid.vertices() {
-        let gas = interface::around(problem, vertex).filter(|c| grid.contains(*c)).map(|c| grid.slot(c));
-        let values: Vec<f64> = gas.filter(|s| interface.cells[*s] == GAS).map(|s| predicted_pressure[s]).collect();
-        if !values.is_empty() {
-            vertex_pressure[grid.slot(vertex)] = values.iter().sum::<f64>() / values.len() as f64;
+        let inside = interface::around(problem, vertex).filter(|c| grid.contains(*c));
+        let gas: Vec<[i32; 3]> = inside.filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
+        let balanced = gas.len() == 1 << grid.dimension || !problem.materials.is_empty();
+        let value = |c: &[i32; 3]| {
+            let way: f64 = (0..grid.dimension)
+                .map(|axis| problem.gravity[axis] * (f64::from(vertex[axis] - c[axis]) - 0.5) * grid.spacing)
+                .sum();
+            let weight = if balanced { 0.0 } else { star.conserved[grid.slot(*c)][0] * way };
+            predicted_pressure[grid.slot(*c)] + weight
+        };
+        if !gas.is_empty() {
+            vertex_pressure[grid.slot(vertex)] = gas.iter().map(value).sum::<f64>() / gas.len() as f64;
         }
     }
     let mut velocities = vec![[0.0; 3]; grid.slots()];

@@ -174,6 +174,24 @@ pub(crate) struct Problem {
 }
 
 impl Problem {
+    /// Does the pressure system take a side for a plane of symmetry?
+    fn mirrors(&self, side: usize) -> bool {
+        self.numerics.pair == Pair::B1b0 && self.materials.is_empty() && matches!(self.sides[side], Side::Wall)
+    }
+
+    /// What a node beyond such sides is the image of.
+    pub(crate) fn mirrored(&self, mut node: [i32; 3]) -> [i32; 3] {
+        for (axis, place) in node.iter_mut().enumerate().take(self.grid.dimension) {
+            let last = self.grid.cells[axis] - 1;
+            if *place < 0 && self.mirrors(2 * axis) {
+                *place = 0;
+            } else if *place > last && self.mirrors(2 * axis + 1) {
+                *place = last;
+            }
+        }
+        node
+    }
+
     /// A problem with the default method, no obstacles and no gravity.
     pub(crate) fn new(mut grid: Grid, sides: [Side; 6]) -> Self {
         grid.periodic = [0, 1, 2].map(|axis| matches!(sides[2 * axis], Side::Periodic));
