@@ -38,6 +38,9 @@ const SHORT: f64 = 1e-6;
 /// Why much noise is left after long steps.
 const FIRST_STEP: &str = "the first step carries gas twenty cells' worth of sound with velocities that no solve has seen: 4e-2, which decays";
 
+/// Why two solves do not damp it.
+const TWO_SOLVES: &str = "with two solves the noise of steps that long grows slowly, cause not found; one solve is the default";
+
 /// A box: dimension, cells along each axis, Courant numbers.
 type Room = (u32, u32, &'static [f64]);
 
@@ -85,7 +88,10 @@ fn rest_noise_in(
     let row = session.check(&run, &named("300 steps"), last);
     row.source("goal: twice the noise at the start").pass(Limit::AtMost(2e-3));
     if courant > 10.0 {
-        row.known(Limit::AtMost(3e-3), FIRST_STEP);
+        match integrator {
+            Integrator::Ars222 => row.known(Limit::AtMost(6e-3), TWO_SOLVES),
+            _ => row.known(Limit::AtMost(3e-3), FIRST_STEP),
+        };
     }
     session.check(&run, &named("the first step"), first).source("reported");
     Ok(())
