@@ -39,7 +39,8 @@ const SHORT: f64 = 1e-6;
 const FIRST_STEP: &str = "the first step carries gas twenty cells' worth of sound with velocities that no solve has seen: 4e-2, which decays";
 
 /// Why two solves do not damp it.
-const TWO_SOLVES: &str = "with two solves the noise of steps that long grows slowly, cause not found; one solve is the default";
+const TWO_SOLVES: &str =
+    "with two solves the noise of steps that long grows slowly, cause not found; one solve is the default";
 
 /// A box: dimension, cells along each axis, Courant numbers.
 type Room = (u32, u32, &'static [f64]);
