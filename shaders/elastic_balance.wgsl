@@ -36,7 +36,7 @@ fn elastic_missing(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         for (var p = portion.x + lane; p < portion.y; p += WORKGROUP) {
             if !takes(p) { continue; }
             let x = position[p];
-            let cell = nearest_inside(vec3i(floor((x.xyz - params.origin) / params.spacing)));
+            let cell = cell_at(x.xyz);
             read_rows(slot_of(cell));
             sum += x.w * vec4f(motion_at(place_at(x.xyz, vec3f(cell) + 0.5)).velocity, 1.0);
         }

@@ -32,7 +32,7 @@ fn elastic_strain(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let mu = change[2u * p + 1u].w;
     if mu == 0.0 { return; }
     let x = position[p].xyz;
-    let cell = nearest_inside(vec3i(floor((x - params.origin) / params.spacing)));
+    let cell = cell_at(x);
     read_rows(slot_of(cell));
     let g = motion_at(place_at(x, vec3f(cell) + 0.5)).gradient;
     let diagonal = vec3f(lambda * trace(g)) + 2.0 * mu * vec3f(g[0].x, g[1].y, g[2].z);

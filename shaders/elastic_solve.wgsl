@@ -79,7 +79,7 @@ fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         return;
     }
     let x = position[p].xyz;
-    let cell = nearest_inside(vec3i(floor((x - params.origin) / params.spacing)));
+    let cell = cell_at(x);
     read_rows(slot_of(cell));
     let trial = trial_deformation(p, motion_at(place_at(x, vec3f(cell) + 0.5)).gradient, control.dt);
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];

@@ -73,8 +73,6 @@ fn store_deformation(p: u32, f: mat3x3f) {
     deformation[3u * p + 2u] = vec4f(f[2], 0.0);
 }
 
-fn cell_at(x: vec3f) -> vec3i { return nearest_inside(vec3i(floor((x - params.origin) / params.spacing))); }
-
 fn put_at(p: u32, place: vec3f) {
     var x = place;
     let inside_domain = keep_inside(&x);

@@ -11,10 +11,7 @@
 
 fn is_active(p: u32) -> bool { return deformation[3u * p + 1u].w > 0.0; }
 
-fn slot_of_particle(p: u32) -> u32 {
-    let c = vec3i(floor((position[p].xyz - params.origin) / params.spacing));
-    return slot_of(nearest_inside(c));
-}
+fn slot_of_particle(p: u32) -> u32 { return slot_of(cell_at(position[p].xyz)); }
 
 @compute @workgroup_size(WORKGROUP)
 fn sort_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,

@@ -10,7 +10,7 @@ struct Spline {
 fn spline_at(position: vec3f) -> Spline {
     var s: Spline;
     let x = (position - params.origin) / params.spacing;
-    s.base = nearest_inside(vec3i(floor(x)));
+    s.base = cell_at(position);
     for (var a = 0u; a < 3u; a++) {
         if a < DIM {
             let f = x[a] - f32(s.base[a]) - 0.5; // distance to the middle node, in cells

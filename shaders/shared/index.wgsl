@@ -84,4 +84,6 @@ fn face_area() -> f32 {
     if DIM == 2u { return params.spacing; }
     return params.spacing * params.spacing;
 }
+// Cell that holds a position, or the nearest one.
+fn cell_at(position: vec3f) -> vec3i { return nearest_inside(vec3i(floor((position - params.origin) / params.spacing))); }
 fn world_from_cell(c: vec3i) -> vec3f { return params.origin + (vec3f(c) + 0.5) * params.spacing; }

@@ -46,7 +46,7 @@ const fn quadratic(stage: &'static str, per: Per, slot_with_quadratic: u32) -> T
     Traffic { slot_with_quadratic, ..row(stage, per, 0, 0, 0) }
 }
 
-/// The bytes of all stages; stages with several parts have several lines. Particle transfers are those of the gather form in
+/// The bytes of all stages; stages with several parts have several lines. Of the sort it is what one takes where it is due. Particle transfers are those of the gather form in
 /// 3D, whose nine colors each read and write the nodes.
 pub const TRAFFIC: [Traffic; 19] = [
     row("time_step", Per::Step, 24, 0, 128),

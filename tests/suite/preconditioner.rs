@@ -203,7 +203,7 @@ fn large_steps_in_space_cost_few_iterations() {
     let common = [&["time.until=9.0", "numerics.tolerance=1e-6"], &SPACE[..]].concat();
     for (step, block, most, gain) in [
         ("time.fixed_step=0.528", false, 16, 3.0),
-        ("time.fixed_step=1.58", false, 40, 3.0),
+        ("time.fixed_step=1.58", false, 36, 3.5),
         ("time.fixed_step=0.528", true, 40, 1.3),
         ("time.fixed_step=1.58", true, 40, 1.3),
     ] {
