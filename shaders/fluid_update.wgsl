@@ -79,8 +79,10 @@ fn wide_face_is_gas(low: vec3i, n: u32) -> bool {
     return true;
 }
 
+// By differences, so that a constant pressure stays constant.
 fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
     let range = wide_range(n);
+    let reference = pressure[slot_of(low)];
     var sum = 0.0;
     for (var z = range[0].z; z <= range[1].z; z++) {
         for (var y = range[0].y; y <= range[1].y; y++) {
@@ -91,11 +93,11 @@ fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
                     if a == n { weight *= select(2.0 / 3.0, 1.0 / 6.0, offset[a] != 0); }
                     else { weight *= select(11.0, 1.0, offset[a] < 0 || offset[a] > 1) / 24.0; }
                 }
-                sum += weight * pressure[slot_of(low + offset)];
+                sum += weight * (pressure[slot_of(low + offset)] - reference);
             }
         }
     }
-    return sum;
+    return reference + sum;
 }
 
 // Mean pressure of the low face of a cell deep inside the gas.

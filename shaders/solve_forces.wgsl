@@ -15,15 +15,18 @@
 @group(0) @binding(5) var<storage, read> inertia: array<f32>;
 
 // B2B1 where only gas, or only solid, and the sides of the domain are around: a product of one-dimensional stencils, line by line.
+// Of gas only differences, so that a constant pressure moves nothing.
 fn wide_force(slot: u32, c: vec3i, solid: bool) -> vec3f {
     let ex = wide_entries_of_node(0u, c.x, solid);
     let ey = wide_entries_of_node(1u, c.y, solid);
     let ez = wide_entries_of_node(2u, c.z, solid);
+    var reference = 0.0;
+    if !solid { reference = x[slot_of(clamp(c, vec3i(0), vec3i(params.cells) * reach()))]; }
     var force = vec3f(0.0);
     for (var k = -reach().z; k <= 2 * reach().z; k++) {
         for (var j = -reach().y; j <= 2 * reach().y; j++) {
             let at = u32(i32(slot) + i32(params.stride.x) * (j + i32(params.stride.y) * k));
-            let line = vec4f(value_at(at - 1u, solid), value_at(at, solid), value_at(at + 1u, solid), value_at(at + 2u, solid));
+            let line = vec4f(value_at(at - 1u, solid), value_at(at, solid), value_at(at + 1u, solid), value_at(at + 2u, solid)) - reference;
             let mean = dot(ex.mean, line);
             force += vec3f(dot(ex.slope, line) * ey.mean[j + 1] * ez.mean[k + 1],
                 mean * vec2f(ey.slope[j + 1] * ez.mean[k + 1], ey.mean[j + 1] * ez.slope[k + 1]));

@@ -50,9 +50,11 @@ fn operator_at(at: u32, own: f32) -> vec2f {
     if DIM == 2u { return vec2f(0.5 * dot(above, own - diagonals(at)), dot(above, vec4f(1.0))); }
     let z = params.stride.x * params.stride.y;
     let below = masses(at - z);
-    let middle = 3.0 * own + edges(at) - diagonals(at);
-    let low = middle + x[at - z] - edges(at - z) - 3.0 * diagonals(at - z);
-    let high = middle + x[at + z] - edges(at + z) - 3.0 * diagonals(at + z);
+    // Differences, so that a constant pressure moves nothing: its terms do not leave their rounding behind.
+    let beside = edges(at);
+    let around = diagonals(at);
+    let low = 3.0 * (own - diagonals(at - z)) + (beside - edges(at - z)) + (x[at - z] - around);
+    let high = 3.0 * (own - diagonals(at + z)) + (beside - edges(at + z)) + (x[at + z] - around);
     return vec2f(0.0625 * (dot(below, low) + dot(above, high)), dot(below + above, vec4f(1.0)));
 }
 

@@ -30,20 +30,21 @@ fn vertex_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     }
 }
 
-// A vertex with only gas around it.
+// A vertex with only gas around it. Differences, so that a constant pressure stays constant, up to the sides.
 fn interior_vertex(slot: u32) {
+    let reference = energy[params.slots + slot];
     var sum = vec2f(0.0);
     for (var k = 0u; k < corner_count(); k++) {
         let o = vec3u(corner_offset(k));
         let at = slot - o.x - params.stride.x * (o.y + params.stride.y * o.z);
-        sum += vec2f(energy[params.slots + at], fill[at].y);
+        sum += vec2f(energy[params.slots + at] - reference, fill[at].y);
     }
     let mean = sum / f32(corner_count());
-    pressure[slot] = mean.x;
+    pressure[slot] = reference + mean.x;
     stiffness[slot] = mean.y * cell_volume();
 }
 
-// A vertex near an obstacle: weights are the gas that it stands for. Differences, so that a constant pressure stays constant.
+// A vertex near an obstacle: weights are the gas that it stands for.
 fn cut_vertex(slot: u32) {
     let v = cell_of(slot);
     var reference = 0.0;
@@ -91,7 +92,8 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         cut_vertex(slot);
         return;
     }
-    var gas = vec3f(0.0);   // count, pressure sum, compliance sum
+    var gas = vec3f(0.0);   // count, sum of pressure over the reference, compliance sum
+    var reference = 0.0;    // pressure of the first
     var weight = 0.0;       // sum of density times gravity times the way from the cell to the vertex, in cells
     var solid = 0.0;
     var rigid = 0.0;        // compliance sum of cells with a given motion
@@ -103,7 +105,9 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
             let at = slot_of(c);
             let kind = kind_of(cells[at]);
             if kind == GAS {
-                gas += vec3f(1.0, energy[params.slots + at], fill[at].y);
+                let p = energy[params.slots + at];
+                if gas.x == 0.0 { reference = p; }
+                gas += vec3f(1.0, p - reference, fill[at].y);
                 if !SOLIDS { weight += conserved[at].x * dot(params.gravity, vec3f(corner_offset(k)) - 0.5); }
             }
             if kind == SOLID {
@@ -115,7 +119,7 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let part = cell_volume() / f32(corner_count());
     // Where cells are all around, what they weigh cancels.
     let below = select(0.0, weight * params.spacing, gas.x < f32(corner_count()));
-    let gas_pressure = (gas.y + below) / max(gas.x, 1.0);
+    let gas_pressure = reference + (gas.y + below) / max(gas.x, 1.0);
     let s_gas = gas.z * part;
     var s_solid = 0.0;
     var q = 0.0;
@@ -134,6 +138,6 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     // Inside a body with a given motion nothing gives way; a free node of a body that it touches would meet a pressure without bound.
     if DRIVEN && s_gas + s_solid == 0.0 && rigid > 0.0 && meets_free_node(cell_of(slot)) { s_solid = rigid * part; }
     let s = s_gas + s_solid;
-    pressure[slot] = select(q, (s_gas * gas_pressure + s_solid * q) / s, s > 0.0);
+    pressure[slot] = select(q, gas_pressure + s_solid / s * (q - gas_pressure), s > 0.0);
     stiffness[slot] = s;
 }
