@@ -13,14 +13,13 @@
 #include "shared/still.wgsl"
 
 override SOURCE: u32;   // 0: the state now, 1: U1, 2: U*
-override SOLVED: bool;  // the solve has moved still air
+override SOLVED: bool;  // the solve has moved air that was still
 
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(4) var<storage, read> work: array<vec4f>;
 @group(0) @binding(5) var<storage, read> extra: array<u32>;
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(12) var<storage, read> still: array<u32>;
 
 fn source(slot: u32) -> vec4f {
     if SOURCE == 1u { return work[slot]; }
@@ -78,13 +77,20 @@ fn interior_average(at: u32, n: u32) -> f32 {
     return 0.5 * smooth_along(at, n, t.x) + 0.25 * (smooth_along(at - t.y, n, t.x) + smooth_along(at + t.y, n, t.x));
 }
 
+// Whether nothing moves near a slot. Clusters of cut cells reach further.
+fn stays(slot: u32) -> bool { return !CUT && !SOLVED && is_still(slot); }
+
 @compute @workgroup_size(WORKGROUP)
 fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                    @builtin(local_invocation_index) lane: u32) {
     let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
+    if kind_of(word) != GAS { return; }
+    if stays(slot) {
+        node[slot] = vec4f(0.0);
+        return;
+    }
     var sum = vec3f(0.0);
     if !LISTED {
         for (var n = 0u; n < DIM; n++) { sum[n] = interior_average(slot, n); }
@@ -136,8 +142,7 @@ fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(num_workgrou
                       @builtin(local_invocation_index) lane: u32) {
     let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
-    let word = cells[slot];
-    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
+    if kind_of(cells[slot]) != GAS || stays(slot) { return; }
     var sum = 0.0;
     if LISTED {
         let c = cell_of(slot);
@@ -180,15 +185,17 @@ fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let thread = thread_index(group, groups, lane);
     let first = march_start(thread);
     if first >= params.slots { return; }
-    if !SOLVED && is_still(thread) {
-        for (var slot = first; slot < min(first + params.march * s, params.slots); slot += s) { node[slot] = vec4f(0.0); }
-        return;
-    }
-    var low = row_at(max(first, s) - s);
-    var here = row_at(first);
+    let awake = awake_rows(thread);
+    let moving = row_span(select(moving_rows(thread), awake, SOLVED));
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
-        if slot >= params.slots { break; }
+        if slot < params.slots && ((awake >> k) & 1u) == 1u && (k < moving.x || k >= moving.y) { node[slot] = vec4f(0.0); }
+    }
+    if moving.x == moving.y { return; }
+    let begin = first + moving.x * s;
+    var low = row_at(max(begin, s) - s);
+    var here = row_at(begin);
+    for (var slot = begin; slot < min(first + moving.y * s, params.slots); slot += s) {
         let high = row_at(slot + s);
         if has(cells[slot], INTERIOR) {
             let x = 0.5 * here.x + 0.25 * (low.x + high.x);

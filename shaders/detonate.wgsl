@@ -1,8 +1,9 @@
 // detonate: energy for the gas in a ball, evenly over its volume: pressure rises, density and velocity stay. Cells of a cut cluster
-// share one state, so the centre of their first one decides for all. Reads cells, extra. Writes partials, energy.
+// share one state, so the centre of their first one decides for all. Reads cells, extra. Writes partials, energy. Wakes all gas.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/cut.wgsl"
+#include "shared/control.wgsl"
 #include "shared/reduce.wgsl"
 
 // Mirror of Blast in src/stage/detonate.rs.
@@ -14,6 +15,7 @@ struct Blast {
 }
 
 @group(0) @binding(1) var<uniform> blast: Blast;
+@group(0) @binding(6) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
 @group(0) @binding(4) var<storage, read_write> partials: array<vec4f>;
@@ -46,5 +48,6 @@ fn detonate_heat(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
                  @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
+    if slot == 0u { control.woken = 1u; }    // the gas there was asleep, perhaps
     if share_in_ball(slot) > 0.0 { energy[slot] += blast.rise; }
 }

@@ -75,7 +75,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     put(2u, at, lane, workgroup_sum4(lane, crossed));
     put(3u, at, lane, workgroup_sum4(lane, heat));
     put(4u, at, lane, workgroup_max4(lane, extremes));
-    put(5u, at, lane, workgroup_max4(lane, vec4f(speed.x, speed.y * control.duration / params.spacing, 0.0, 0.0)));
+    put(5u, at, lane, workgroup_max4(lane, vec4f(speed.x, speed.y * control.duration / params.spacing, speed.y, 0.0)));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -131,6 +131,7 @@ fn totals_record(@builtin(local_invocation_index) lane: u32) {
         if lane == 0u { history[base + 2u + block] = value; }
     }
     if lane != 0u { return; }
+    control.sound = history[base + 7u].z;
     history[base + 7u].z = bitcast<f32>(atomicLoad(&control.raised));
     let unit = borrowed_unit();
     history[base + 3u] += unit.x * vec4f(0.0, borrowed(0u), borrowed(1u), borrowed(2u));

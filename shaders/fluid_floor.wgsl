@@ -4,6 +4,7 @@
 // Only if the total energy itself is below that floor is energy borrowed from the ledger. Every floored cell is counted.
 // What has crossed the boundary goes from the slot where it was collected to the ledger, where all of it is.
 #include "shared/index.wgsl"
+#include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/control.wgsl"
@@ -66,7 +67,7 @@ fn book_loss(slot: u32, momentum: vec3f, heat: f32) {
 @compute @workgroup_size(WORKGROUP)
 fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+    let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let kind = kind_of(cells[slot]);
     // Between two solves of a step the second still builds upon what the first collected.

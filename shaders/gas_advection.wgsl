@@ -30,7 +30,6 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
-@group(0) @binding(12) var<storage, read> still: array<u32>;
 
 fn source(slot: u32) -> Gas {
     if SECOND && !ARS { return Gas(work[slot], energy[params.slots + slot]); }
@@ -147,13 +146,24 @@ fn finish(slot: u32, here: Gas, change: Change) {
     write_result(slot, before, change);
 }
 
+// Whether nothing passes through the faces of a slot. Clusters of cut cells reach further, and the second of two solves starts from
+// what the first has moved.
+fn stays(slot: u32) -> bool { return !CUT && !(ARS && SECOND) && is_still(slot); }
+
+fn stay(slot: u32) {
+    if LIMITER { theta[slot] = 1.0; }
+    write_result(slot, Gas(conserved[slot], energy[slot]), Change());
+}
+
 // One slot of the list.
 @compute @workgroup_size(WORKGROUP)
 fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
     let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
-    finish(slot, source(slot), change_of(slot, false));
+    let still = stays(slot);
+    if still { stay(slot); }
+    for (var turn = u32(still); turn < 1u; turn++) { finish(slot, source(slot), change_of(slot, false)); }
 }
 
 // A column of params.march slots along the last axis: each state there is read once, each face computed once.
@@ -166,23 +176,23 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let first = march_start(thread);
     let last = params.slots - 1u;
     if first > last { return; }
-    if !(ARS && SECOND) && is_still(thread) {
-        for (var slot = first; slot < min(first + params.march * s, params.slots); slot += s) {
-            if LIMITER { theta[slot] = 1.0; }
-            write_result(slot, Gas(conserved[slot], energy[slot]), Change());
-        }
-        return;
-    }
-    let below = max(first, s) - s;
-    var b = source(max(first, 2u * s) - 2u * s);
-    var c = source(below);
-    var here = source(first);
-    var e = source(min(first + s, last));
-    var f = source(min(first + 2u * s, last));
-    var low = interior_fluxes(n, below, stencil_above(n, below, source(max(first, 3u * s) - 3u * s), b, c, here, e, f));
+    let awake = awake_rows(thread);
+    let moving = row_span(select(moving_rows(thread), awake, ARS && SECOND));
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
-        if slot > last { break; }
+        if slot <= last && ((awake >> k) & 1u) == 1u && (k < moving.x || k >= moving.y) { stay(slot); }
+    }
+    if moving.x == moving.y { return; }
+    let begin = first + moving.x * s;
+    let end = min(first + moving.y * s, params.slots);
+    let below = max(begin, s) - s;
+    var b = source(max(begin, 2u * s) - 2u * s);
+    var c = source(below);
+    var here = source(begin);
+    var e = source(min(begin + s, last));
+    var f = source(min(begin + 2u * s, last));
+    var low = interior_fluxes(n, below, stencil_above(n, below, source(max(begin, 3u * s) - 3u * s), b, c, here, e, f));
+    for (var slot = begin; slot < end; slot += s) {
         let g = source(min(slot + 3u * s, last));
         let high = interior_fluxes(n, slot, stencil_above(n, slot, b, c, here, e, f, g));
         if has(cells[slot], INTERIOR) {
@@ -209,7 +219,7 @@ fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
-    if is_alias(c) { return; }
+    if is_alias(c) || stays(slot) { return; }
     var least = theta[slot];
     for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
         let member = cell_of(at);

@@ -4,6 +4,8 @@
 // behind, so that the kernel which reads the direction anyway takes it along: what has converged is solution + alpha direction.
 // Joined, where the diagonal is all: the operator leaves q . D^-1 q beside p . q, so that beta is known with alpha and one kernel
 // takes everything along; r . z for step length and tolerance is still summed from the residual itself. [Meurant 1987]
+// Unknowns that are zero in all vectors and stay so may be left out: then the caller lists the others in runs of up to eight next to each
+// other, as many lists as there are octets of lanes, so that a sum has the same terms in the same order whatever is left out.
 #include "shared/thread.wgsl"
 #include "shared/reduce4.wgsl"
 
@@ -29,6 +31,10 @@ struct Pcg {
     most: f32,              // a solve that begins with a larger size is not worth it: it ends with nothing done
     levels: u32,            // coarse levels in use
     joined: u32,            // 1 where the operator leaves q . D^-1 q and no block has a preconditioner of its own
+    runs: u32,              // place of the lists of runs in the binding `runs`, 0 without: where the runs of each octet begin, and the end of the
+                            // last; then per run its first unknown and, from bit 8 on, which of eight it has
+    apart: u32,             // first unknown that no run has
+    reference_at: u32,      // place of the partial sums for the reference, 0 if pcg_begin makes them from `product`
     level_groups: array<u32, PCG_LEVELS>,   // groups, at most as many, of the kernels of each level, the finest first; 0 without
 }
 
@@ -40,6 +46,7 @@ struct Pcg {
 @group(0) @binding(6) var<storage, read> inverse_diagonal: array<f32>;
 @group(0) @binding(7) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> pcg_extents: array<vec4u>;
+@group(0) @binding(9) var<storage, read> runs: array<u32>;
 
 fn takes_joined() -> bool { return pcg.joined != 0u && pcg.levels == 0u; }
 
@@ -57,34 +64,60 @@ fn open_iteration(on: bool) {
     for (var k = 0u; k < PCG_LEVELS; k++) { pcg_extents[PCG_LEVEL + k] = vec4u(pcg.level_groups[k], 1u, 1u, 0u) * keep; }
 }
 
-fn total(lane: u32) -> vec4f {
+fn total_from(first: u32, lane: u32) -> vec4f {
     var sum = vec4f(0.0);
-    for (var k = lane; k < pcg.groups_partial; k += WORKGROUP) { sum += partials[k]; }
+    for (var k = lane; k < pcg.groups_partial; k += WORKGROUP) { sum += partials[first + k]; }
     return workgroup_sum4(lane, sum);
 }
 
-// `product` holds the full right-hand side, for the reference norm.
+fn total(lane: u32) -> vec4f { return total_from(0u, lane); }
+
+const LANES = 8u;
+
+// First run of the octet that a thread is in, and the one after its last.
+fn runs_of(thread: u32) -> vec2u {
+    if pcg.runs == 0u { return vec2u(0u); }
+    let octet = pcg.runs + thread / LANES;
+    return vec2u(runs[octet], runs[octet + 1u]);
+}
+
+// Unknown of a lane in a run, pcg.length if it has none.
+fn unknown_in(run: u32, thread: u32) -> u32 {
+    let at = pcg.runs + pcg.groups_partial * (WORKGROUP / LANES) + 1u + 2u * run;
+    let lane = thread % LANES;
+    return select(pcg.length, runs[at] + lane, ((runs[at + 1u] >> (8u + lane)) & 1u) == 1u);
+}
+
+fn begin(i: u32) -> vec4f {
+    let z = inverse_diagonal[i] * residual[i];
+    solution[i] = 0.0;
+    direction[i] = z;
+    return vec4f(z * residual[i], select(inverse_diagonal[i] * product[i] * product[i], 0.0, pcg.reference_at != 0u), 0.0, 0.0);
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn pcg_begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
              @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, groups, lane);
+    let own = runs_of(thread);
     var sum = vec4f(0.0);
-    for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
-        let z = inverse_diagonal[i] * residual[i];
-        solution[i] = 0.0;
-        direction[i] = z;
-        sum += vec4f(z * residual[i], inverse_diagonal[i] * product[i] * product[i], 0.0, 0.0);
+    for (var run = own.x; run < own.y; run++) {
+        let i = unknown_in(run, thread);
+        if i < pcg.length { sum += begin(i); }
     }
+    for (var i = pcg.apart + thread; i < pcg.length; i += groups.x * groups.y * WORKGROUP) { sum += begin(i); }
     let part = workgroup_sum4(lane, sum);
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = part; }
+    if lane == 0u { partials[thread / WORKGROUP] = part; }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
     let sum = total(lane);
+    let reference = total_from(pcg.reference_at, lane);
     if lane != 0u { return; }
     pcg.size = sum.x;
     pcg.rho = sum.x + sum.z;
-    pcg.reference = sum.y;
+    pcg.reference = reference.y;
     pcg.iterations = 0u;
     pcg.alpha = 0.0;
     decide();
@@ -111,18 +144,26 @@ fn pcg_alpha(@builtin(local_invocation_index) lane: u32) {
     pcg.beta = max(pcg.alpha * sum.y / sum.x - 1.0, 0.0);
 }
 
+fn update(i: u32, alpha: f32) -> f32 {
+    let r = residual[i] - alpha * product[i];
+    residual[i] = r;
+    return r * r * inverse_diagonal[i];
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, groups, lane);
     let alpha = pcg.alpha;
+    let own = runs_of(thread);
     var sum = vec4f(0.0);
-    for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
-        let r = residual[i] - alpha * product[i];
-        residual[i] = r;
-        sum.x += r * r * inverse_diagonal[i];
+    for (var run = own.x; run < own.y; run++) {
+        let i = unknown_in(run, thread);
+        if i < pcg.length { sum.x += update(i, alpha); }
     }
+    for (var i = pcg.apart + thread; i < pcg.length; i += groups.x * groups.y * WORKGROUP) { sum.x += update(i, alpha); }
     let part = workgroup_sum4(lane, sum);
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = part; }
+    if lane == 0u { partials[thread / WORKGROUP] = part; }
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -139,34 +180,50 @@ fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
     decide();
 }
 
+fn turn(i: u32, alpha: f32, beta: f32) {
+    let step = direction[i];
+    solution[i] += alpha * step;
+    direction[i] = inverse_diagonal[i] * residual[i] + beta * step;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, groups, lane);
     let alpha = pcg.alpha;
     let beta = pcg.beta;
-    for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
-        let step = direction[i];
-        solution[i] += alpha * step;
-        direction[i] = inverse_diagonal[i] * residual[i] + beta * step;
+    let own = runs_of(thread);
+    for (var run = own.x; run < own.y; run++) {
+        let i = unknown_in(run, thread);
+        if i < pcg.length { turn(i, alpha, beta); }
     }
+    for (var i = pcg.apart + thread; i < pcg.length; i += groups.x * groups.y * WORKGROUP) { turn(i, alpha, beta); }
 }
 
-// Both at once, joined.
+// Update and direction at once, joined.
+fn step(i: u32, alpha: f32, beta: f32) -> f32 {
+    let old = direction[i];
+    let r = residual[i] - alpha * product[i];
+    let z = inverse_diagonal[i] * r;
+    solution[i] += alpha * old;
+    residual[i] = r;
+    direction[i] = z + beta * old;
+    return r * z;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn pcg_step(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
             @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, groups, lane);
     let alpha = pcg.alpha;
     let beta = pcg.beta;
+    let own = runs_of(thread);
     var sum = vec4f(0.0);
-    for (var i = thread_index(group, groups, lane); i < pcg.length; i += groups.x * groups.y * WORKGROUP) {
-        let step = direction[i];
-        let r = residual[i] - alpha * product[i];
-        let z = inverse_diagonal[i] * r;
-        solution[i] += alpha * step;
-        residual[i] = r;
-        direction[i] = z + beta * step;
-        sum.x += r * z;
+    for (var run = own.x; run < own.y; run++) {
+        let i = unknown_in(run, thread);
+        if i < pcg.length { sum.x += step(i, alpha, beta); }
     }
+    for (var i = pcg.apart + thread; i < pcg.length; i += groups.x * groups.y * WORKGROUP) { sum.x += step(i, alpha, beta); }
     let part = workgroup_sum4(lane, sum);
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = part; }
+    if lane == 0u { partials[thread / WORKGROUP] = part; }
 }

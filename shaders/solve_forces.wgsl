@@ -13,6 +13,7 @@
 @group(0) @binding(3) var<storage, read> x: array<f32>;
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(5) var<storage, read> inertia: array<f32>;
+@group(0) @binding(6) var<storage, read> energy: array<f32>;    // last third: inverse masses of gas nodes deep inside the gas with B1B0
 
 // B2B1 where only gas, or only solid, and the sides of the domain are around: a product of one-dimensional stencils, line by line.
 // Of gas only differences, so that a constant pressure moves nothing.
@@ -186,9 +187,10 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let slot = frontier_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    let inverse_mass = work[slot].w;
     let c = cell_of(slot);
+    var inverse_mass = work[slot].w;
     if !LISTED {
+        if !QUADRATIC { inverse_mass = energy[2u * params.slots + slot]; }
         if has(word, INTERIOR) { work[slot] = vec4f(regular_force(slot, c) * face_area() * inverse_mass, inverse_mass); }
         return;
     }

@@ -62,7 +62,7 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         }
     }
     let inverse = select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0);
-    work[slot] = vec4f(0.0, 0.0, 0.0, inverse);
+    if LISTED || QUADRATIC { work[slot] = vec4f(0.0, 0.0, 0.0, inverse); }
     if kind_of(cells[slot]) != GHOST { energy[2u * params.slots + slot] = inverse; }
 }
 

@@ -57,6 +57,18 @@ fn control_solved() {
     control.phase = select(select(PHASE_SUBSTEP, PHASE_ELASTIC, IMPLICIT), PHASE_BETWEEN, ARS && control.stage == 0u);
 }
 
+// After the list of what is awake: its length rules the AWAKE dispatches.
+@compute @workgroup_size(1)
+fn control_awake() { open_awake(PHASE_BEGIN_EXTENTS); }
+
+// Between iterations: if there are more than some may sleep through, all wake up.
+@compute @workgroup_size(1)
+fn control_wake() {
+    let due = control.phase == PHASE_SOLVE && pcg.outcome == PCG_RUNNING && pcg.iterations > 0u && control.woken == 0u;
+    open_phase(PHASE_WAKE_EXTENTS, due);
+    if due { control.woken = 1u; }
+}
+
 // After the first of two solves and its updates: opens the second advection and solve.
 @compute @workgroup_size(1)
 fn control_second() {

@@ -1,66 +1,119 @@
-// still: where does nothing move? Through the faces of gas at rest passes zero times something, so that it keeps its bits until the
-// solve. A block of columns is still if nothing moves as far around it as its results depend on. Sides that let gas through, bodies
-// and seams of periodic axes count as moving; walls and obstacles pass nothing on.
-// Reads gas and cells. Writes busy: blocks in which something moves; still: those which nothing from there reaches.
+// still: where does nothing move? Through the faces of even gas at rest passes zero times something, and the solve finds nothing to do
+// there until its iterations have carried it there from elsewhere. So two kinds of rows (see shared/still.wgsl) are left out, with the
+// same bits: those that motion does not reach before the solve, by the advection; and by all, asleep, those that it does not reach in the
+// whole step, nor did in the step before, so that every array still holds there what it would get again. The rest is awake. A solve that
+// goes on for longer than SOLVE_REACH iterations wakes everything, in the next step, too.
+// Sides that let gas through, bodies and seams of periodic axes count as moving; walls and obstacles pass nothing on.
+// Reads gas and cells. Writes busy and, in extra, rows and runs.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
+#include "shared/control.wgsl"
+#include "shared/runs.wgsl"
 #include "shared/still.wgsl"
 
+@group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
-@group(0) @binding(6) var<storage, read_write> busy: array<u32>;
-@group(0) @binding(12) var<storage, read_write> still: array<u32>;
+@group(0) @binding(4) var<storage, read> energy: array<f32>;
+@group(0) @binding(6) var<storage, read_write> busy: array<u32>;    // rows in which something moves, as bits: now, and from bit 16 on in the step before
+@group(0) @binding(8) var<storage, read_write> extra: array<u32>;
 
 // Slots that motion gets on until the solve: three per stage of the advection (a face has three cells on each side, its carrier reaches
 // less far, and the limiter cuts fluxes there but makes none), and one in the carrier of the advected state.
-const SPAN = 7;
+const ADVECTION_SPAN = 7;
+// And in a step: ten more for pressures, right-hand side and what the solved pressure does, and one per iteration.
+const STEP_SPAN = ADVECTION_SPAN + 10 + i32(SOLVE_REACH);
 
-fn blocks() -> u32 {
-    let rows = params.stride[DIM - 1u];
-    let columns = params.slots / rows * ((rows + params.march - 1u) / params.march);
-    return (columns + STILL_BLOCK - 1u) / STILL_BLOCK;
-}
+fn blocks() -> u32 { return blocks_across() * layers(); }
 
+// Whether a slot stays as it is: gas at rest whose pressure is that of the next slots.
 fn rests(slot: u32) -> bool {
     let kind = kind_of(cells[slot]);
     if PERIODIC != 0u && is_alias(cell_of(slot)) { return false; }
-    return kind == WALL || (kind == GAS && all(bitcast<vec3u>(conserved[slot].yzw) == vec3u(0u)));
-}
-
-fn moves(block: u32) -> bool {
-    for (var column = 0u; column < STILL_BLOCK; column++) {
-        let first = march_start(STILL_BLOCK * block + column);
-        for (var k = 0u; k < params.march; k++) {
-            let slot = first + k * step_of(DIM - 1u);
-            if slot < params.slots && !rests(slot) { return true; }
-        }
+    if kind != GAS { return kind == WALL; }
+    if any(bitcast<vec3u>(conserved[slot].yzw) != vec3u(0u)) { return false; }
+    let own = energy[slot];
+    for (var n = 0u; n < DIM; n++) {
+        let next = min(slot + step_of(n), params.slots - 1u);
+        if energy[next] != own && kind_of(cells[next]) == GAS { return false; }
     }
-    return false;
+    return true;
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn still_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
     let total = groups.x * groups.y * WORKGROUP;
-    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) { busy[block] = u32(moves(block)); }
+    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
+        // What slept stays as it was.
+        let awake = row_span(select(block_rows(block) >> 16u, 0xffffu, control.woken_before == 1u));
+        var rows = 0u;
+        for (var k = awake.x; k < min(awake.y, params.march); k++) {
+            for (var column = 0u; column < STILL_BLOCK; column++) {
+                let slot = march_start(STILL_BLOCK * block + column) + k * columns();
+                if slot < params.slots && !rests(slot) { rows |= 1u << k; }
+            }
+        }
+        busy[block] = (busy[block] << 16u) | rows;
+    }
 }
 
-// Whether anything moves within reach of a block.
-fn reached(block: u32) -> bool {
-    if busy[block] == 1u { return true; }
-    let size = i32(STILL_BLOCK);
-    let layers = (SPAN + i32(params.march) - 1) / i32(params.march);
-    let rows = select(0, SPAN, DIM == 3u);
-    let beside = select(SPAN, 0, DIM == 1u);
-    for (var layer = -layers; layer <= layers; layer++) {
-        for (var row = -rows; row <= rows; row++) {
-            let first = i32(block) * size + layer * i32(step_of(DIM - 1u)) + row * i32(params.stride.x);
-            let low = max(first - beside, 0) / size;
-            let high = (min(first + size + beside, i32(blocks()) * size) + size - 1) / size;
-            for (var at = low; at < high; at++) { if busy[at] == 1u { return true; } }
-        }
+// Rows that lie within `span` of rows in a block `layers` further along the last axis.
+fn rows_near(rows: u32, layers: i32, span: i32) -> u32 {
+    var near = 0u;
+    for (var k = -span; k <= span; k++) {
+        let shift = layers * i32(params.march) + k;
+        if abs(shift) < 32 { near |= select(rows >> u32(-shift), rows << u32(shift), shift >= 0); }
     }
-    return false;
+    return near & ((1u << params.march) - 1u);
+}
+
+// Rows of a block within `span` of those that move in its line of blocks, here and in other layers; with `before` also of those that
+// moved in the step before. A line runs along x, and on from one end of a row of the domain to the next row's beginning.
+fn rows_along(block: u32, span: i32, before: bool) -> u32 {
+    let far = (span + i32(params.march) - 1) / i32(params.march);
+    let beside = select(span, 0, DIM == 1u);
+    let across = i32(blocks_across());
+    let layer = i32(block) / across;
+    let first = i32(block) % across * i32(STILL_BLOCK);
+    let low = max(first - beside, 0) / i32(STILL_BLOCK);
+    let high = min(first + i32(STILL_BLOCK) - 1 + beside, i32(columns()) - 1) / i32(STILL_BLOCK);
+    var rows = 0u;
+    for (var k = max(-far, -layer); k <= min(far, i32(layers()) - 1 - layer); k++) {
+        var found = 0u;
+        for (var at = low; at <= high; at++) { found |= busy[(layer + k) * across + at]; }
+        found = (found & 0xffffu) | select(0u, found >> 16u, before);
+        if found != 0u { rows |= rows_near(found, k, span); }
+    }
+    return rows;
+}
+
+// Behind the first part of busy: rows to be computed by the advection, and from bit 16 on those that are awake, as far as one line tells.
+@compute @workgroup_size(WORKGROUP)
+fn still_along(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+               @builtin(local_invocation_index) lane: u32) {
+    let total = groups.x * groups.y * WORKGROUP;
+    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
+        var moving = 0xffffu;
+        var awake = 0xffffu;
+        if params.still != STILL_NONE { moving = rows_along(block, ADVECTION_SPAN, false); }
+        if params.still == STILL_ASLEEP && control.woken_before == 0u { awake = rows_along(block, STEP_SPAN, true); }
+        busy[blocks() + block] = moving | (awake << 16u);
+    }
+}
+
+// The same over the lines across which motion reaches a block: in space a layer has many.
+fn rows_across(block: u32, span: i32) -> u32 {
+    let across = i32(blocks_across());
+    let layer = i32(blocks()) + i32(block) / across * across;
+    var rows = 0u;
+    for (var line = -span; line <= span; line++) {
+        let first = i32(block) % across * i32(STILL_BLOCK) + line * i32(params.stride.x);
+        let low = max(first, 0) / i32(STILL_BLOCK);
+        let high = min(first + i32(STILL_BLOCK) - 1, i32(columns()) - 1);
+        for (var at = low; at * i32(STILL_BLOCK) <= high; at++) { rows |= busy[layer + at]; }
+    }
+    return rows;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -68,6 +121,102 @@ fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
                 @builtin(local_invocation_index) lane: u32) {
     let total = groups.x * groups.y * WORKGROUP;
     for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
-        still[block] = u32(params.still == 1u && !reached(block));
+        var rows = busy[blocks() + block];
+        if DIM == 3u { rows = (rows_across(block, ADVECTION_SPAN) & 0xffffu) | (rows_across(block, STEP_SPAN) & 0xffff0000u); }
+        extra[params.still_at + block] = rows;
+    }
+}
+
+// The solve goes on for longer than it may while some sleep.
+@compute @workgroup_size(WORKGROUP)
+fn still_wake(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+              @builtin(local_invocation_index) lane: u32) {
+    let total = groups.x * groups.y * WORKGROUP;
+    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) { extra[params.still_at + block] |= 0xffff0000u; }
+}
+
+// Runs of the whole grid.
+fn runs_in_all() -> u32 {
+    if DIM == 1u { return (params.slots + RUN_LANES - 1u) / RUN_LANES; }
+    return params.slots / columns() * blocks_across();
+}
+
+// First slot of a run, and how many there are.
+fn run_at(run: u32) -> vec2u {
+    if DIM == 1u { return vec2u(RUN_LANES * run, min(RUN_LANES, params.slots - RUN_LANES * run)); }
+    let column = run % blocks_across() * RUN_LANES;
+    return vec2u(run / blocks_across() * columns() + column, min(RUN_LANES, columns() - column));
+}
+
+fn row_awake(layer: u32, column: u32, row: u32) -> bool {
+    return ((block_rows(layer * blocks_across() + column) >> (16u + row)) & 1u) == 1u;
+}
+
+// Slots of a run that are awake, as bits: in 1D some, else all or none.
+fn awake_slots(run: u32) -> u32 {
+    let count = run_at(run).y;
+    if DIM > 1u {
+        let row = run / blocks_across();
+        return select(0u, (1u << count) - 1u, row_awake(row / params.march, run % blocks_across(), row % params.march));
+    }
+    var bits = 0u;
+    for (var k = 0u; k < count; k++) {
+        let slot = RUN_LANES * run + k;
+        bits |= u32(row_awake(slot / params.march, 0u, slot % params.march)) << k;
+    }
+    return bits;
+}
+
+// Every octet counts its runs.
+@compute @workgroup_size(WORKGROUP)
+fn still_count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+               @builtin(local_invocation_index) lane: u32) {
+    let octet = thread_index(group, groups, lane);
+    if octet >= octets() { return; }
+    var count = 0u;
+    for (var run = octet; run < runs_in_all(); run += octets()) { count += u32(awake_slots(run) != 0u); }
+    extra[params.runs_at + octet] = count;
+}
+
+var<workgroup> shares: array<u32, WORKGROUP>;
+
+// One group: where the runs of every octet begin.
+@compute @workgroup_size(WORKGROUP)
+fn still_places(@builtin(local_invocation_index) lane: u32) {
+    let share = (octets() + WORKGROUP - 1u) / WORKGROUP;
+    let first = min(lane * share, octets());
+    let end = min(first + share, octets());
+    var sum = 0u;
+    for (var octet = first; octet < end; octet++) { sum += extra[params.runs_at + octet]; }
+    shares[lane] = sum;
+    workgroupBarrier();
+    var at = 0u;
+    for (var k = 0u; k < lane; k++) { at += shares[k]; }
+    for (var octet = first; octet < end; octet++) {
+        let count = extra[params.runs_at + octet];
+        extra[params.runs_at + octet] = at;
+        at += count;
+    }
+    if lane != WORKGROUP - 1u { return; }
+    extra[params.runs_at + octets()] = at;
+    control.runs = at;
+}
+
+// Every octet writes its runs.
+@compute @workgroup_size(WORKGROUP)
+fn still_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+              @builtin(local_invocation_index) lane: u32) {
+    let octet = thread_index(group, groups, lane);
+    if octet >= octets() { return; }
+    var at = params.runs_at + octets() + 1u + 2u * extra[params.runs_at + octet];
+    for (var run = octet; run < runs_in_all(); run += octets()) {
+        let awake = awake_slots(run);
+        if awake == 0u { continue; }
+        let first = run_at(run).x;
+        var deep = 0u;
+        for (var k = 0u; k < RUN_LANES; k++) { deep |= u32(has(cells[min(first + k, params.slots - 1u)], INTERIOR)) << k; }
+        extra[at] = first;
+        extra[at + 1u] = (deep & awake) | (awake << 8u);
+        at += 2u;
     }
 }

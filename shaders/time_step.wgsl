@@ -77,10 +77,14 @@ fn listed_rate(c: vec3i, gas: Gas, p: f32) -> f32 {
 fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
     let total = groups.x * groups.y * WORKGROUP;
-    let end = listed_count();
+    // The list is of the step before: what slept in it stands still, and control.sound knows how fast sound is there.
+    let all = !LISTED && control.woken == 1u;
+    let end = select(listed_count(), params.slots, all);
     var bound = vec2f(0.0);
     for (var k = thread_index(group, groups, lane); k < end; k += total) {
-        let slot = listed_slot(k);
+        var slot = k;
+        if !all { slot = listed_slot(k); }
+        if slot >= params.slots { continue; }
         let word = cells[slot];
         if LISTED != !has(word, INTERIOR) { continue; }
         let c = cell_of(slot);
@@ -137,13 +141,14 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     for (var k = lane; k < params.groups; k += WORKGROUP) { bound = max(bound, maxima[k]); }
     let largest = workgroup_max4(lane, bound);
     if lane != 0u { return; }
+    let sound = select(max(largest.y, control.sound), largest.y, control.woken == 1u);
     let start = control.phase == PHASE_IDLE && control.remaining > 0.0 && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_BEGIN_EXTENTS, start);
     open_sort(start);
     if !start { return; }
     var dt = params.fixed_step;
     if dt == 0.0 {
-        dt = params.max_courant * params.spacing / max(largest.y, 1e-30);
+        dt = params.max_courant * params.spacing / max(sound, 1e-30);
         dt = min(dt, params.cfl / max(largest.x, 1e-30));
         if control.dt_previous > 0.0 { dt = min(dt, params.max_growth * control.dt_previous); }
     }
@@ -159,6 +164,8 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     control.dt_previous = dt; // growth counts from the step as taken: steps that alternate between short and long blow up
     control.dt = select(dt, ARS_SHARE * dt, ARS);
     control.stage = 0u;
+    control.woken_before = control.woken;
+    control.woken = 0u;
     control.substeps = 0u;
     if SOLIDS { control.substeps = select(u32(ceil(max(1.0, dt / elastic_step - 1e-4))), 1u, IMPLICIT); }
     control.rounds = 0u;

@@ -14,7 +14,8 @@ use crate::stage::{
     InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Still, Supports, TimeStep,
     Totals, Transfer,
 };
-use crate::state::constants::{self, NO_FAULT};
+use crate::state::constants::{self, NO_FAULT, SOLVE_REACH};
+use crate::state::params::STILL_ASLEEP;
 use crate::state::{Control, HISTORY, State};
 pub use live::Blast;
 use recorded::Recorded;
@@ -132,6 +133,7 @@ impl Simulation {
         self.record_held(pass, "BEGIN");
         self.time_step.record_listed(pass);
         self.still.record(pass, state);
+        self.time_step.record_awake(pass);
         self.record_advection(pass, 0, Carried::Now, "BEGIN"); // (3) eqs. 10-12
         if self.solves == 1 {
             self.record_advection(pass, 1, Carried::First, "BEGIN");
@@ -171,10 +173,24 @@ impl Simulation {
             elastic_order.record_before(pass, state, phase);
         }
         self.coupled_solve.record_setup(pass, state, phase);
-        self.coupled_solve.record_iterations(pass, self.recorded.iterations); // (5) eq. 37
+        self.record_iterations(pass); // (5) eq. 37
         self.time_step.record_solved(pass);
         self.coupled_solve.record_solution(pass, state);
         self.fluid_update.record(pass, state, &self.carrier); // eqs. 14 and 3, local gradients
+    }
+
+    /// Iterations of the solve; where some slots sleep, a long one wakes them.
+    fn record_iterations(&self, pass: &mut Pass) {
+        let mut left = self.recorded.iterations;
+        if self.state.params.still == STILL_ASLEEP {
+            for count in [0, left.min(SOLVE_REACH)] {
+                self.coupled_solve.record_iterations(pass, count);
+                self.time_step.record_wake(pass);
+                self.still.record_wake(pass, &self.state);
+                left -= count;
+            }
+        }
+        self.coupled_solve.record_iterations(pass, left);
     }
 
     /// Clamped and driven nodes, friction at walls.

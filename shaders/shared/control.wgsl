@@ -23,6 +23,10 @@ struct Control {
     residual: f32,              // of the last solve, relative
     listed: u32,                // slots that are not INTERIOR
     frontier: u32,              // INTERIOR slots whose nodes listed vertices rest on
+    runs: u32,                  // runs of slots that are awake [shared/runs.wgsl]
+    sound: f32,                 // [m s^-1] largest speed of sound at the end of the step
+    woken: u32,                 // 1 if the solve of this step, or the host, has woken all
+    woken_before: u32,          // the same in the step before
     time: f32,                  // [s] at the start of the step
     time_error: f32,            // [s] what rounding has taken from it so far
     rounds: u32,                // of Newton's method in the elastic solve, this step

@@ -8,7 +8,7 @@ fn cut_entry(slot: u32) -> u32 {
     return 0u;
 }
 
-fn cut_word(entry: u32, field: u32) -> u32 { return extra[2u * params.slots + 2u + (entry - 1u) * CUT_WIDTH + field]; }
+fn cut_word(entry: u32, field: u32) -> u32 { return extra[params.table_at + (entry - 1u) * CUT_WIDTH + field]; }
 fn cut_value(entry: u32, field: u32) -> f32 { return bitcast<f32>(cut_word(entry, field)); }
 fn cut_vector(entry: u32, field: u32) -> vec3f {
     return vec3f(cut_value(entry, field), cut_value(entry, field + 1u), cut_value(entry, field + 2u));

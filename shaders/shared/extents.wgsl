@@ -1,5 +1,6 @@
 // The table of indirect dispatches: a zero entry makes every dispatch that uses it a no-op. The device steers the step with it.
 #include "shared/columns.wgsl"
+#include "shared/blocks.wgsl"
 
 @group(0) @binding(9) var<storage, read_write> extents: array<vec4u>;
 
@@ -10,20 +11,22 @@ fn groups_for(threads: u32) -> vec4u {
 }
 
 // Threads that march along the last axis.
-fn marches() -> u32 {
-    let rows = params.stride[DIM - 1u];
-    return params.slots / rows * ((rows + params.march - 1u) / params.march);
-}
+fn marches() -> u32 { return blocks_across() * STILL_BLOCK * layers(); }
 
 // Marches over the columns of one color, the ring's layers included.
 fn color_marches() -> u32 {
     let columns = columns_of_color();
-    return columns.x * columns.y * ((params.stride[DIM - 1u] + params.march - 1u) / params.march);
+    return columns.x * columns.y * layers();
 }
 
 fn surface_groups() -> vec4u {
     let rows = min(control.extra, params.surface_rows);
     return vec4u(min((rows + WORKGROUP - 1u) / WORKGROUP, params.groups), 1u, 1u, 0u);
+}
+
+// Opens the dispatches over slots that are awake in a phase that is open.
+fn open_awake(first: u32) {
+    extents[first + EXTENT_AWAKE] = groups_for(RUN_LANES * control.runs) * extents[first + EXTENT_SINGLE].x;
 }
 
 // Switches the dispatches of one phase on or off. Needs the binding control.
@@ -38,6 +41,7 @@ fn open_phase(first: u32, on: bool) {
     extents[first + EXTENT_MARCHED] = groups_for(marches()) * keep;
     extents[first + EXTENT_COLOR] = groups_for(color_marches()) * keep;
     extents[first + EXTENT_SINGLE] = vec4u(keep);
+    open_awake(first);
     for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
 }
 

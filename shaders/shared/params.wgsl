@@ -52,7 +52,11 @@ struct Params {
     blending: u32,              // 1: faces of partly filled cells are blocked by their share
     least_entropy: f32,         // p / rho^gamma that no gas falls below
     surface_rows: u32,          // vertices whose interface pressure has a row in the preconditioner
-    still: u32,                 // 0: still air is computed like all other
+    still: u32,                 // what is left out where nothing moves: STILL_NONE, STILL_ADVECTION, STILL_ASLEEP
+    runs_at: u32,               // place of the runs of slots that are awake, in the buffer extra
+    still_at: u32,              // place of the rows of blocks there
+    table_at: u32,              // place of the table of cut cells there
+    unused: u32,
     scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 

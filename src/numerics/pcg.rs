@@ -35,7 +35,7 @@ pub struct PcgVectors {
     pub residual: Buffer<f32>,
     /// Search direction: what the operator is applied to.
     pub direction: Buffer<f32>,
-    /// Operator times direction; before the first iteration the vector whose norm the tolerance refers to.
+    /// Operator times direction; without [`Runs`] before the first iteration the vector whose norm the tolerance refers to.
     pub product: Buffer<f32>,
     /// Inverse of the diagonal; 0 for unknowns that are not used.
     pub inverse_diagonal: Buffer<f32>,
@@ -103,6 +103,12 @@ pub struct PcgControl {
     pub levels: u32,
     /// 1 for [`Dots::Both`].
     pub joined: u32,
+    /// [`Runs::at`], 0 without runs.
+    pub runs: u32,
+    /// [`Runs::apart`], 0 without runs.
+    pub apart: u32,
+    /// [`Runs::reference_at`], 0 where the first kernel makes the sums.
+    pub reference_at: u32,
     /// Groups, at most as many as leave partial sums, of the kernels of each of [`Levels`], the finest first; 0 without.
     pub level_groups: [u32; LEVELS],
 }
@@ -130,6 +136,34 @@ pub enum Dots {
     Product,
     /// In the second component product . D^-1 product, too; such a solve has no [`Block`].
     Both,
+}
+
+/// Which unknowns take part: those that are left out are zero in all vectors and stay so.
+#[derive(Clone, Copy, Debug)]
+pub struct Runs<'a> {
+    /// Holds the lists: for each octet of lanes where its runs begin, and the end of the last; then per run of up to eight unknowns next to
+    /// each other the first one and, from bit 8 on, which of the eight there are.
+    pub words: &'a Buffer<u32>,
+    /// Place of the lists, above 0.
+    pub at: u32,
+    /// Unknowns from here on are in no run and take part always.
+    pub apart: u32,
+    /// Place above 0 in the partial sums where the caller leaves, in the second component, those of the squared norm that the
+    /// tolerance refers to.
+    pub reference_at: u32,
+}
+
+/// How the kernels share the unknowns out.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout<'a> {
+    /// Threads of operators with one per slot.
+    pub threads: usize,
+    /// Groups of the kernels that leave partial sums.
+    pub groups: u32,
+    /// What the operator leaves.
+    pub dots: Dots,
+    /// The runs that take part, if not all do.
+    pub runs: Option<Runs<'a>>,
 }
 
 /// A block of unknowns with a preconditioner of its own; their inverse diagonal is 0. The caller sets
@@ -189,8 +223,7 @@ impl Pcg {
         gpu.queue.write_buffer(self.control.raw(), place, &tolerance.to_ne_bytes());
     }
 
-    /// Prepares a system of `length` unknowns whose operator leaves `dots` and runs one thread per slot of `slots`, with
-    /// `groups` groups in the kernels that leave partial sums.
+    /// Prepares a system.
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
@@ -198,24 +231,26 @@ impl Pcg {
         gpu: &Gpu,
         vectors: &PcgVectors,
         partials: &Buffer<[f32; 4]>,
-        slots: usize,
-        groups: u32,
         limits: (f32, u32),
-        dots: Dots,
+        layout: &Layout<'_>,
     ) -> Result<Self> {
+        let dots = layout.dots;
         let length = vectors.solution.len();
         let control = Buffer::new(gpu, "pcg", 1)?;
-        let [wide, high, _] = group_counts((slots as u64).div_ceil(u64::from(WORKGROUP)), 65_535);
+        let [wide, high, _] = group_counts((layout.threads as u64).div_ceil(u64::from(WORKGROUP)), 65_535);
         let start = PcgControl {
             tolerance: limits.0,
             max_iterations: limits.1,
             length: length as u32,
             groups_wide: wide,
             groups_high: high,
-            groups_partial: groups,
+            groups_partial: layout.groups,
             outcome: 1,
             most: f32::MAX,
             joined: u32::from(dots == Dots::Both),
+            runs: layout.runs.map_or(0, |runs| runs.at),
+            apart: layout.runs.map_or(0, |runs| runs.apart),
+            reference_at: layout.runs.map_or(0, |runs| runs.reference_at),
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
@@ -229,6 +264,7 @@ impl Pcg {
             ("inverse_diagonal", vectors.inverse_diagonal.raw()),
             ("partials", partials.raw()),
             ("pcg_extents", extents.raw()),
+            ("runs", layout.runs.map_or(extents.raw(), |runs| runs.words.raw())),
         ];
         let bound = |entry: &str| -> Result<Bound> {
             let kernel = Kernel::new(gpu, "linear_algebra.wgsl", entry, &Constants { overrides: &[], source: SOURCE })?;

@@ -33,19 +33,16 @@ impl CarrierVelocity {
     pub fn new(parts: Parts<'_>, wanted: bool) -> Result<Self> {
         let of = |source: Carried| -> Result<Vec<(Bound, Entry)>> {
             let bind = |entry: &str, listed: f64| {
-                // Only marches leave out still air; the other kernels are those of the state now.
                 let solved = source == Carried::Solved;
                 let state = if solved { Carried::Now } else { source };
-                let mut switches = vec![("SOURCE", f64::from(state as u32)), ("LISTED", listed)];
-                if entry == "carrier_march" {
-                    switches.push(("SOLVED", f64::from(u8::from(solved))));
-                }
+                let solved = f64::from(u8::from(solved));
+                let switches = [("SOURCE", f64::from(state as u32)), ("LISTED", listed), ("SOLVED", solved)];
                 parts.state.bind(parts.gpu, "carrier.wgsl", entry, &[], &switches)
             };
             let plain = if parts.state.grid.dimension == 2 {
                 [Some((bind("carrier_march", 0.0)?, Entry::Marched)), None]
             } else {
-                let slots = |entry: &str| Ok::<_, Error>((bind(entry, 0.0)?, Entry::Slots));
+                let slots = |entry: &str| Ok::<_, Error>((bind(entry, 0.0)?, Entry::Awake));
                 [Some(slots("carrier_average")?), Some(slots("carrier_divergence")?)]
             };
             let [first, second] = plain;

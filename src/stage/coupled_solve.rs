@@ -9,10 +9,10 @@ use super::time_step::slots;
 use super::{Parts, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::numerics::{Block, Dots, Levels, Pcg, Width};
+use crate::numerics::{Block, Dots, Layout, Levels, Pcg, Runs, Width};
 use crate::scene::{Scene, SolidUpdate};
 use crate::state::State;
-use crate::state::constants::Entry;
+use crate::state::constants::{Entry, PARTIALS};
 use coarse::Coarse;
 use surface::Surface;
 
@@ -58,14 +58,14 @@ impl Vertices {
         let [operator, listed_operator] = parts.both("solve_operator.wgsl", "solve_operator", &direction, &[])?;
         let listed = [(listed_residual, Entry::Listed), (listed_diagonal, Entry::Listed)];
         if state.is_quadratic() {
-            let setup = [(residual, Entry::Slots), (diagonal, Entry::Slots)].into_iter().chain(listed).collect();
-            return Ok(Self { setup, operator: [operator, listed_operator], nodes: (Entry::Slots, Width::Slots) });
+            let setup = [(residual, Entry::Awake), (diagonal, Entry::Awake)].into_iter().chain(listed).collect();
+            return Ok(Self { setup, operator: [operator, listed_operator], nodes: (Entry::Awake, Width::Slots) });
         }
         let interior = |entry: &str, vectors: &[(&str, &wgpu::Buffer)]| {
             state.bind(parts.gpu, "solve_interior.wgsl", entry, vectors, &[])
         };
         let right = [("x", state.pressure.raw()), ("y", state.pcg.residual.raw())];
-        let setup = [(interior("interior_setup", &right)?, Entry::Slots)].into_iter().chain(listed).collect();
+        let setup = [(interior("interior_setup", &right)?, Entry::Awake)].into_iter().chain(listed).collect();
         let operator = [interior("interior_operator", &direction)?, listed_operator];
         Ok(Self { setup, operator, nodes: (Entry::Frontier, Width::Frontier) })
     }
@@ -79,10 +79,17 @@ impl CoupledSolve {
     pub fn new(parts: Parts<'_>, scene: &Scene) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let limits = (state.params.tolerance, state.params.max_iterations);
-        let (slots, groups) = (state.grid.slots(), state.params.groups);
         // Interface pressures have a preconditioner of their own, and the B2B1 operator has no room for another buffer.
         let dots = if state.has_solids() || state.is_quadratic() { Dots::Product } else { Dots::Both };
-        let pcg = Pcg::new(gpu, &state.pcg, &state.partials, slots, groups, limits, dots)?;
+        let runs = Runs {
+            words: &state.interface.extra,
+            at: state.params.runs_at,
+            apart: state.params.slots,
+            reference_at: PARTIALS,
+        };
+        let layout =
+            Layout { threads: state.interface.run_threads, groups: state.params.groups, dots, runs: Some(runs) };
+        let pcg = Pcg::new(gpu, &state.pcg, &state.partials, limits, &layout)?;
         let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
         let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
         let solid = |shader: &str, entries: &[&str]| -> Result<Vec<Bound>> {
@@ -103,7 +110,7 @@ impl CoupledSolve {
             vertices: Vertices::new(parts)?,
             surface: Surface::new(parts)?,
             coarse: Coarse::new(parts, scene, pcg.control.raw())?,
-            reference: state.bind(gpu, "solve_finish.wgsl", "solve_reference", &[], &[])?,
+            reference: state.bind(gpu, "solve_reference.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
             add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[("pcg", pcg.control.raw())], &[])?,
             gradient: match scene.numerics.solid_update {
@@ -136,13 +143,13 @@ impl CoupledSolve {
         for (kernel, entry) in &self.vertices.setup {
             pass.dispatch(kernel, &extent(state, phase, *entry));
         }
+        pass.dispatch(&self.reference, &extent(state, phase, Entry::Reduce));
         if let Some(surface) = &self.surface {
             surface.record_rows(pass, state, phase);
         }
         if let Some(coarse) = &self.coarse {
             coarse.record_setup(pass, state, phase, &self.forces);
         }
-        pass.dispatch(&self.reference, &extent(state, phase, Entry::Reduce));
         let extents = [Entry::Reduce, Entry::Single, Entry::Surface].map(|entry| extent(state, phase, entry));
         self.pcg.begin(pass, &extents, &self.block(), &self.levels());
     }

@@ -5,7 +5,7 @@ use super::p2g::Force;
 use super::{Parts, Transfer, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
-use crate::numerics::{Block, Dots, Levels, Pcg, PcgVectors, Width};
+use crate::numerics::{Block, Dots, Layout, Levels, Pcg, PcgVectors, Width};
 use crate::scene::{Elasticity, Scene};
 use crate::state::State;
 use crate::state::constants::Entry;
@@ -44,8 +44,9 @@ impl ElasticSolve {
             return Ok(None);
         };
         let limits = (scene.numerics.elastic_tolerance as f32, MAX_ITERATIONS);
-        let (slots, groups) = (state.grid.slots(), state.params.groups);
-        let pcg = Pcg::new(gpu, &own.vectors, &state.partials, slots, groups, limits, Dots::Product)?;
+        let (threads, groups) = (state.grid.slots(), state.params.groups);
+        let layout = Layout { threads, groups, dots: Dots::Product, runs: None };
+        let pcg = Pcg::new(gpu, &own.vectors, &state.partials, limits, &layout)?;
         let PcgVectors { solution, residual, direction, product, inverse_diagonal } = &own.vectors;
         let renamed = [
             ("solution", solution.raw()),

@@ -1,6 +1,5 @@
 //! `fluid_update`: what does the solved pressure do to the gas? Local gradients, flux form. [Kwatra et al. 2009; eqs. 3, 14]
 
-use super::time_step::slots;
 use super::{Carried, CarrierVelocity, Parts, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
@@ -11,7 +10,7 @@ use crate::state::State;
 pub struct FluidUpdate {
     momentum: [Bound; 2],
     energy: [Bound; 2],
-    floor: Bound,
+    floor: [Bound; 2],
 }
 
 impl FluidUpdate {
@@ -20,11 +19,10 @@ impl FluidUpdate {
     /// # Errors
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>) -> Result<Self> {
-        let Parts { gpu, state } = parts;
         Ok(Self {
             momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
             energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
-            floor: state.bind(gpu, "fluid_floor.wgsl", "fluid_floor", &[], &[])?,
+            floor: parts.both("fluid_floor.wgsl", "fluid_floor", &[], &[])?,
         })
     }
 
@@ -34,6 +32,6 @@ impl FluidUpdate {
         record_both(pass, state, "UPDATE", &self.momentum);
         carrier.record(pass, state, Carried::Solved, "UPDATE");
         record_both(pass, state, "UPDATE", &self.energy);
-        pass.dispatch(&self.floor, &slots(state, "UPDATE"));
+        record_both(pass, state, "UPDATE", &self.floor);
     }
 }

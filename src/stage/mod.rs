@@ -75,7 +75,7 @@ pub struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// The two forms of a kernel: plain, over the slots deep inside the gas, and LISTED, over all others.
+    /// The two forms of a kernel: plain, over the slots deep inside the gas that are awake, and LISTED, over all others.
     fn both(
         &self,
         shader: &str,
@@ -93,7 +93,7 @@ impl Parts<'_> {
 
 /// Records both forms of a kernel.
 fn record_both(pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
-    pass.dispatch(plain, &extent(state, phase, Entry::Slots));
+    pass.dispatch(plain, &extent(state, phase, Entry::Awake));
     pass.dispatch(listed, &extent(state, phase, Entry::Listed));
 }
 

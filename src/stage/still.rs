@@ -1,4 +1,5 @@
-//! `still`: where does nothing move? Marching kernels before the solve leave out gas that stays at rest.
+//! `still`: where does nothing move? Kernels before the solve leave out gas that motion does not reach by then; and all leave out gas that
+//! sleeps through the whole step.
 
 use super::{Parts, extent};
 use crate::error::Result;
@@ -6,10 +7,13 @@ use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
 
-/// Kernels of the stage, in order.
+/// Kernels of the stage.
 #[derive(Debug)]
 pub struct Still {
-    kernels: [Bound; 2],
+    mark: [Bound; 3],
+    wake: Bound,
+    /// The list of what is awake.
+    list: [(Bound, Entry); 3],
 }
 
 impl Still {
@@ -18,16 +22,36 @@ impl Still {
     /// # Errors
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>) -> Result<Self> {
-        let busy = [("busy", parts.state.pcg.product.raw())]; // free until the advection, whose theta it becomes
-        let bind = |entry: &str| parts.state.bind(parts.gpu, "still.wgsl", entry, &busy, &[]);
-        Ok(Self { kernels: [bind("still_find")?, bind("still_spread")?] })
+        let bind = |entry: &str| parts.state.bind(parts.gpu, "still.wgsl", entry, &[], &[]);
+        Ok(Self {
+            mark: [bind("still_find")?, bind("still_along")?, bind("still_spread")?],
+            wake: bind("still_wake")?,
+            list: [
+                (bind("still_count")?, Entry::Reduce),
+                (bind("still_places")?, Entry::Single),
+                (bind("still_list")?, Entry::Reduce),
+            ],
+        })
     }
 
-    /// Marks the columns in which the advection has nothing to do.
+    /// Marks the rows in which there is something to do, and lists the slots that are awake.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("still");
-        for kernel in &self.kernels {
+        for kernel in &self.mark {
             pass.dispatch(kernel, &extent(state, "BEGIN", Entry::Reduce));
+        }
+        self.record_list(pass, state, "BEGIN");
+    }
+
+    /// Wakes all, in the phase that opens for it.
+    pub fn record_wake(&self, pass: &mut Pass, state: &State) {
+        pass.dispatch(&self.wake, &extent(state, "WAKE", Entry::Reduce));
+        self.record_list(pass, state, "WAKE");
+    }
+
+    fn record_list(&self, pass: &mut Pass, state: &State, phase: &str) {
+        for (kernel, entry) in &self.list {
+            pass.dispatch(kernel, &extent(state, phase, *entry));
         }
     }
 }

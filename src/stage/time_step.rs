@@ -17,6 +17,8 @@ pub struct TimeStep {
     listed: Bound,
     limiter: Bound,
     solved: Bound,
+    awake: Bound,
+    wake: Bound,
     second: Bound,
     substep: Bound,
     finish: Bound,
@@ -45,6 +47,8 @@ impl TimeStep {
             listed: control("control_listed")?,
             limiter: control("control_limiter")?,
             solved: control("control_solved")?,
+            awake: control("control_awake")?,
+            wake: control("control_wake")?,
             second: control("control_second")?,
             substep: control("control_substep")?,
             finish: control("control_finish")?,
@@ -80,6 +84,16 @@ impl TimeStep {
     /// Opens the correction of the advection where the limiter acted.
     pub fn record_limiter(&self, pass: &mut Pass) {
         pass.dispatch(&self.limiter, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Takes the length of the list of slots that are awake.
+    pub fn record_awake(&self, pass: &mut Pass) {
+        pass.dispatch(&self.awake, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Opens the waking of all slots if the solve goes on for longer than some may sleep through.
+    pub fn record_wake(&self, pass: &mut Pass) {
+        pass.dispatch(&self.wake, &Extent::Groups([1, 1, 1]));
     }
 
     /// Opens the updates if the solve has finished.

@@ -49,11 +49,15 @@ pub const NO_FAULT: u32 = u32::MAX;
 pub const SCAN_DISPATCHES: usize = 6;
 /// Columns of a marching kernel that are still together: as many as one instruction of a CPU takes, or a part of a GPU's.
 pub const STILL_BLOCK: u32 = 8;
+/// Slots of a run that a thread's neighbours take with it.
+pub const RUN_LANES: u32 = 8;
+/// Iterations that the solve may take while some slots sleep; a longer one wakes them.
+pub const SOLVE_REACH: u32 = 8;
 /// Entries of a phase in the table of extents.
-pub const PHASE_WIDTH: usize = 9 + SCAN_DISPATCHES;
+pub const PHASE_WIDTH: usize = 10 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
-pub const PHASES: [&str; 11] =
-    ["BEGIN", "SORT", "LIMIT", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END", "ROUND", "ITERATION"];
+pub const PHASES: [&str; 12] =
+    ["BEGIN", "SORT", "LIMIT", "WAKE", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END", "ROUND", "ITERATION"];
 
 /// Entries of a phase in the table of extents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,8 +81,10 @@ pub enum Entry {
     Color = 7,
     /// One thread per row of the preconditioner of interface pressures, in at most as many groups as leave partial results.
     Surface = 8,
+    /// One thread per slot of the runs that are awake.
+    Awake = 9,
     /// First dispatch of a prefix sum.
-    Scan = 9,
+    Scan = 10,
 }
 
 /// Number of a rule on the device.
@@ -117,13 +123,26 @@ const FLAGS: [&str; 12] = [
 ];
 
 /// Lists of names that count from 0, each with its prefix.
-const COUNTED: [(&str, &[&str]); 4] = [
+const COUNTED: [(&str, &[&str]); 5] = [
+    ("STILL", &["NONE", "ADVECTION", "ASLEEP"]),
     ("RULE", &RULES),
     ("INTERFACE", &["RESOLVED", "H", "SINGLE"]),
     ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP", "ELASTIC"]),
     (
         "EXTENT",
-        &["SLOTS", "PARTICLES", "REDUCE", "SINGLE", "LISTED", "FRONTIER", "MARCHED", "COLOR", "SURFACE", "SCAN"],
+        &[
+            "SLOTS",
+            "PARTICLES",
+            "REDUCE",
+            "SINGLE",
+            "LISTED",
+            "FRONTIER",
+            "MARCHED",
+            "COLOR",
+            "SURFACE",
+            "AWAKE",
+            "SCAN",
+        ],
     ),
 ];
 
@@ -164,6 +183,8 @@ pub fn source() -> String {
         ("PARTIALS", PARTIALS),
         ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
         ("STILL_BLOCK", STILL_BLOCK),
+        ("RUN_LANES", RUN_LANES),
+        ("SOLVE_REACH", SOLVE_REACH),
         ("HISTORY_WIDTH", HISTORY_WIDTH),
         ("BLOCKS", BLOCKS),
         ("BLOCK_GIVEN", BLOCK_GIVEN),

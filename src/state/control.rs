@@ -50,6 +50,14 @@ pub struct Control {
     pub listed: u32,
     /// INTERIOR slots whose nodes listed vertices rest on.
     pub frontier: u32,
+    /// Runs of slots that are awake.
+    pub runs: u32,
+    /// Largest speed of sound at the end of the step \[m s^-1\].
+    pub sound: f32,
+    /// 1 if all slots are awake, because the solve of this step took many iterations or the host has changed the gas.
+    pub woken: u32,
+    /// The same in the step before.
+    pub woken_before: u32,
     /// Simulated time at the start of the step \[s\].
     pub time: f32,
     /// What rounding has taken from it so far \[s\].

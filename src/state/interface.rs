@@ -1,6 +1,6 @@
 //! Where gas and solid meet, and the unknowns of the pressure system.
 
-use super::constants::STILL_BLOCK;
+use super::constants::{PARTIALS, RUN_LANES, STILL_BLOCK};
 use super::params::MARCH;
 use crate::error::Result;
 use crate::gpu::{Buffer, Gpu};
@@ -16,33 +16,62 @@ pub struct Interface {
     pub ghost: Buffer<f32>,
     /// Place of a vertex in the list of those that carry P, h and Q apart; then the list of slots that are not deep inside the
     /// gas and, from the end, that of the frontier around them; then the lengths of both. Without solids the first part
-    /// holds the places of cut cells, and their table stands at the end.
+    /// holds the places of cut cells, and their table stands at the end. In between [`Places`].
     pub extra: Buffer<u32>,
-    /// Blocks of columns of marching kernels in which nothing moves until the solve.
-    pub still: Buffer<u32>,
+    /// Rows of blocks of columns of marching kernels in which something moves, now and in the step before; then scratch of as many words.
+    pub busy: Buffer<u32>,
+    /// Threads that take the slots of all runs.
+    pub run_threads: usize,
 }
 
-/// Blocks of columns of marching kernels, of at least [`MARCH`] slots along the last axis.
-pub(super) fn still_blocks(cells: &[u64; 3], dimension: u32) -> u64 {
-    let rows = cells[dimension as usize - 1];
-    let columns = cells.iter().product::<u64>() / rows * rows.div_ceil(u64::from(MARCH));
-    columns.div_ceil(u64::from(STILL_BLOCK))
+/// Parts of [`Interface::extra`] behind the lists, in words (`shaders/shared/runs.wgsl` and `still.wgsl`).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Places {
+    /// Runs of slots that are awake.
+    pub runs: u32,
+    /// Rows of the blocks of columns of marching kernels.
+    pub still: u32,
+    /// Behind both.
+    pub end: u32,
+    /// Runs of the whole grid.
+    pub all: u32,
+}
+
+impl Places {
+    /// For cells with the ring, on any device: for as many groups that leave partial results as there may be, and the shortest marches.
+    pub(super) fn new(stride: &[u32; 3], dimension: u32) -> Self {
+        let slots: u32 = stride.iter().product();
+        let rows = stride[dimension as usize - 1];
+        let across = (slots / rows).div_ceil(STILL_BLOCK);
+        let all = if dimension == 1 { slots.div_ceil(RUN_LANES) } else { rows * across };
+        let runs = 2 * slots + 2;
+        let still = runs + RUN_LANES * PARTIALS + 1 + 2 * all;
+        Self { runs, still, end: still + across * rows.div_ceil(MARCH), all }
+    }
+
+    /// Blocks of columns.
+    pub(super) fn blocks(&self) -> usize {
+        (self.end - self.still) as usize
+    }
 }
 
 impl Interface {
     /// Allocates for a number of slots; without solids only what the gas needs. `table`: words of the table of
-    /// cut cells; `blocks`: of columns of marching kernels.
+    /// cut cells.
     ///
     /// # Errors
     /// If the device has no room.
-    pub fn new(gpu: &Gpu, slots: usize, solids: bool, table: usize, blocks: usize) -> Result<Self> {
+    pub(super) fn new(gpu: &Gpu, slots: usize, solids: bool, table: usize, places: &Places) -> Result<Self> {
         let solid_slots = if solids { slots } else { 1 };
+        let busy = Buffer::new(gpu, "busy", 2 * places.blocks())?;
+        busy.write(gpu, 0, &vec![u32::MAX; places.blocks()]); // all, before the first step
         Ok(Self {
             cells: Buffer::new(gpu, "cells", slots)?,
             fill: Buffer::new(gpu, "fill", slots)?,
             ghost: Buffer::new(gpu, "ghost", solid_slots)?,
-            extra: Buffer::new(gpu, "extra", 2 * slots + 2 + table)?,
-            still: Buffer::new(gpu, "still", blocks)?,
+            extra: Buffer::new(gpu, "extra", places.end as usize + table)?,
+            busy,
+            run_threads: (RUN_LANES * places.all) as usize,
         })
     }
 }

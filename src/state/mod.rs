@@ -121,7 +121,7 @@ impl State {
         overrides.push(("DRIVEN", f64::from(u8::from(supports.driven))));
         overrides.push(("FRICTION", f64::from(u8::from(supports.friction))));
         overrides.push(("CUT", f64::from(u8::from(!table.is_empty()))));
-        let blocks = interface::still_blocks(&params.stride.map(u64::from), domain.dimension) as usize;
+        let places = interface::Places::new(&params.stride, domain.dimension);
         let state = State {
             grid,
             params,
@@ -134,7 +134,7 @@ impl State {
             motions: Buffer::from_slice(gpu, "motions", &supports.motions)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
             gas: GasState::new(gpu, scene, &grid, start.len())?,
-            interface: Interface::new(gpu, slots, !start.is_empty(), table.len(), blocks)?,
+            interface: Interface::new(gpu, slots, !start.is_empty(), table.len(), &places)?,
             particles: Particles::new(gpu, slots, &start, scene.consistent(), scene.elastic_vectors())?,
             pressure: Buffer::new(gpu, "pressure", unknowns)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
@@ -147,12 +147,12 @@ impl State {
             overrides,
         };
         state.params_buffer.write(gpu, 0, &[params]);
-        state.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, ..Control::default() }]);
+        state.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, woken: 1, ..Control::default() }]);
         state.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
         state.fill_gas(gpu, scene, &openings, &start_gas, &geometry.walls);
         if !table.is_empty() {
             state.interface.extra.write(gpu, 0, &cut::entries(&grid, &geometry));
-            state.interface.extra.write(gpu, 2 * slots + 2, &table);
+            state.interface.extra.write(gpu, places.end as usize, &table);
         }
         Ok(state)
     }
@@ -268,7 +268,7 @@ impl State {
             ("fill", self.interface.fill.raw()),
             ("ghost", self.interface.ghost.raw()),
             ("extra", self.interface.extra.raw()),
-            ("still", self.interface.still.raw()),
+            ("busy", self.interface.busy.raw()),
             ("position", self.particles.position.raw()),
             ("velocity", self.particles.velocity.raw()),
             ("affine", self.particles.affine.raw()),

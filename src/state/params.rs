@@ -74,11 +74,24 @@ pub struct Params {
     pub least_entropy: f32,
     /// Vertices whose interface pressure has a row in the preconditioner.
     pub surface_rows: u32,
-    /// 0: gas in which nothing moves is computed like all other, with the same result.
+    /// What is left out where nothing moves, with the same result: 0 nothing, 1 the advection, 2 all that can.
     pub still: u32,
+    /// Place of the runs of slots that are awake in [`super::Interface::extra`].
+    pub runs_at: u32,
+    /// Place of the rows of blocks there.
+    pub still_at: u32,
+    /// Place of the table of cut cells there.
+    pub table_at: u32,
+    /// Fills the last 16 bytes.
+    pub unused: u32,
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
+
+/// [`Params::still`]: the advection leaves out what motion does not reach by the solve.
+pub const STILL_ADVECTION: u32 = 1;
+/// [`Params::still`]: and all kernels leave out what it does not reach in the whole step.
+pub const STILL_ASLEEP: u32 = 2;
 
 /// What the scene's particles add to the parameters.
 #[derive(Clone, Copy, Debug, Default)]
@@ -166,9 +179,15 @@ impl Params {
             blending: u32::from(numerics.blending),
             least_entropy: 0.0,
             surface_rows: surface::rows(grid.slots(), limits.extra_capacity as usize) as u32,
-            still: 1,
+            still: if sleeps(scene, solids.particles) { STILL_ASLEEP } else { STILL_ADVECTION },
+            runs_at: 0,
+            still_at: 0,
+            table_at: 0,
+            unused: 0,
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
+        let places = super::interface::Places::new(&params.stride, scene.domain.dimension);
+        (params.runs_at, params.still_at, params.table_at) = (places.runs, places.still, places.end);
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
             *entry = [x, y, z, 0];
         }
@@ -210,6 +229,15 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
             },
         ),
     ]
+}
+
+/// Whether gas that nothing reaches in a whole step may be left out: where one solve, without coarse levels, is all that acts at a
+/// distance, and nothing acts on gas at rest.
+fn sleeps(scene: &Scene, particles: u32) -> bool {
+    let numerics = &scene.numerics;
+    let alone = particles == 0 && scene.obstacles.is_empty() && scene.gravity == [0.0; 3];
+    let short = numerics.pair == Pair::B1b0 && scene.solves() == 1 && super::coarse::plan(scene).is_none();
+    alone && short && numerics.filter == 0.0
 }
 
 /// Sides that are walls and nothing else, as bits.

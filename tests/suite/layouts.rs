@@ -70,6 +70,10 @@ fn params() {
             least_entropy,
             surface_rows,
             still,
+            runs_at,
+            still_at,
+            table_at,
+            unused,
             scan,
         ]
     );
@@ -104,6 +108,10 @@ fn control() {
             residual,
             listed,
             frontier,
+            runs,
+            sound,
+            woken,
+            woken_before,
             time,
             time_error,
             rounds,
@@ -155,6 +163,9 @@ fn conjugate_gradients() {
             most,
             levels,
             joined,
+            runs,
+            apart,
+            reference_at,
             level_groups,
         ]
     );

@@ -202,8 +202,8 @@ fn large_steps_in_space_cost_few_iterations() {
     let Some(gpu) = gpu_or_skip() else { return };
     let common = [&["time.until=9.0", "numerics.tolerance=1e-6"], &SPACE[..]].concat();
     for (step, block, most, gain) in [
-        ("time.fixed_step=0.528", false, 16, 3.0),
-        ("time.fixed_step=1.58", false, 36, 3.5),
+        ("time.fixed_step=0.528", false, 13, 3.0),
+        ("time.fixed_step=1.58", false, 30, 3.0),
         ("time.fixed_step=0.528", true, 40, 1.3),
         ("time.fixed_step=1.58", true, 40, 1.3),
     ] {

@@ -66,7 +66,10 @@ fn even_gas_at_rest_keeps_its_bits() {
         ("dimension = 2\ncells = [37, 21]\nsize = [0.37, 0.21]\n", "[numerics]\npair = \"b2b1\"\n"),
         ("dimension = 3\ncells = [13, 11, 14]\nsize = [0.13, 0.11, 0.14]\n", ""),
         ("dimension = 3\ncells = [13, 11, 14]\nsize = [0.13, 0.11, 0.14]\n", "[numerics]\npair = \"b2b1\"\n"),
-        ("dimension = 3\ncells = [13, 11, 14]\nsize = [0.13, 0.11, 0.14]\n", "[boundary]\nx_min = \"periodic\"\nx_max = \"periodic\"\n"),
+        (
+            "dimension = 3\ncells = [13, 11, 14]\nsize = [0.13, 0.11, 0.14]\n",
+            "[boundary]\nx_min = \"periodic\"\nx_max = \"periodic\"\n",
+        ),
     ];
     for (domain, rest) in cases {
         let text = format!(
