@@ -15,13 +15,18 @@ fn image(n: u32, gas: Gas) -> Gas {
     return out;
 }
 
-// State of an open slot, or of the image of one, reached along axis n.
-fn open_gas(c: vec3i, n: u32) -> Gas {
-    let own = mirrored(c);
-    let here = source(slot_of(nearest_inside(own)));
+// State of a GAS cell, or of the image of one, reached along axis n; of the nearest cell beyond other sides.
+fn gas_at(c: vec3i, n: u32) -> Gas {
+    let here = source(slot_of(nearest_inside(mirrored(c))));
     if is_image(c) { return image(n, here); }
-    if inside(c) { return here; }
-    return gas_beyond(opening_of(word_at(c)), n, select(1.0, -1.0, c[n] < 0), here);
+    return here;
+}
+
+// The same of an open slot.
+fn open_gas(c: vec3i, n: u32) -> Gas {
+    let here = gas_at(c, n);
+    if inside(mirrored(c)) { return here; }
+    return gas_beyond(opening_of(cells[slot_of(nearest_ring(c))]), n, select(1.0, -1.0, c[n] < 0), here);
 }
 
 // Its carrier; beyond an outlet that of the nearest cell.
@@ -62,7 +67,7 @@ fn stencil_at(near: vec3i, n: u32, up: bool, here: Gas, next: Gas, open: bool) -
     let e = chosen(last, first, up);
     let low = select(near - axis(n), near, up);
     if !all_gas(low, n) { return narrow(b, c, d, e); }
-    return wide(n, open_gas(low - 2 * axis(n), n), b, c, d, e, open_gas(low + 3 * axis(n), n));
+    return wide(n, gas_at(low - 2 * axis(n), n), b, c, d, e, gas_at(low + 3 * axis(n), n));
 }
 
 // What passes a plane of symmetry: momentum across it, as the dissipation has it. All else is zero but for rounding.
@@ -81,13 +86,14 @@ fn carried_face(near: vec3i, far: vec3i, n: u32, up: bool) -> Fluxes {
     let other = open_carrier(far, n);
     let low = select(other, own, up);
     let high = select(own, other, up);
-    if is_image(far) { return reflected(n, carried_fluxes(stencil, 0.0, carrier_spread(low[n], high[n]))); }
-    var carried = other[n];
-    if kind_of(far_word) == GAS {
+    let reflects = is_image(far);
+    var carried = select(other[n], 0.0, reflects);
+    if kind_of(far_word) == GAS && !reflects {
         if near_obstacle(slot_of(near), slot_of(far)) { carried = cut_velocity(min(near, far), n) - given_back() * (high.w - low.w); }
         else { carried = carried_velocity(n, low, stencil.c.flow.x, high, stencil.d.flow.x); }
     }
     out = carried_fluxes(stencil, carried, carrier_spread(low[n], high[n]));
+    if reflects { return reflected(n, out); }
     out.heat *= f32(kind_of(far_word) == GAS);
     return out;
 }
