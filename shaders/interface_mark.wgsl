@@ -83,9 +83,11 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     var gas = 0u;
     var solid = 0u;
     var closed = 0u;
+    var even = true;
     for (var k = 0u; k < block_size(); k++) {
         let near = c + block_offset(k);
         let kind = kind_near(near);
+        even = even && kind_near(mirrored(near)) == GAS;
         closed += u32(kind == WALL || kind == GHOST);
         if !inside(near) { continue; }
         around += 1u;
@@ -96,12 +98,12 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     // A node beyond a side goes with the cell before it.
     let clear = clear_of_obstacles(nearest_inside(c), -1, 1);
     if gas > 0u && gas == around && clear && away_from_seam(c, -1, 2) { flags |= NODE_REGULAR; }
-    if gas == block_size() && clear { flags |= NODE_INTERIOR; }
+    if even && clear { flags |= NODE_INTERIOR; }
     if solid > 0u { flags |= NODE_SOLID; }
     if solid > 0u && solid == around { flags |= NODE_DEEP; }
     if solid > 0u && closed > 0u { flags |= NODE_FILM; }
     if is_vertex(c) { flags |= vertex_flags(c, slot); } else if SOLIDS { wanted[slot] = 0u; }
-    cells[slot] = (cells[slot] & 0xffff000fu) | flags;
+    cells[slot] = (cells[slot] & 0xffff000fu) | flags | select(0u, IMAGE, is_image(c));
 }
 
 fn vertex_flags(v: vec3i, slot: u32) -> u32 {
@@ -167,7 +169,7 @@ fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
-    var interior = inside(c) && away_from_seam(c, -3, 3);
+    var interior = within(c, 2 * reach(), vec3i(params.cells) - 2 * reach()) && away_from_seam(c, -3, 3);
     if interior {
         for (var k = 0u; k < corner_count(); k++) {
             interior = interior && has(cells[slot_of(c - corner_offset(k))], NODE_INTERIOR);

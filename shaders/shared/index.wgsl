@@ -47,16 +47,16 @@ fn nearest_ring(c: vec3i) -> vec3i {
     return select(clamp(c, -reach(), vec3i(params.cells) + reach() - vec3i(1)), c, periodic_axes());
 }
 
-// 1 where the pressure system takes a side for a plane of symmetry.
+// 1 where a side is a plane of symmetry.
 fn mirrors(side: u32) -> i32 { return i32((MIRRORED >> side) & 1u); }
 
-// What a slot beyond such a side is the image of.
+// What a cell beyond such a side is the image of.
 fn mirrored(c: vec3i) -> vec3i {
     if MIRRORED == 0u { return c; }
     let low = vec3i(mirrors(0u), mirrors(2u), mirrors(4u)) == vec3i(1);
     let high = vec3i(mirrors(1u), mirrors(3u), mirrors(5u)) == vec3i(1);
     let last = vec3i(params.cells) - vec3i(1);
-    return select(select(c, last, high & (c > last)), vec3i(0), low & (c < vec3i(0)));
+    return select(select(c, 2 * last + vec3i(1) - c, high & (c > last)), -vec3i(1) - c, low & (c < vec3i(0)));
 }
 
 fn is_image(c: vec3i) -> bool { return MIRRORED != 0u && any(mirrored(c) != c); }

@@ -16,7 +16,7 @@ override MIDPOINT_POWER: bool;  // interface power with the mean of the old and 
 override IMPLICIT: bool;        // one elastic step by backward Euler instead of explicit sub-steps
 override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's volumetric part, which the law then lacks
 override PERIODIC: u32;          // axes whose ends meet, as bits
-override MIRRORED: u32;         // sides that the pressure system takes for planes of symmetry: walls, as bits; gas only, B1B0
+override MIRRORED: u32;         // sides that are planes of symmetry: walls, as bits; gas only, B1B0
 override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
 override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE
 

@@ -1,5 +1,6 @@
-//! Sides that are walls: planes of symmetry of the pressure system.
+//! Sides that are walls: planes of symmetry.
 
+use brisance::gpu::Gpu;
 use brisance::scene::Scene;
 use brisance::simulation::Simulation;
 
@@ -22,4 +23,63 @@ fn gas_under_gravity_rests_on_its_floor_at_every_step() {
     }
     eprintln!("largest speed {:.1e} of sqrt(g H)", fastest / 0.1);
     assert!(fastest < 5e-5, "{fastest:e}");
+}
+
+/// Density after `until` of a blast in a box, or with `part` of the piece of it where all coordinates are positive: its middle planes
+/// are walls. A bar of dense gas makes it differ along the axes.
+fn blast(gpu: &Gpu, dimension: usize, cells: usize, part: bool, (until, more): (f64, &str)) -> Vec<f32> {
+    let list = |value: String| format!("[{}]", vec![value; dimension].join(", "));
+    let (origin, size) = if part { ("0.0", "0.5") } else { ("-0.5", "1.0") };
+    let bar = ["0.9", "0.25", "0.6"][..dimension].join(", ");
+    let text = format!(
+        "title = \"blast\"\n[domain]\ndimension = {dimension}\ncells = {}\norigin = {}\nsize = {}\n\
+         [gas]\nambient = {{ density = 1.0, pressure = 1.0 }}\n\
+         [[gas.regions]]\nshape = {{ box = {{ center = {}, size = [{bar}] }} }}\ndensity = 2.0\npressure = 1.0\n\
+         [[gas.regions]]\nshape = {{ sphere = {{ center = {}, radius = 0.2 }} }}\ndensity = 1.0\npressure = 10.0\n\
+         [time]\nuntil = {until}\n[numerics]\ntolerance = 1e-7\n{more}\n",
+        list((if part { cells / 2 } else { cells }).to_string()),
+        list(origin.to_owned()),
+        list(size.to_owned()),
+        list("0.0".to_owned()),
+        list("0.0".to_owned()),
+    );
+    let scene = Scene::parse(&text, "blast.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(gpu, &scene).unwrap();
+    simulation.advance_to(until).unwrap_or_else(|error| panic!("{more}: {error}"));
+    simulation.snapshot().unwrap().density
+}
+
+/// Largest difference of the density between a part of a blast and the whole.
+fn difference(gpu: &Gpu, dimension: usize, cells: usize, run: (f64, &str)) -> f32 {
+    let whole = blast(gpu, dimension, cells, false, run);
+    let part = blast(gpu, dimension, cells, true, run);
+    let half = cells / 2;
+    let place = |i: usize| {
+        (0..dimension as u32)
+            .map(|d| {
+                let c = i / half.pow(d) % half;
+                (half + c) * cells.pow(d)
+            })
+            .sum::<usize>()
+    };
+    let worst = (0..part.len()).fold(0.0, |most: f32, i| most.max((part[i] - whole[place(i)]).abs()));
+    eprintln!("{dimension}D {run:?}: {worst:.1e}");
+    worst
+}
+
+/// Quarter and eighth of a blast with walls in its planes of symmetry are the whole one.
+#[test]
+fn a_part_of_a_blast_between_walls_is_the_whole_blast() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let settings = ["", "face_velocity = \"cell\"", "integrator = \"ars222\"", "integrator = \"paper\""];
+    let mut failures = Vec::new();
+    for more in settings {
+        for (dimension, cells, until) in [(1, 40, 0.2), (2, 32, 0.2), (3, 20, 0.05)] {
+            let worst = difference(&gpu, dimension, cells, (until, more));
+            if !(worst < 1e-5) {
+                failures.push(format!("{dimension}D {more}: {worst:e}"));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }

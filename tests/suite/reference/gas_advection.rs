@@ -108,6 +108,17 @@ fn closed_flux(weno: Weno, stencil: &Stencil, axis: usize, [blocked, velocity]: 
     (blend(high), blend(first))
 }
 
+/// The cell that stands for one on a line along an axis: what it is the image of, or the nearest in the ring; and the sign of its momentum
+/// along the line, the other one beyond a plane of symmetry.
+fn place(problem: &Problem, axis: usize, c: [i32; 3]) -> ([i32; 3], f64) {
+    let mut own = problem.mirrored(c);
+    let sign = if own == c { 1.0 } else { -1.0 };
+    if !problem.grid.periodic[axis] {
+        own[axis] = own[axis].clamp(-1, problem.grid.cells[axis]);
+    }
+    (own, sign)
+}
+
 /// Both fluxes of one face over a stage of `dt`, None where no gas touches it.
 pub(crate) fn face_flux(
     problem: &Problem,
@@ -119,38 +130,35 @@ pub(crate) fn face_flux(
 ) -> Option<([f64; 5], [f64; 5])> {
     let grid = &problem.grid;
     let weno = problem.numerics.weno;
-    let at = |by: i32| {
-        let mut c = shift(low, axis, by);
-        if !grid.periodic[axis] {
-            c[axis] = c[axis].clamp(-1, grid.cells[axis]);
-        }
-        grid.slot(c)
-    };
+    let place = |by: i32| place(problem, axis, shift(low, axis, by));
+    let at = |by: i32| grid.slot(place(by).0);
     let kind = |by: i32| interface.cells[at(by)];
     let readable = |by: i32| matches!(kind(by), GAS | GHOST);
     if kind(0) != GAS && kind(1) != GAS {
         return None;
     }
-    let pick = |by: i32, otherwise: i32| gas.get(at(if readable(by) { by } else { otherwise }));
+    let value = |by: i32| {
+        let mut u = gas.get(at(by));
+        u[1 + axis] *= place(by).1;
+        u
+    };
+    let pick = |by: i32, otherwise: i32| value(if readable(by) { by } else { otherwise });
     let narrow = |[b, c, d, e]: [[f64; 5]; 4]| [b, b, c, d, e, e];
     // Next to anything but gas the outer cells of the stencil are copies, and the order is the third.
-    let inside = |by: i32| grid.contains(shift(low, axis, by)) && kind(by) == GAS;
+    let inside = |by: i32| grid.contains(place(by).0) && kind(by) == GAS;
     let wide = weno.even.is_some() && (-2..=3).all(inside);
     let across = || {
-        if wide {
-            [-2, -1, 0, 1, 2, 3].map(|by| gas.get(at(by)))
-        } else {
-            narrow([pick(-1, 0), gas.get(at(0)), gas.get(at(1)), pick(2, 1)])
-        }
+        if wide { [-2, -1, 0, 1, 2, 3].map(value) } else { narrow([pick(-1, 0), value(0), value(1), pick(2, 1)]) }
     };
     let shock_at = |stencil| if wide { shock(problem, dt, stencil, axis) } else { NARROW };
     if let Some(carrier) = carrier {
         if !readable(0) || !readable(1) {
             return Some(([0.0; 5], [0.0; 5]));
         }
-        let speed = |by: i32| carrier.velocity[at(by)][axis];
+        let speed = |by: i32| place(by).1 * carrier.velocity[at(by)][axis];
         let alpha = if speed(1) > speed(0) { speed(0).abs().max(speed(1).abs()) } else { 0.0 };
         let carried = match (kind(0), kind(1)) {
+            _ if at(0) == at(1) => 0.0,
             (GAS, GAS) => carrier.between(gas, axis, at(0), at(1)),
             (GAS, _) => speed(1),
             _ => speed(0),

@@ -174,22 +174,22 @@ pub(crate) struct Problem {
 }
 
 impl Problem {
-    /// Does the pressure system take a side for a plane of symmetry?
+    /// Is a side a plane of symmetry?
     fn mirrors(&self, side: usize) -> bool {
         self.numerics.pair == Pair::B1b0 && self.materials.is_empty() && matches!(self.sides[side], Side::Wall)
     }
 
-    /// What a node beyond such sides is the image of.
-    pub(crate) fn mirrored(&self, mut node: [i32; 3]) -> [i32; 3] {
-        for (axis, place) in node.iter_mut().enumerate().take(self.grid.dimension) {
+    /// What a cell beyond such sides is the image of.
+    pub(crate) fn mirrored(&self, mut cell: [i32; 3]) -> [i32; 3] {
+        for (axis, place) in cell.iter_mut().enumerate().take(self.grid.dimension) {
             let last = self.grid.cells[axis] - 1;
             if *place < 0 && self.mirrors(2 * axis) {
-                *place = 0;
+                *place = -1 - *place;
             } else if *place > last && self.mirrors(2 * axis + 1) {
-                *place = last;
+                *place = 2 * last + 1 - *place;
             }
         }
-        node
+        cell
     }
 
     /// A problem with the default method, no obstacles and no gravity.
