@@ -61,10 +61,8 @@ impl MemoryPlan {
             cut_cells,
             buffers: Vec::new(),
         };
-        plan.add(
-            "gas",
-            &[("conserved", slots, 16), ("energy", (3 + kept) * slots, 4), ("work", (2 + kept) * slots, 16)],
-        );
+        plan.add("gas", &[("conserved", slots, 16), ("work", (2 + kept) * slots, 16)]);
+        plan.add("gas", &[("energy", (3 + kept) * slots, 4)]);
         let books = if super::gas::ring_books(scene, particles > 0) { slots - plan.cells } else { slots };
         plan.add("gas", &[("owed_flow", books, 16), ("owed_energy", books, 4)]);
         plan.add(
@@ -74,6 +72,7 @@ impl MemoryPlan {
                 ("fill", slots, 8),
                 ("ghost", solid, 4),
                 ("extra", u64::from(places.end) + table, 4),
+                ("busy", 2 * places.blocks() as u64, 4),
             ],
         );
         plan.add_pressure(slots as usize, extra_capacity(slots as usize, particles, dimension), dimension as usize);
