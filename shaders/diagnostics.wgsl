@@ -38,7 +38,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     var crossed = vec4f(0.0);
     var heat = vec4f(0.0);
     var extremes = vec4f(-3e38);
-    var speed = vec2f(0.0); // of the gas, of sound
+    var speed = vec2f(0.0); // of the gas, of sound, squared
     let volume = cell_volume();
     for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
         let kind = kind_of(cells[slot]);
@@ -53,8 +53,9 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
             heat.x += share * u.energy;
             let p = pressure_of(u);
             extremes = max(extremes, vec4f(u.flow.x, -u.flow.x, p, -p));
-            speed = max(speed, vec2f(length(velocity_of(u.flow)), sound_speed(u.flow.x, p)));
-        } else if kind == SOLID {
+            let v = velocity_of(u.flow);
+            speed = max(speed, vec2f(dot(v, v), params.gamma * max(p, 0.0) / u.flow.x));
+        } else if SOLIDS && kind == SOLID {
             owed += volume * u.flow;
             heat.y += volume * u.energy;
         } else if RING_BOOKS {
@@ -69,6 +70,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         crossed += volume * owed_flow[k];
         heat.z += volume * owed_energy[k];
     }
+    speed = sqrt(speed);
     let at = thread_index(group, groups, 0u) / WORKGROUP;
     put(0u, at, lane, workgroup_sum4(lane, gas));
     put(1u, at, lane, workgroup_sum4(lane, owed));

@@ -67,7 +67,7 @@ fn book_loss(slot: u32, momentum: vec3f, heat: f32) {
 @compute @workgroup_size(WORKGROUP)
 fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+    let slot = busy_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let kind = kind_of(cells[slot]);
     // Between two solves of a step the second still builds upon what the first collected.

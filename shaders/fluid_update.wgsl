@@ -157,7 +157,7 @@ fn interior_heat(slot: u32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+    let slot = busy_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     if !LISTED {
         if has(cells[slot], INTERIOR) {

@@ -169,7 +169,8 @@ fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
-    var interior = within(c, 2 * reach(), vec3i(params.cells) - 2 * reach()) && away_from_seam(c, -3, 3);
+    // Of the six cells around a face only the outermost may be an image.
+    var interior = inside(c) && (MIRRORED == 0u || within(c, 2 * reach(), vec3i(params.cells) - 2 * reach())) && away_from_seam(c, -3, 3);
     if interior {
         for (var k = 0u; k < corner_count(); k++) {
             interior = interior && has(cells[slot_of(c - corner_offset(k))], NODE_INTERIOR);

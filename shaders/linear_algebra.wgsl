@@ -134,6 +134,10 @@ fn decide() {
     open_iteration(pcg.outcome == PCG_RUNNING);
 }
 
+// The caller's lists have changed between two iterations.
+@compute @workgroup_size(1)
+fn pcg_reopen() { open_iteration(pcg.outcome == PCG_RUNNING); }
+
 @compute @workgroup_size(WORKGROUP)
 fn pcg_alpha(@builtin(local_invocation_index) lane: u32) {
     let sum = total(lane);

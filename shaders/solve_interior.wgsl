@@ -3,7 +3,6 @@
 //   (C^T M^-1 C x)_v = 1 / (M 4^(DIM-1)) sum over u of (axes on which u and v lie on the same side - axes on which not) x_u.
 // Reads x, inverse node masses, stiffness, diagonal. Writes right-hand side or product.
 #include "shared/index.wgsl"
-#include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/runs.wgsl"
 #include "shared/control.wgsl"

@@ -23,11 +23,12 @@ fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
                   @builtin(local_invocation_index) lane: u32) {
     let scale = control.dt * control.dt * face_area();
     var product = 0.0;
-    let end = listed_count();
-    for (var k = thread_index(group, groups, lane); k < end; k += groups.x * groups.y * WORKGROUP) {
-        let slot = listed_slot(k);
+    let thread = thread_index(group, groups, lane);
+    let runs = listed_runs(thread);
+    for (var run = runs.x; run < runs.y; run++) {
+        let slot = slot_in(run, thread);
+        if slot >= params.slots { continue; }
         let word = cells[slot];
-        if !LISTED && !has(word, INTERIOR) { continue; }
         let rows = gather_rows(slot, word);
         let own = stiffness[slot] * x[slot] + scale * rows.own;
         y[slot] = own;
@@ -46,6 +47,6 @@ fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
     if lane != 0u { return; }
     // The listed form comes first; the plain one adds to what it left.
-    let at = thread_index(group, groups, 0u) / WORKGROUP;
+    let at = thread / WORKGROUP;
     if LISTED { partials[at] = sum; } else { partials[at] += sum; }
 }

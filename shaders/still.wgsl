@@ -2,7 +2,7 @@
 // there until its iterations have carried it there from elsewhere. So two kinds of rows (see shared/still.wgsl) are left out, with the
 // same bits: those that motion does not reach before the solve, by the advection; and by all, asleep, those that it does not reach in the
 // whole step, nor did in the step before, so that every array still holds there what it would get again. The rest is awake. A solve that
-// goes on for longer than SOLVE_REACH iterations wakes everything, in the next step, too.
+// goes on for longer than control.reach iterations wakes everything, in the next step, too.
 // Sides that let gas through, bodies and seams of periodic axes count as moving; walls and obstacles pass nothing on.
 // Reads gas and cells. Writes busy and, in extra, rows and runs.
 #include "shared/index.wgsl"
@@ -22,7 +22,7 @@
 // less far, and the limiter cuts fluxes there but makes none), and one in the carrier of the advected state.
 const ADVECTION_SPAN = 7;
 // And in a step: ten more for pressures, right-hand side and what the solved pressure does, and one per iteration.
-const STEP_SPAN = ADVECTION_SPAN + 10 + i32(SOLVE_REACH);
+fn step_span() -> i32 { return ADVECTION_SPAN + 10 + i32(control.reach); }
 
 fn blocks() -> u32 { return blocks_across() * layers(); }
 
@@ -97,7 +97,7 @@ fn still_along(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         var moving = 0xffffu;
         var awake = 0xffffu;
         if params.still != STILL_NONE { moving = rows_along(block, ADVECTION_SPAN, false); }
-        if params.still == STILL_ASLEEP && control.woken_before == 0u { awake = rows_along(block, STEP_SPAN, true); }
+        if params.still == STILL_ASLEEP && control.woken_before == 0u { awake = rows_along(block, step_span(), true); }
         busy[blocks() + block] = moving | (awake << 16u);
     }
 }
@@ -122,7 +122,7 @@ fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let total = groups.x * groups.y * WORKGROUP;
     for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
         var rows = busy[blocks() + block];
-        if DIM == 3u { rows = (rows_across(block, ADVECTION_SPAN) & 0xffffu) | (rows_across(block, STEP_SPAN) & 0xffff0000u); }
+        if DIM == 3u { rows = (rows_across(block, ADVECTION_SPAN) & 0xffffu) | (rows_across(block, step_span()) & 0xffff0000u); }
         extra[params.still_at + block] = rows;
     }
 }
@@ -167,18 +167,37 @@ fn awake_slots(run: u32) -> u32 {
     return bits;
 }
 
+// The same of a run of the list.
+fn awake_listed(run: u32) -> u32 {
+    var bits = 0u;
+    for (var k = 0u; k < RUN_LANES; k++) {
+        let at = RUN_LANES * run + k;
+        if at >= list_length() { break; }
+        let slot = extra[params.slots + at];
+        let row = slot / columns();
+        bits |= u32(row_awake(row / params.march, slot % columns() / STILL_BLOCK, row % params.march)) << k;
+    }
+    return bits;
+}
+
+fn list_length() -> u32 { return extra[2u * params.slots]; }
+
+fn runs_in_list() -> u32 { return (list_length() + RUN_LANES - 1u) / RUN_LANES; }
+
 // Every octet counts its runs.
 @compute @workgroup_size(WORKGROUP)
 fn still_count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                @builtin(local_invocation_index) lane: u32) {
     let octet = thread_index(group, groups, lane);
     if octet >= octets() { return; }
-    var count = 0u;
-    for (var run = octet; run < runs_in_all(); run += octets()) { count += u32(awake_slots(run) != 0u); }
-    extra[params.runs_at + octet] = count;
+    var count = vec2u(0u);
+    for (var run = octet; run < runs_in_all(); run += octets()) { count.x += u32(awake_slots(run) != 0u); }
+    for (var run = octet; run < runs_in_list(); run += octets()) { count.y += u32(awake_listed(run) != 0u); }
+    extra[params.runs_at + octet] = count.x;
+    extra[params.list_runs_at + octet] = count.y;
 }
 
-var<workgroup> shares: array<u32, WORKGROUP>;
+var<workgroup> shares: array<vec2u, WORKGROUP>;
 
 // One group: where the runs of every octet begin.
 @compute @workgroup_size(WORKGROUP)
@@ -186,20 +205,25 @@ fn still_places(@builtin(local_invocation_index) lane: u32) {
     let share = (octets() + WORKGROUP - 1u) / WORKGROUP;
     let first = min(lane * share, octets());
     let end = min(first + share, octets());
-    var sum = 0u;
-    for (var octet = first; octet < end; octet++) { sum += extra[params.runs_at + octet]; }
+    var sum = vec2u(0u);
+    for (var octet = first; octet < end; octet++) {
+        sum += vec2u(extra[params.runs_at + octet], extra[params.list_runs_at + octet]);
+    }
     shares[lane] = sum;
     workgroupBarrier();
-    var at = 0u;
+    var at = vec2u(0u);
     for (var k = 0u; k < lane; k++) { at += shares[k]; }
     for (var octet = first; octet < end; octet++) {
-        let count = extra[params.runs_at + octet];
-        extra[params.runs_at + octet] = at;
+        let count = vec2u(extra[params.runs_at + octet], extra[params.list_runs_at + octet]);
+        extra[params.runs_at + octet] = at.x;
+        extra[params.list_runs_at + octet] = at.y;
         at += count;
     }
     if lane != WORKGROUP - 1u { return; }
-    extra[params.runs_at + octets()] = at;
-    control.runs = at;
+    extra[params.runs_at + octets()] = at.x;
+    extra[params.list_runs_at + octets()] = at.y;
+    control.runs = at.x;
+    control.list_runs = at.y;
 }
 
 // Every octet writes its runs.
@@ -218,5 +242,12 @@ fn still_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         extra[at] = first;
         extra[at + 1u] = (deep & awake) | (awake << 8u);
         at += 2u;
+    }
+    at = params.list_runs_at + octets() + 1u + extra[params.list_runs_at + octet];
+    for (var run = octet; run < runs_in_list(); run += octets()) {
+        let awake = awake_listed(run);
+        if awake == 0u { continue; }
+        extra[at] = awake | (run << 8u);
+        at++;
     }
 }

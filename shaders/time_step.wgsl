@@ -77,13 +77,14 @@ fn listed_rate(c: vec3i, gas: Gas, p: f32) -> f32 {
 fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
     let total = groups.x * groups.y * WORKGROUP;
-    // The list is of the step before: what slept in it stands still, and control.sound knows how fast sound is there.
-    let all = !LISTED && control.woken == 1u;
-    let end = select(listed_count(), params.slots, all);
+    // The runs are of the step before: what slept in it stands still, and control.sound knows how fast sound is there.
+    let all = control.woken == 1u;
+    let awake = RUN_LANES * select(runs_awake(), list_runs_awake(), LISTED);
+    let end = select(awake, select(params.slots, list_length(), LISTED), all);
     var bound = vec2f(0.0);
     for (var k = thread_index(group, groups, lane); k < end; k += total) {
-        var slot = k;
-        if !all { slot = listed_slot(k); }
+        var slot = 0u;
+        if all { slot = every_slot(k); } else { slot = listed_slot(k); }
         if slot >= params.slots { continue; }
         let word = cells[slot];
         if LISTED != !has(word, INTERIOR) { continue; }
@@ -164,6 +165,7 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     control.dt_previous = dt; // growth counts from the step as taken: steps that alternate between short and long blow up
     control.dt = select(dt, ARS_SHARE * dt, ARS);
     control.stage = 0u;
+    control.reach = select(LONG_REACH, SHORT_REACH, control.iterations < SHORT_REACH);
     control.woken_before = control.woken;
     control.woken = 0u;
     control.substeps = 0u;

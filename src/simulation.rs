@@ -14,7 +14,7 @@ use crate::stage::{
     InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Still, Supports, TimeStep,
     Totals, Transfer,
 };
-use crate::state::constants::{self, NO_FAULT, SOLVE_REACH};
+use crate::state::constants::{self, NO_FAULT, REACHES};
 use crate::state::params::STILL_ASLEEP;
 use crate::state::{Control, HISTORY, State};
 pub use live::Blast;
@@ -181,16 +181,19 @@ impl Simulation {
 
     /// Iterations of the solve; where some slots sleep, a long one wakes them.
     fn record_iterations(&self, pass: &mut Pass) {
-        let mut left = self.recorded.iterations;
+        let mut done = 0;
         if self.state.params.still == STILL_ASLEEP {
-            for count in [0, left.min(SOLVE_REACH)] {
-                self.coupled_solve.record_iterations(pass, count);
+            for reach in [0, REACHES[0], REACHES[1]] {
+                let reach = reach.min(self.recorded.iterations);
+                self.coupled_solve.record_iterations(pass, reach - done);
                 self.time_step.record_wake(pass);
                 self.still.record_wake(pass, &self.state);
-                left -= count;
+                self.time_step.record_awake(pass);
+                self.coupled_solve.pcg.reopen(pass);
+                done = reach;
             }
         }
-        self.coupled_solve.record_iterations(pass, left);
+        self.coupled_solve.record_iterations(pass, self.recorded.iterations - done);
     }
 
     /// Clamped and driven nodes, friction at walls.

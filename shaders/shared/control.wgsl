@@ -24,7 +24,9 @@ struct Control {
     listed: u32,                // slots that are not INTERIOR
     frontier: u32,              // INTERIOR slots whose nodes listed vertices rest on
     runs: u32,                  // runs of slots that are awake [shared/runs.wgsl]
+    list_runs: u32,             // and of the list of the others
     sound: f32,                 // [m s^-1] largest speed of sound at the end of the step
+    reach: u32,                 // iterations that the solve may take while some sleep
     woken: u32,                 // 1 if the solve of this step, or the host, has woken all
     woken_before: u32,          // the same in the step before
     time: f32,                  // [s] at the start of the step

@@ -26,7 +26,9 @@ fn surface_groups() -> vec4u {
 
 // Opens the dispatches over slots that are awake in a phase that is open.
 fn open_awake(first: u32) {
-    extents[first + EXTENT_AWAKE] = groups_for(RUN_LANES * control.runs) * extents[first + EXTENT_SINGLE].x;
+    let keep = extents[first + EXTENT_SINGLE].x;
+    extents[first + EXTENT_AWAKE] = groups_for(RUN_LANES * control.runs) * keep;
+    extents[first + EXTENT_LIST_AWAKE] = groups_for(RUN_LANES * control.list_runs) * keep;
 }
 
 // Switches the dispatches of one phase on or off. Needs the binding control.

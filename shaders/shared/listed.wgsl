@@ -1,20 +1,46 @@
 // Two forms of one kernel. The plain form runs over the slots deep inside the gas (INTERIOR) that are awake, where every stencil is
-// the same; the LISTED form runs over the list of all that are not INTERIOR. So no thread waits for a neighbour's special case.
-// Needs the binding extra: places of the extra unknowns; one block that the list fills from its start, and the frontier, the
-// INTERIOR slots whose nodes listed vertices rest on, from its end; then the lengths of both; then the runs of slots.
+// the same; the LISTED form runs over all that are not INTERIOR, as far as they are awake. So no thread waits for a neighbour's
+// special case. Needs the binding extra: places of the extra unknowns; one block that the list of slots that are not INTERIOR fills from
+// its start, and the frontier, the INTERIOR slots whose nodes listed vertices rest on, from its end; then the lengths of both; then the
+// runs of slots, and of the list.
 #include "shared/runs.wgsl"
 
 override LISTED: bool;
 
-// Slot of a thread, or the number of slots if it has none.
-fn listed_slot(thread: u32) -> u32 {
-    if LISTED {
-        if thread < extra[2u * params.slots] { return extra[params.slots + thread]; }
-        return params.slots;
-    }
-    if thread / RUN_LANES >= runs_awake() { return params.slots; }
-    let own = run_slot(thread / RUN_LANES, thread);
+// Entries of the list, awake or not.
+fn list_length() -> u32 { return extra[2u * params.slots]; }
+
+// Slot of a thread, or the number of slots if it has none: of all slots or, LISTED, of all listed ones.
+fn every_slot(thread: u32) -> u32 {
+    if !LISTED { return min(thread, params.slots); }
+    if thread < list_length() { return extra[params.slots + thread]; }
+    return params.slots;
+}
+
+// Slot that a lane of a thread has in a run, of slots deep inside the gas or of the list; the number of slots if it has none.
+fn slot_in(run: u32, thread: u32) -> u32 {
+    if LISTED { return listed_in(run, thread); }
+    let own = run_slot(run, thread);
     return select(params.slots, own.slot, own.deep);
+}
+
+// Runs of an octet of threads, for reductions: the first, and the one after the last.
+fn listed_runs(thread: u32) -> vec2u {
+    if LISTED { return list_runs_of(thread); }
+    return runs_of(thread);
+}
+
+// Slot of a thread, for kernels with one slot per thread.
+fn listed_slot(thread: u32) -> u32 {
+    let count = select(runs_awake(), list_runs_awake(), LISTED);
+    if thread / RUN_LANES >= count { return params.slots; }
+    return slot_in(thread / RUN_LANES, thread);
+}
+
+// The same for kernels that have something to do in all listed slots: walls bear the pressure of gas that sleeps, too.
+fn busy_slot(thread: u32) -> u32 {
+    if LISTED { return every_slot(thread); }
+    return listed_slot(thread);
 }
 
 // The same for kernels whose results only listed slots read, so that the plain form visits the frontier alone.
@@ -22,10 +48,4 @@ fn frontier_slot(thread: u32) -> u32 {
     if LISTED || QUADRATIC { return listed_slot(thread); }
     if thread < extra[2u * params.slots + 1u] { return extra[2u * params.slots - 1u - thread]; }
     return params.slots;
-}
-
-// Threads that have a slot, or find that they have none.
-fn listed_count() -> u32 {
-    if LISTED { return extra[2u * params.slots]; }
-    return RUN_LANES * runs_awake();
 }

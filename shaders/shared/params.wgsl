@@ -56,7 +56,7 @@ struct Params {
     runs_at: u32,               // place of the runs of slots that are awake, in the buffer extra
     still_at: u32,              // place of the rows of blocks there
     table_at: u32,              // place of the table of cut cells there
-    unused: u32,
+    list_runs_at: u32,          // place of the runs of the list there
     scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
 }
 

@@ -121,6 +121,7 @@ pub struct Pcg {
     /// Group counts of an iteration: per slot, partial sums, single.
     extents: Buffer<u32>,
     begin: [Bound; 2],
+    reopen: Bound,
     alpha: Bound,
     update: Bound,
     beta: Bound,
@@ -274,6 +275,7 @@ impl Pcg {
         };
         Ok(Self {
             begin: [bound("pcg_begin")?, bound("pcg_begin_choose")?],
+            reopen: bound("pcg_reopen")?,
             alpha: bound("pcg_alpha")?,
             update: bound("pcg_update")?,
             beta: bound("pcg_beta")?,
@@ -307,6 +309,11 @@ impl Pcg {
         if let Some((table, first)) = levels.opened {
             levels.record_up(pass, table, first);
         }
+    }
+
+    /// Takes the lengths of the caller's lists anew, between two iterations.
+    pub fn reopen(&self, pass: &mut Pass) {
+        pass.dispatch(&self.reopen, &Extent::Groups([1, 1, 1]));
     }
 
     /// Records one iteration: nothing happens on the device once the solve is done.

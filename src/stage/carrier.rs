@@ -46,7 +46,7 @@ impl CarrierVelocity {
                 [Some(slots("carrier_average")?), Some(slots("carrier_divergence")?)]
             };
             let [first, second] = plain;
-            let listed = |entry: &str| Ok::<_, Error>((bind(entry, 1.0)?, Entry::Listed));
+            let listed = |entry: &str| Ok::<_, Error>((bind(entry, 1.0)?, Entry::ListAwake));
             let kernels = [first, Some(listed("carrier_average")?), second, Some(listed("carrier_divergence")?)];
             Ok(kernels.into_iter().flatten().collect())
         };

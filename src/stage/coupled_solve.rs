@@ -56,7 +56,7 @@ impl Vertices {
         let [residual, listed_residual] = parts.both("solve_setup.wgsl", "solve_residual", &[], &[])?;
         let [diagonal, listed_diagonal] = parts.both("solve_diagonal.wgsl", "solve_diagonal", &[], &[])?;
         let [operator, listed_operator] = parts.both("solve_operator.wgsl", "solve_operator", &direction, &[])?;
-        let listed = [(listed_residual, Entry::Listed), (listed_diagonal, Entry::Listed)];
+        let listed = [(listed_residual, Entry::ListAwake), (listed_diagonal, Entry::Listed)];
         if state.is_quadratic() {
             let setup = [(residual, Entry::Awake), (diagonal, Entry::Awake)].into_iter().chain(listed).collect();
             return Ok(Self { setup, operator: [operator, listed_operator], nodes: (Entry::Awake, Width::Slots) });
@@ -134,11 +134,11 @@ impl CoupledSolve {
         for kernel in &self.predictor {
             pass.dispatch(kernel, &extent(state, phase, Entry::Reduce));
         }
-        pass.dispatch(&self.open, &extent(state, phase, Entry::Listed));
+        pass.dispatch(&self.open, &extent(state, phase, Entry::ListAwake));
         record_both(pass, state, phase, &self.masses);
         for [plain, listed] in [&self.forces_of_pressure, &self.velocities] {
             pass.dispatch(plain, &extent(state, phase, self.vertices.nodes.0));
-            pass.dispatch(listed, &extent(state, phase, Entry::Listed));
+            pass.dispatch(listed, &extent(state, phase, Entry::ListAwake));
         }
         for (kernel, entry) in &self.vertices.setup {
             pass.dispatch(kernel, &extent(state, phase, *entry));
@@ -188,7 +188,7 @@ impl CoupledSolve {
     pub fn record_solution(&self, pass: &mut Pass, state: &State) {
         pass.dispatch(&self.add, &extent(state, "UPDATE", Entry::Reduce));
         if state.has_solids() {
-            pass.dispatch(&self.forces_of_pressure[1], &extent(state, "UPDATE", Entry::Listed));
+            pass.dispatch(&self.forces_of_pressure[1], &extent(state, "UPDATE", Entry::ListAwake));
         }
         for kernel in &self.gradient {
             pass.dispatch(kernel, &slots(state, "UPDATE"));

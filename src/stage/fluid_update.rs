@@ -1,6 +1,6 @@
 //! `fluid_update`: what does the solved pressure do to the gas? Local gradients, flux form. [Kwatra et al. 2009; eqs. 3, 14]
 
-use super::{Carried, CarrierVelocity, Parts, record_both};
+use super::{Carried, CarrierVelocity, Parts, record_both, record_busy};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
@@ -29,9 +29,9 @@ impl FluidUpdate {
     /// Momentum, energy, floor.
     pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity) {
         pass.stage("fluid_update");
-        record_both(pass, state, "UPDATE", &self.momentum);
+        record_busy(pass, state, "UPDATE", &self.momentum);
         carrier.record(pass, state, Carried::Solved, "UPDATE");
         record_both(pass, state, "UPDATE", &self.energy);
-        record_both(pass, state, "UPDATE", &self.floor);
+        record_busy(pass, state, "UPDATE", &self.floor);
     }
 }

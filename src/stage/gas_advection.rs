@@ -50,7 +50,7 @@ impl GasAdvection {
     pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: &str) {
         let kernels = &self.stages[stage];
         pass.dispatch(&kernels.interior, &extent(state, phase, Entry::Marched));
-        pass.dispatch(&kernels.listed, &extent(state, phase, Entry::Listed));
+        pass.dispatch(&kernels.listed, &extent(state, phase, Entry::ListAwake));
         if let Some(limited) = &kernels.limited {
             control.record_limiter(pass);
             pass.dispatch(limited, &slots(state, "LIMIT"));

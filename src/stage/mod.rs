@@ -91,10 +91,16 @@ impl Parts<'_> {
     }
 }
 
+/// Records both forms of a kernel that has something to do in all listed slots, awake or not.
+fn record_busy(pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
+    pass.dispatch(plain, &extent(state, phase, Entry::Awake));
+    pass.dispatch(listed, &extent(state, phase, Entry::Listed));
+}
+
 /// Records both forms of a kernel.
 fn record_both(pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
     pass.dispatch(plain, &extent(state, phase, Entry::Awake));
-    pass.dispatch(listed, &extent(state, phase, Entry::Listed));
+    pass.dispatch(listed, &extent(state, phase, Entry::ListAwake));
 }
 
 /// Group counts of a phase, which the device opens and closes.

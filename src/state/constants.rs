@@ -51,10 +51,10 @@ pub const SCAN_DISPATCHES: usize = 6;
 pub const STILL_BLOCK: u32 = 8;
 /// Slots of a run that a thread's neighbours take with it.
 pub const RUN_LANES: u32 = 8;
-/// Iterations that the solve may take while some slots sleep; a longer one wakes them.
-pub const SOLVE_REACH: u32 = 8;
+/// Iterations that the solve may take while some slots sleep; a longer one wakes them: after few in the step before, and after more.
+pub const REACHES: [u32; 2] = [4, 8];
 /// Entries of a phase in the table of extents.
-pub const PHASE_WIDTH: usize = 10 + SCAN_DISPATCHES;
+pub const PHASE_WIDTH: usize = 11 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
 pub const PHASES: [&str; 12] =
     ["BEGIN", "SORT", "LIMIT", "WAKE", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END", "ROUND", "ITERATION"];
@@ -83,8 +83,10 @@ pub enum Entry {
     Surface = 8,
     /// One thread per slot of the runs that are awake.
     Awake = 9,
+    /// One thread per slot of the runs of the list that are awake.
+    ListAwake = 10,
     /// First dispatch of a prefix sum.
-    Scan = 10,
+    Scan = 11,
 }
 
 /// Number of a rule on the device.
@@ -141,6 +143,7 @@ const COUNTED: [(&str, &[&str]); 5] = [
             "COLOR",
             "SURFACE",
             "AWAKE",
+            "LIST_AWAKE",
             "SCAN",
         ],
     ),
@@ -184,7 +187,8 @@ pub fn source() -> String {
         ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
         ("STILL_BLOCK", STILL_BLOCK),
         ("RUN_LANES", RUN_LANES),
-        ("SOLVE_REACH", SOLVE_REACH),
+        ("SHORT_REACH", REACHES[0]),
+        ("LONG_REACH", REACHES[1]),
         ("HISTORY_WIDTH", HISTORY_WIDTH),
         ("BLOCKS", BLOCKS),
         ("BLOCK_GIVEN", BLOCK_GIVEN),

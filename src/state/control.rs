@@ -52,8 +52,12 @@ pub struct Control {
     pub frontier: u32,
     /// Runs of slots that are awake.
     pub runs: u32,
+    /// Runs of the list of the other slots, as far as they are awake.
+    pub list_runs: u32,
     /// Largest speed of sound at the end of the step \[m s^-1\].
     pub sound: f32,
+    /// Iterations that the solve of this step may take while some sleep.
+    pub reach: u32,
     /// 1 if all slots are awake, because the solve of this step took many iterations or the host has changed the gas.
     pub woken: u32,
     /// The same in the step before.

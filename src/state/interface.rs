@@ -29,6 +29,8 @@ pub struct Interface {
 pub(super) struct Places {
     /// Runs of slots that are awake.
     pub runs: u32,
+    /// Runs of the list of slots that are not deep inside the gas.
+    pub list_runs: u32,
     /// Rows of the blocks of columns of marching kernels.
     pub still: u32,
     /// Behind both.
@@ -45,8 +47,10 @@ impl Places {
         let across = (slots / rows).div_ceil(STILL_BLOCK);
         let all = if dimension == 1 { slots.div_ceil(RUN_LANES) } else { rows * across };
         let runs = 2 * slots + 2;
-        let still = runs + RUN_LANES * PARTIALS + 1 + 2 * all;
-        Self { runs, still, end: still + across * rows.div_ceil(MARCH), all }
+        let octets = RUN_LANES * PARTIALS + 1;
+        let list_runs = runs + octets + 2 * all;
+        let still = list_runs + octets + slots.div_ceil(RUN_LANES);
+        Self { runs, list_runs, still, end: still + across * rows.div_ceil(MARCH), all }
     }
 
     /// Blocks of columns.

@@ -82,8 +82,8 @@ pub struct Params {
     pub still_at: u32,
     /// Place of the table of cut cells there.
     pub table_at: u32,
-    /// Fills the last 16 bytes.
-    pub unused: u32,
+    /// Place of the runs of the list there.
+    pub list_runs_at: u32,
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -183,11 +183,12 @@ impl Params {
             runs_at: 0,
             still_at: 0,
             table_at: 0,
-            unused: 0,
+            list_runs_at: 0,
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         let places = super::interface::Places::new(&params.stride, scene.domain.dimension);
-        (params.runs_at, params.still_at, params.table_at) = (places.runs, places.still, places.end);
+        (params.runs_at, params.list_runs_at) = (places.runs, places.list_runs);
+        (params.still_at, params.table_at) = (places.still, places.end);
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
             *entry = [x, y, z, 0];
         }

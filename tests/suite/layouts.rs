@@ -73,7 +73,7 @@ fn params() {
             runs_at,
             still_at,
             table_at,
-            unused,
+            list_runs_at,
             scan,
         ]
     );
@@ -109,7 +109,9 @@ fn control() {
             listed,
             frontier,
             runs,
+            list_runs,
             sound,
+            reach,
             woken,
             woken_before,
             time,
