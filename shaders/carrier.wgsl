@@ -86,7 +86,7 @@ fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if kind_of(word) != GAS { return; }
+    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
     if stays(slot) {
         node[slot] = vec4f(0.0);
         return;
@@ -142,7 +142,8 @@ fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(num_workgrou
                       @builtin(local_invocation_index) lane: u32) {
     let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
-    if kind_of(cells[slot]) != GAS || stays(slot) { return; }
+    let word = cells[slot];
+    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) || stays(slot) { return; }
     var sum = 0.0;
     if LISTED {
         let c = cell_of(slot);

@@ -69,6 +69,7 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
                @builtin(local_invocation_index) lane: u32) {
     let slot = busy_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
+    if !LISTED && !has(cells[slot], INTERIOR) { return; }
     let kind = kind_of(cells[slot]);
     // Between two solves of a step the second still builds upon what the first collected.
     if (kind == GHOST || kind == WALL) && !(ARS && control.stage == 0u) { keep_crossed(slot); }

@@ -17,7 +17,7 @@ fn solve_add(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) group
              @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, groups, lane);
     let runs = runs_of(thread);
-    for (var run = runs.x; run < runs.y; run++) {
+    for (var run = runs.first; run < runs.end; run += runs.step) {
         let own = run_slot(run, thread);
         if own.any { add(own.slot); }
     }

@@ -3,6 +3,7 @@
 //   (C^T M^-1 C x)_v = 1 / (M 4^(DIM-1)) sum over u of (axes on which u and v lie on the same side - axes on which not) x_u.
 // Reads x, inverse node masses, stiffness, diagonal. Writes right-hand side or product.
 #include "shared/index.wgsl"
+#include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/runs.wgsl"
 #include "shared/control.wgsl"
@@ -10,7 +11,7 @@
 #include "shared/interior_mass.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
-@group(0) @binding(2) var<storage, read> extra: array<u32>;
+@group(0) @binding(2) var<storage, read> extra: array<u32>;     // the runs of slots; without SLEEPS the buffer cells
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(4) var<storage, read> energy: array<f32>;
 @group(0) @binding(5) var<storage, read> x: array<f32>;
@@ -60,13 +61,19 @@ fn divergence(at: u32) -> f32 {
     return sum / f32(1u << (DIM - 1u));
 }
 
+fn deep_slot(run: u32, thread: u32) -> RunSlot {
+    var own = run_slot(run, thread);
+    if !SLEEPS && own.any { own.deep = has(extra[own.slot], INTERIOR); }
+    return own;
+}
+
 // Right-hand side dt C^T (V* - dt M^-1 C X*).
 @compute @workgroup_size(WORKGROUP)
 fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, groups, lane);
-    if thread / RUN_LANES >= runs_awake() { return; }
-    let own = run_slot(thread / RUN_LANES, thread);
+    if SLEEPS && thread / RUN_LANES >= extra[params.runs_at + octets()] { return; }
+    let own = deep_slot(thread / RUN_LANES, thread);
     if !own.deep { return; }
     let scale = control.dt * face_area();
     y[own.slot] = scale * (divergence(own.slot) - scale * operator_at(own.slot, x[own.slot]));
@@ -82,8 +89,8 @@ fn interior_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroup
     let runs = runs_of(thread);
     var product = 0.0;
     var image = 0.0;
-    for (var run = runs.x; run < runs.y; run++) {
-        let own = run_slot(run, thread);
+    for (var run = runs.first; run < runs.end; run += runs.step) {
+        let own = deep_slot(run, thread);
         if !own.any { continue; }
         let slot = own.slot;
         if !own.deep {

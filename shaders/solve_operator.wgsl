@@ -25,10 +25,11 @@ fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     var product = 0.0;
     let thread = thread_index(group, groups, lane);
     let runs = listed_runs(thread);
-    for (var run = runs.x; run < runs.y; run++) {
+    for (var run = runs.first; run < runs.end; run += runs.step) {
         let slot = slot_in(run, thread);
         if slot >= params.slots { continue; }
         let word = cells[slot];
+        if !LISTED && !has(word, INTERIOR) { continue; }
         let rows = gather_rows(slot, word);
         let own = stiffness[slot] * x[slot] + scale * rows.own;
         y[slot] = own;

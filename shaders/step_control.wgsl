@@ -5,6 +5,8 @@
 #include "shared/extents.wgsl"
 #include "shared/pcg_result.wgsl"
 
+override FILTER_COURANT: f32;   // cells that sound crosses at least in a step with the filter of odd_even.wgsl
+
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read_write> pcg: PcgResult;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
@@ -59,7 +61,7 @@ fn control_solved() {
 @compute @workgroup_size(1)
 fn control_awake() {
     open_awake(PHASE_BEGIN_EXTENTS);
-    let listed = groups_for(RUN_LANES * control.list_runs);
+    let listed = groups_for(select(control.listed, RUN_LANES * control.list_runs, SLEEPS));
     pcg.listed_wide = listed.x;
     pcg.listed_high = listed.y;
 }
@@ -99,6 +101,7 @@ fn control_substep() {
 fn control_finish() {
     let done = control.phase == PHASE_SUBSTEP && control.substep == control.substeps && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_END_EXTENTS, done);
+    open_phase(PHASE_FILTER_EXTENTS, done && control.sound * control.duration >= FILTER_COURANT * params.spacing);
     if !done { return; }
     control.phase = PHASE_IDLE;
     control.step += 1u;

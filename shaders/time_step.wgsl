@@ -79,8 +79,7 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let total = groups.x * groups.y * WORKGROUP;
     // The runs are of the step before: what slept in it stands still, and control.sound knows how fast sound is there.
     let all = control.woken == 1u;
-    let awake = RUN_LANES * select(runs_awake(), list_runs_awake(), LISTED);
-    let end = select(awake, select(params.slots, list_length(), LISTED), all);
+    let end = select(awake_threads(), select(params.slots, list_length(), LISTED), all);
     var bound = vec2f(0.0);
     for (var k = thread_index(group, groups, lane); k < end; k += total) {
         var slot = 0u;

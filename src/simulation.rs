@@ -74,7 +74,7 @@ impl Simulation {
         };
         let coupled_solve = CoupledSolve::new(parts, scene)?;
         let simulation = Simulation {
-            time_step: TimeStep::new(parts, coupled_solve.pcg.control.raw())?,
+            time_step: TimeStep::new(parts, scene, coupled_solve.pcg.control.raw())?,
             particle_sort: solids.then(|| ParticleSort::new(parts)).transpose()?,
             p2g: solids.then(|| P2g::new(parts, transfer)).transpose()?,
             supports: scene.has_supports().then(|| Supports::new(parts)).transpose()?,
@@ -89,7 +89,7 @@ impl Simulation {
             fluid_update: FluidUpdate::new(parts)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
             g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
-            odd_even: (scene.numerics.filter > 0.0).then(|| OddEven::new(parts, scene.numerics.filter)).transpose()?,
+            odd_even: scene.filter().map(|filter| OddEven::new(parts, filter.share)).transpose()?,
             totals: Totals::new(parts)?,
             detonate: None,
             gamma: scene.gas.gamma,

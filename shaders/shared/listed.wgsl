@@ -1,8 +1,7 @@
-// Two forms of one kernel. The plain form runs over the slots deep inside the gas (INTERIOR) that are awake, where every stencil is
-// the same; the LISTED form runs over all that are not INTERIOR, as far as they are awake. So no thread waits for a neighbour's
-// special case. Needs the binding extra: places of the extra unknowns; one block that the list of slots that are not INTERIOR fills from
-// its start, and the frontier, the INTERIOR slots whose nodes listed vertices rest on, from its end; then the lengths of both; then the
-// runs of slots, and of the list.
+// Two forms of one kernel. The plain form runs over the slots that are awake and acts on those deep inside the gas (INTERIOR), where every
+// stencil is the same; the LISTED form runs over the list of all others, as far as they are awake. So no thread waits for a neighbour's
+// special case. Needs the binding extra: places of the extra unknowns; one block that the list fills from its start, and the frontier, the
+// INTERIOR slots whose nodes listed vertices rest on, from its end; then the lengths of both; then the runs of slots, and of the list.
 #include "shared/runs.wgsl"
 
 override LISTED: bool;
@@ -17,6 +16,14 @@ fn every_slot(thread: u32) -> u32 {
     return params.slots;
 }
 
+fn listed_in(run: u32, thread: u32) -> u32 {
+    let lane = thread % RUN_LANES;
+    if !SLEEPS { return every_slot(RUN_LANES * run + lane); }
+    let word = extra[params.list_runs_at + octets() + 1u + run];
+    if ((word >> lane) & 1u) == 0u { return params.slots; }
+    return extra[params.slots + (word >> 8u) * RUN_LANES + lane];
+}
+
 // Slot that a lane of a thread has in a run, of slots deep inside the gas or of the list; the number of slots if it has none.
 fn slot_in(run: u32, thread: u32) -> u32 {
     if LISTED { return listed_in(run, thread); }
@@ -24,16 +31,23 @@ fn slot_in(run: u32, thread: u32) -> u32 {
     return select(params.slots, own.slot, own.deep);
 }
 
-// Runs of an octet of threads, for reductions: the first, and the one after the last.
-fn listed_runs(thread: u32) -> vec2u {
-    if LISTED { return list_runs_of(thread); }
+// Runs of an octet of threads, for reductions.
+fn listed_runs(thread: u32) -> Runs {
+    if LISTED { return octet_runs(params.list_runs_at, thread, list_length()); }
     return runs_of(thread);
+}
+
+// Threads that have a slot, or find that they have none.
+fn awake_threads() -> u32 {
+    if SLEEPS { return RUN_LANES * extra[select(params.runs_at, params.list_runs_at, LISTED) + octets()]; }
+    if LISTED { return list_length(); }
+    return params.slots;
 }
 
 // Slot of a thread, for kernels with one slot per thread.
 fn listed_slot(thread: u32) -> u32 {
-    let count = select(runs_awake(), list_runs_awake(), LISTED);
-    if thread / RUN_LANES >= count { return params.slots; }
+    if !SLEEPS { return every_slot(thread); }
+    if thread >= awake_threads() { return params.slots; }
     return slot_in(thread / RUN_LANES, thread);
 }
 

@@ -35,7 +35,7 @@ pub struct PcgVectors {
     pub residual: Buffer<f32>,
     /// Search direction: what the operator is applied to.
     pub direction: Buffer<f32>,
-    /// Operator times direction; without [`Runs`] before the first iteration the vector whose norm the tolerance refers to.
+    /// Operator times direction; before the first iteration the vector whose norm the tolerance refers to, unless the caller sums that up.
     pub product: Buffer<f32>,
     /// Inverse of the diagonal; 0 for unknowns that are not used.
     pub inverse_diagonal: Buffer<f32>,
@@ -107,7 +107,7 @@ pub struct PcgControl {
     pub runs: u32,
     /// [`Runs::apart`], 0 without runs.
     pub apart: u32,
-    /// [`Runs::reference_at`], 0 where the first kernel makes the sums.
+    /// [`Layout::reference_at`].
     pub reference_at: u32,
     /// Groups, at most as many as leave partial sums, of the kernels of each of [`Levels`], the finest first; 0 without.
     pub level_groups: [u32; LEVELS],
@@ -149,9 +149,6 @@ pub struct Runs<'a> {
     pub at: u32,
     /// Unknowns from here on are in no run and take part always.
     pub apart: u32,
-    /// Place above 0 in the partial sums where the caller leaves, in the second component, those of the squared norm that the
-    /// tolerance refers to.
-    pub reference_at: u32,
 }
 
 /// How the kernels share the unknowns out.
@@ -163,6 +160,9 @@ pub struct Layout<'a> {
     pub groups: u32,
     /// What the operator leaves.
     pub dots: Dots,
+    /// Place above 0 in the partial sums where the caller leaves, in the second component, those of the squared norm that the
+    /// tolerance refers to; with 0 the first kernel makes them from [`PcgVectors::product`].
+    pub reference_at: u32,
     /// The runs that take part, if not all do.
     pub runs: Option<Runs<'a>>,
 }
@@ -251,7 +251,7 @@ impl Pcg {
             joined: u32::from(dots == Dots::Both),
             runs: layout.runs.map_or(0, |runs| runs.at),
             apart: layout.runs.map_or(0, |runs| runs.apart),
-            reference_at: layout.runs.map_or(0, |runs| runs.reference_at),
+            reference_at: layout.reference_at,
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);

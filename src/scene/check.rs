@@ -260,8 +260,8 @@ impl Check<'_> {
                 "give a number above 0 and below 1; single precision reaches about 1e-6",
             );
         }
-        if !(0.0..=1.0).contains(&numerics.filter) {
-            self.add("numerics.filter", format!("{} is out of range", numerics.filter), "give a number from 0 to 1");
+        if let Some(share) = numerics.filter.filter(|share| !(0.0..=1.0).contains(share)) {
+            self.add("numerics.filter", format!("{share} is out of range"), "give a number from 0 to 1");
         }
         self.count("numerics.max_iterations", numerics.max_iterations, 1, 100_000);
         self.fraction("numerics.solid_threshold", numerics.solid_threshold, 1.0);

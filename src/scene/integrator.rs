@@ -39,6 +39,18 @@ impl Integrator {
     pub const ARS_CFL: f64 = 0.5;
 }
 
+/// Cells that sound crosses in a step that is filtered without being asked.
+const LONG_STEP: f64 = 10.0;
+
+/// A conservative filter after the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OddEvenFilter {
+    /// Share of the alternating mode that a step removes.
+    pub share: f64,
+    /// Cells that sound crosses at least in a step that is filtered.
+    pub least_courant: f64,
+}
+
 impl Scene {
     /// The integrator of this scene, never [`Integrator::Auto`]: the choice holds for the whole run, because a change from step
     /// to step is unstable.
@@ -60,6 +72,17 @@ impl Scene {
             FaceVelocity::Cell => false,
             FaceVelocity::Consistent => true,
             FaceVelocity::Auto => self.bodies.is_empty() && self.numerics.pair == Pair::B1b0,
+        }
+    }
+
+    /// The filter of the mode that alternates from cell to cell, if some step may want it. Long steps do: their first carries gas with
+    /// velocities that no solve has seen, and what alternates of the noise stays, for no pressure at a vertex sees it.
+    #[must_use]
+    pub fn filter(&self) -> Option<OddEvenFilter> {
+        let long = self.time.fixed_step.is_some() || self.time.max_courant >= LONG_STEP;
+        match self.numerics.filter {
+            Some(share) => (share > 0.0).then_some(OddEvenFilter { share, least_courant: 0.0 }),
+            None => (long && self.bodies.is_empty()).then_some(OddEvenFilter { share: 0.2, least_courant: LONG_STEP }),
         }
     }
 

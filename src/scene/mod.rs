@@ -60,7 +60,7 @@ pub use check_boundary::MAX_OPENINGS;
 pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
-pub use integrator::{FaceVelocity, Integrator};
+pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
 pub use mesh::Mesh;
 pub use named::Named;
 pub use polyhedron::Part;

@@ -61,8 +61,10 @@ pub struct Numerics {
     pub face_velocity: FaceVelocity,
     /// How the grid sees static obstacles.
     pub obstacles: Obstacles,
-    /// Share of the mode alternating from cell to cell that a conservative filter removes per step, 0 to 1.
-    pub filter: f64,
+    /// Share of the mode alternating from cell to cell that a conservative filter removes per step, 0 to 1. Left out, a fifth in steps in
+    /// which sound crosses ten cells or more, else nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub filter: Option<f64>,
     /// Pressure unknowns where gas and solid meet.
     pub interface: InterfacePressure,
     /// A cell is solid when bodies fill more than this fraction of it, above 0 and at most 1.
@@ -105,7 +107,7 @@ impl Default for Numerics {
             integrator: Integrator::default(),
             face_velocity: FaceVelocity::default(),
             obstacles: Obstacles::default(),
-            filter: 0.0,
+            filter: None,
             interface: InterfacePressure::default(),
             solid_threshold: 0.5,
             film: Film::default(),

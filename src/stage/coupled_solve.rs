@@ -62,7 +62,9 @@ impl Vertices {
             return Ok(Self { setup, operator: [operator, listed_operator], nodes: (Entry::Awake, Width::Slots) });
         }
         let interior = |entry: &str, vectors: &[(&str, &wgpu::Buffer)]| {
-            state.bind(parts.gpu, "solve_interior.wgsl", entry, vectors, &[])
+            let marks = if state.sleeps() { &state.interface.extra } else { &state.interface.cells };
+            let named = [vectors, &[("extra", marks.raw())]].concat();
+            state.bind(parts.gpu, "solve_interior.wgsl", entry, &named, &[])
         };
         let right = [("x", state.pressure.raw()), ("y", state.pcg.residual.raw())];
         let setup = [(interior("interior_setup", &right)?, Entry::Awake)].into_iter().chain(listed).collect();
@@ -81,14 +83,14 @@ impl CoupledSolve {
         let limits = (state.params.tolerance, state.params.max_iterations);
         // Interface pressures have a preconditioner of their own, and the B2B1 operator has no room for another buffer.
         let dots = if state.has_solids() || state.is_quadratic() { Dots::Product } else { Dots::Both };
-        let runs = Runs {
-            words: &state.interface.extra,
-            at: state.params.runs_at,
-            apart: state.params.slots,
+        let runs = Runs { words: &state.interface.extra, at: state.params.runs_at, apart: state.params.slots };
+        let layout = Layout {
+            threads: if state.sleeps() { state.interface.run_threads } else { state.grid.slots() },
+            groups: state.params.groups,
+            dots,
             reference_at: PARTIALS,
+            runs: state.sleeps().then_some(runs),
         };
-        let layout =
-            Layout { threads: state.interface.run_threads, groups: state.params.groups, dots, runs: Some(runs) };
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, limits, &layout)?;
         let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
         let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);

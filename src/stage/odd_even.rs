@@ -22,11 +22,11 @@ impl OddEven {
         Ok(Self { kernels: [bind("odd_even_find")?, bind("odd_even_remove")?] })
     }
 
-    /// Removes its share of the mode, if a step has just ended.
+    /// Removes its share of the mode, if a step has just ended that wants it.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage("odd_even");
         for kernel in &self.kernels {
-            pass.dispatch(kernel, &slots(state, "END"));
+            pass.dispatch(kernel, &slots(state, "FILTER"));
         }
     }
 }

@@ -12,8 +12,8 @@ use crate::state::constants::Entry;
 pub struct Still {
     mark: [Bound; 3],
     wake: Bound,
-    /// The list of what is awake.
-    list: [(Bound, Entry); 3],
+    /// The lists of what is awake, where something may sleep.
+    list: Vec<(Bound, Entry)>,
 }
 
 impl Still {
@@ -26,11 +26,15 @@ impl Still {
         Ok(Self {
             mark: [bind("still_find")?, bind("still_along")?, bind("still_spread")?],
             wake: bind("still_wake")?,
-            list: [
-                (bind("still_count")?, Entry::Reduce),
-                (bind("still_places")?, Entry::Single),
-                (bind("still_list")?, Entry::Reduce),
-            ],
+            list: if parts.state.sleeps() {
+                vec![
+                    (bind("still_count")?, Entry::Reduce),
+                    (bind("still_places")?, Entry::Single),
+                    (bind("still_list")?, Entry::Reduce),
+                ]
+            } else {
+                Vec::new()
+            },
         })
     }
 

@@ -3,6 +3,7 @@
 use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
+use crate::scene::Scene;
 use crate::state::State;
 use crate::state::constants::Entry;
 
@@ -29,11 +30,12 @@ impl TimeStep {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, pcg: &wgpu::Buffer) -> Result<Self> {
+    pub fn new(parts: Parts<'_>, scene: &Scene, pcg: &wgpu::Buffer) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let maxima = [("maxima", state.partials.raw())];
         let time = |entry: &str| state.bind(gpu, "time_step.wgsl", entry, &maxima, &[("LISTED", 0.0)]);
-        let control = |entry: &str| state.bind(gpu, "step_control.wgsl", entry, &[("pcg", pcg)], &[]);
+        let filtered = [("FILTER_COURANT", scene.filter().map_or(f64::from(f32::MAX), |filter| filter.least_courant))];
+        let control = |entry: &str| state.bind(gpu, "step_control.wgsl", entry, &[("pcg", pcg)], &filtered);
         Ok(Self {
             gas: parts.both("time_step.wgsl", "time_step_gas", &maxima, &[])?,
             particles: time("time_step_particles")?,

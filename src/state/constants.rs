@@ -56,8 +56,21 @@ pub const REACHES: [u32; 2] = [4, 8];
 /// Entries of a phase in the table of extents.
 pub const PHASE_WIDTH: usize = 11 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
-pub const PHASES: [&str; 12] =
-    ["BEGIN", "SORT", "LIMIT", "WAKE", "UPDATE", "SECOND", "SUBSTEP", "AGAIN", "FIRST", "END", "ROUND", "ITERATION"];
+pub const PHASES: [&str; 13] = [
+    "BEGIN",
+    "SORT",
+    "LIMIT",
+    "WAKE",
+    "UPDATE",
+    "SECOND",
+    "SUBSTEP",
+    "AGAIN",
+    "FIRST",
+    "END",
+    "FILTER",
+    "ROUND",
+    "ITERATION",
+];
 
 /// Entries of a phase in the table of extents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

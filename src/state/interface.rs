@@ -3,7 +3,7 @@
 use super::constants::{PARTIALS, RUN_LANES, STILL_BLOCK};
 use super::params::MARCH;
 use crate::error::Result;
-use crate::gpu::{Buffer, Gpu};
+use crate::gpu::{Buffer, Gpu, WORKGROUP};
 
 /// Marks of cells and vertices, in padded slots.
 #[derive(Debug)]
@@ -19,6 +19,7 @@ pub struct Interface {
     /// holds the places of cut cells, and their table stands at the end. In between [`Places`].
     pub extra: Buffer<u32>,
     /// Rows of blocks of columns of marching kernels in which something moves, now and in the step before; then scratch of as many words.
+    /// Where nothing sleeps another buffer serves.
     pub busy: Buffer<u32>,
     /// Threads that take the slots of all runs.
     pub run_threads: usize,
@@ -28,34 +29,35 @@ pub struct Interface {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Places {
     /// Runs of slots that are awake.
-    pub runs: u32,
+    pub runs: u64,
     /// Runs of the list of slots that are not deep inside the gas.
-    pub list_runs: u32,
+    pub list_runs: u64,
     /// Rows of the blocks of columns of marching kernels.
-    pub still: u32,
+    pub still: u64,
     /// Behind both.
-    pub end: u32,
+    pub end: u64,
     /// Runs of the whole grid.
-    pub all: u32,
+    pub all: u64,
+    /// Words of [`Interface::busy`].
+    pub busy: u64,
 }
 
 impl Places {
     /// For cells with the ring, on any device: for as many groups that leave partial results as there may be, and the shortest marches.
-    pub(super) fn new(stride: &[u32; 3], dimension: u32) -> Self {
-        let slots: u32 = stride.iter().product();
+    /// Where nothing sleeps there are no lists of runs.
+    pub(super) fn new(stride: [u64; 3], dimension: u32, sleeps: bool) -> Self {
+        let (block, lanes) = (u64::from(STILL_BLOCK), u64::from(RUN_LANES));
+        let slots: u64 = stride.iter().product();
+        let groups = slots.div_ceil(u64::from(WORKGROUP)).clamp(1, u64::from(PARTIALS));
         let rows = stride[dimension as usize - 1];
-        let across = (slots / rows).div_ceil(STILL_BLOCK);
-        let all = if dimension == 1 { slots.div_ceil(RUN_LANES) } else { rows * across };
+        let across = (slots / rows).div_ceil(block);
+        let all = if dimension == 1 { slots.div_ceil(lanes) } else { rows * across };
+        let (octets, kept) = (lanes * groups + 1, u64::from(sleeps));
         let runs = 2 * slots + 2;
-        let octets = RUN_LANES * PARTIALS + 1;
-        let list_runs = runs + octets + 2 * all;
-        let still = list_runs + octets + slots.div_ceil(RUN_LANES);
-        Self { runs, list_runs, still, end: still + across * rows.div_ceil(MARCH), all }
-    }
-
-    /// Blocks of columns.
-    pub(super) fn blocks(&self) -> usize {
-        (self.end - self.still) as usize
+        let list_runs = runs + kept * (octets + 2 * all);
+        let still = list_runs + kept * (octets + slots.div_ceil(lanes));
+        let busy = if sleeps { 2 * across * rows.div_ceil(u64::from(MARCH)) } else { 0 };
+        Self { runs, list_runs, still, end: still + across * rows.div_ceil(u64::from(MARCH)), all, busy }
     }
 }
 
@@ -67,15 +69,15 @@ impl Interface {
     /// If the device has no room.
     pub(super) fn new(gpu: &Gpu, slots: usize, solids: bool, table: usize, places: &Places) -> Result<Self> {
         let solid_slots = if solids { slots } else { 1 };
-        let busy = Buffer::new(gpu, "busy", 2 * places.blocks())?;
-        busy.write(gpu, 0, &vec![u32::MAX; places.blocks()]); // all, before the first step
+        let busy = Buffer::new(gpu, "busy", places.busy as usize)?;
+        busy.write(gpu, 0, &vec![u32::MAX; places.busy as usize]); // all, before the first step
         Ok(Self {
             cells: Buffer::new(gpu, "cells", slots)?,
             fill: Buffer::new(gpu, "fill", slots)?,
             ghost: Buffer::new(gpu, "ghost", solid_slots)?,
             extra: Buffer::new(gpu, "extra", places.end as usize + table)?,
             busy,
-            run_threads: (RUN_LANES * places.all) as usize,
+            run_threads: RUN_LANES as usize * places.all as usize,
         })
     }
 }

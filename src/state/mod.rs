@@ -121,7 +121,11 @@ impl State {
         overrides.push(("DRIVEN", f64::from(u8::from(supports.driven))));
         overrides.push(("FRICTION", f64::from(u8::from(supports.friction))));
         overrides.push(("CUT", f64::from(u8::from(!table.is_empty()))));
-        let places = interface::Places::new(&params.stride, domain.dimension);
+        let places = interface::Places::new(
+            params.stride.map(u64::from),
+            domain.dimension,
+            params.still == params::STILL_ASLEEP,
+        );
         let state = State {
             grid,
             params,
@@ -199,6 +203,12 @@ impl State {
         self.particles.count > 0
     }
 
+    /// Whether gas that nothing reaches may be left out of whole steps.
+    #[must_use]
+    pub fn sleeps(&self) -> bool {
+        self.overrides.contains(&("SLEEPS", 1.0))
+    }
+
     /// Whether the gas element pair is B2B1.
     #[must_use]
     pub fn is_quadratic(&self) -> bool {
@@ -268,7 +278,7 @@ impl State {
             ("fill", self.interface.fill.raw()),
             ("ghost", self.interface.ghost.raw()),
             ("extra", self.interface.extra.raw()),
-            ("busy", self.interface.busy.raw()),
+            ("busy", if self.sleeps() { self.interface.busy.raw() } else { self.pcg.product.raw() }),
             ("position", self.particles.position.raw()),
             ("velocity", self.particles.velocity.raw()),
             ("affine", self.particles.affine.raw()),

@@ -179,16 +179,20 @@ impl Params {
             blending: u32::from(numerics.blending),
             least_entropy: 0.0,
             surface_rows: surface::rows(grid.slots(), limits.extra_capacity as usize) as u32,
-            still: if sleeps(scene, solids.particles) { STILL_ASLEEP } else { STILL_ADVECTION },
+            still: if sleeps(scene, solids.particles > 0) { STILL_ASLEEP } else { STILL_ADVECTION },
             runs_at: 0,
             still_at: 0,
             table_at: 0,
             list_runs_at: 0,
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
-        let places = super::interface::Places::new(&params.stride, scene.domain.dimension);
-        (params.runs_at, params.list_runs_at) = (places.runs, places.list_runs);
-        (params.still_at, params.table_at) = (places.still, places.end);
+        let places = super::interface::Places::new(
+            params.stride.map(u64::from),
+            scene.domain.dimension,
+            params.still == STILL_ASLEEP,
+        );
+        (params.runs_at, params.list_runs_at) = (places.runs as u32, places.list_runs as u32);
+        (params.still_at, params.table_at) = (places.still as u32, places.end as u32);
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
             *entry = [x, y, z, 0];
         }
@@ -220,6 +224,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
         ("MIRRORED", f64::from(if solids || numerics.pair == Pair::B2b1 { 0 } else { whole_walls(scene) })),
+        ("SLEEPS", flag(sleeps(scene, solids))),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
             "INTERFACE",
@@ -234,11 +239,11 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
 
 /// Whether gas that nothing reaches in a whole step may be left out: where one solve, without coarse levels, is all that acts at a
 /// distance, and nothing acts on gas at rest.
-fn sleeps(scene: &Scene, particles: u32) -> bool {
+pub(super) fn sleeps(scene: &Scene, solids: bool) -> bool {
     let numerics = &scene.numerics;
-    let alone = particles == 0 && scene.obstacles.is_empty() && scene.gravity == [0.0; 3];
+    let alone = !solids && scene.obstacles.is_empty() && scene.gravity == [0.0; 3];
     let short = numerics.pair == Pair::B1b0 && scene.solves() == 1 && super::coarse::plan(scene).is_none();
-    alone && short && numerics.filter == 0.0
+    alone && short && scene.filter().is_none()
 }
 
 /// Sides that are walls and nothing else, as bits.

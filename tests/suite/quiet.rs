@@ -100,6 +100,9 @@ fn rest_noise_does_not_grow_by_default() {
         (2, 32, 0.5, 150, ""),
         (2, 32, 5.0, 100, ""),
         (3, 12, 2.0, 60, ""),
+        (2, 32, 20.0, 100, ""),
+        (3, 12, 20.0, 60, ""),
+        (3, 12, 20.0, 60, two),
         (1, 128, 20.0, 100, two),
         (2, 32, 5.0, 100, two),
         (3, 12, 5.0, 60, two),
@@ -108,6 +111,11 @@ fn rest_noise_does_not_grow_by_default() {
         print(&format!("{dimension}D {cells} {}", numerics.trim()), s, found);
         assert!(found[0] < 2e-3, "{dimension}D, {numerics} s = {s}: {found:?}");
     }
+    let [with, without] = ["", "filter = 0.0\n"].map(|filter| noise(&gpu, 3, 12, 20.0, 60, filter));
+    print("without the filter, 3D 12", 20.0, without);
+    assert!(with[0] < 0.7 * without[0], "long steps do not need the filter: {with:?} {without:?}");
+    let short = ["", "filter = 0.0\n"].map(|filter| noise(&gpu, 2, 16, 5.0, 10, filter));
+    assert_eq!(short[0], short[1], "shorter steps are filtered");
     let cell = noise(&gpu, 2, 32, 5.0, 100, "face_velocity = \"cell\"\n");
     print("cell, 2D 32", 5.0, cell);
     assert!(cell[0] > 1e-2, "the velocity of the cells is quiet too, then the carrier is not needed: {cell:?}");
