@@ -15,7 +15,9 @@
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(4) var<storage, read> energy: array<f32>;
-@group(0) @binding(6) var<storage, read_write> busy: array<u32>;    // rows in which something moves, as bits: now, and from bit 16 on in the step before
+// Rows in which something moves, as bits: now, and from bit 16 on in the step before. Without SLEEPS, that is without the latter, in a
+// vector of the solve: no word may be a NaN there.
+@group(0) @binding(6) var<storage, read_write> busy: array<u32>;
 @group(0) @binding(8) var<storage, read_write> extra: array<u32>;
 
 // Slots that motion gets on until the solve: three per stage of the advection (a face has three cells on each side, its carrier reaches
@@ -54,7 +56,7 @@ fn still_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
                 if slot < params.slots && !rests(slot) { rows |= 1u << k; }
             }
         }
-        busy[block] = (busy[block] << 16u) | rows;
+        busy[block] = select(0u, busy[block] << 16u, SLEEPS) | rows;
     }
 }
 
@@ -98,7 +100,7 @@ fn still_along(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         var awake = 0xffffu;
         if params.still != STILL_NONE { moving = rows_along(block, ADVECTION_SPAN, false); }
         if params.still == STILL_ASLEEP && control.woken_before == 0u { awake = rows_along(block, step_span(), true); }
-        busy[blocks() + block] = moving | (awake << 16u);
+        busy[blocks() + block] = moving | select(0u, awake << 16u, SLEEPS);
     }
 }
 
@@ -123,7 +125,7 @@ fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
         var rows = busy[blocks() + block];
         if DIM == 3u { rows = (rows_across(block, ADVECTION_SPAN) & 0xffffu) | (rows_across(block, step_span()) & 0xffff0000u); }
-        extra[params.still_at + block] = rows;
+        extra[params.still_at + block] = select(rows | 0xffff0000u, rows, SLEEPS);
     }
 }
 
