@@ -1,7 +1,7 @@
 //! Where gas and solid meet, and the unknowns of the pressure system.
 
 use super::constants::{PARTIALS, RUN_LANES, STILL_BLOCK};
-use super::params::MARCH;
+use super::params::{MARCH, Params, STILL_ASLEEP};
 use crate::error::Result;
 use crate::gpu::{Buffer, Gpu, WORKGROUP};
 
@@ -62,12 +62,13 @@ impl Places {
 }
 
 impl Interface {
-    /// Allocates for a number of slots; without solids only what the gas needs. `table`: words of the table of
-    /// cut cells.
+    /// Allocates; without solids only what the gas needs. `table`: words of the table of cut cells.
     ///
     /// # Errors
     /// If the device has no room.
-    pub(super) fn new(gpu: &Gpu, slots: usize, solids: bool, table: usize, places: &Places) -> Result<Self> {
+    pub(super) fn new(gpu: &Gpu, params: &Params, dimension: u32, solids: bool, table: usize) -> Result<Self> {
+        let places = Places::new(params.stride.map(u64::from), dimension, params.still == STILL_ASLEEP);
+        let slots = params.slots as usize;
         let solid_slots = if solids { slots } else { 1 };
         let busy = Buffer::new(gpu, "busy", places.busy as usize)?;
         busy.write(gpu, 0, &vec![u32::MAX; places.busy as usize]); // all, before the first step

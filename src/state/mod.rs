@@ -121,11 +121,6 @@ impl State {
         overrides.push(("DRIVEN", f64::from(u8::from(supports.driven))));
         overrides.push(("FRICTION", f64::from(u8::from(supports.friction))));
         overrides.push(("CUT", f64::from(u8::from(!table.is_empty()))));
-        let places = interface::Places::new(
-            params.stride.map(u64::from),
-            domain.dimension,
-            params.still == params::STILL_ASLEEP,
-        );
         let state = State {
             grid,
             params,
@@ -138,7 +133,7 @@ impl State {
             motions: Buffer::from_slice(gpu, "motions", &supports.motions)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
             gas: GasState::new(gpu, scene, &grid, start.len())?,
-            interface: Interface::new(gpu, slots, !start.is_empty(), table.len(), &places)?,
+            interface: Interface::new(gpu, &params, domain.dimension, !start.is_empty(), table.len())?,
             particles: Particles::new(gpu, slots, &start, scene.consistent(), scene.elastic_vectors())?,
             pressure: Buffer::new(gpu, "pressure", unknowns)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
@@ -156,7 +151,7 @@ impl State {
         state.fill_gas(gpu, scene, &openings, &start_gas, &geometry.walls);
         if !table.is_empty() {
             state.interface.extra.write(gpu, 0, &cut::entries(&grid, &geometry));
-            state.interface.extra.write(gpu, places.end as usize, &table);
+            state.interface.extra.write(gpu, params.table_at as usize, &table);
         }
         Ok(state)
     }
