@@ -3,6 +3,7 @@
 mod fault;
 mod live;
 mod recorded;
+mod report;
 
 use crate::diagnostics::StepRecord;
 use crate::error::Result;
@@ -337,20 +338,6 @@ impl Simulation {
             records.push(record);
         }
         Ok(())
-    }
-
-    /// Momentum and energy that the energy floor has taken from gas cells without books of their own, since the start
-    /// \[kg m s^-1\], \[J\].
-    ///
-    /// # Errors
-    /// Driver errors.
-    pub fn borrowed(&self) -> Result<[f64; 4]> {
-        let params = &self.state.params;
-        let volume = f64::from(params.spacing).powi(self.state.grid.dimension as i32);
-        let [density, pressure] = [params.ambient_density, params.ambient_pressure].map(f64::from);
-        let [x, y, z, energy] = self.control()?.borrowed();
-        let momentum = volume * (density * pressure).sqrt();
-        Ok([momentum * x, momentum * y, momentum * z, volume * pressure * energy])
     }
 
     /// What the device decided last.

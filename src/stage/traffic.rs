@@ -78,6 +78,8 @@ pub const TRAFFIC: [Traffic; 19] = [
 pub struct Load {
     /// Slots of the grid.
     pub slots: u64,
+    /// Of these awake, mean of all steps.
+    pub awake: u64,
     /// Particles.
     pub particles: u64,
     /// Steps.
@@ -91,6 +93,9 @@ pub struct Load {
     /// Whether the element pair is B2B1.
     pub quadratic: bool,
 }
+
+/// Stages that leave out slots that sleep.
+const SLEEPING: [&str; 5] = ["time_step", "gas_advection", "intermediate_pressure", "coupled_solve", "fluid_update"];
 
 /// Bytes that a stage has moved in a run.
 #[must_use]
@@ -106,7 +111,8 @@ pub fn bytes(stage: &str, load: &Load) -> u64 {
             + solids * u64::from(row.slot_with_solids)
             + u64::from(load.carrier) * u64::from(row.slot_with_carrier)
             + u64::from(load.quadratic) * u64::from(row.slot_with_quadratic);
-        times * (slot * load.slots + u64::from(row.particle) * load.particles)
+        let slots = if SLEEPING.contains(&row.stage) { load.awake } else { load.slots };
+        times * (slot * slots + u64::from(row.particle) * load.particles)
     };
     TRAFFIC.iter().filter(|row| row.stage == stage).map(of_row).sum()
 }
