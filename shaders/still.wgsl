@@ -150,39 +150,22 @@ fn run_at(run: u32) -> vec2u {
     return vec2u(run / blocks_across() * columns() + column, min(RUN_LANES, columns() - column));
 }
 
-fn row_awake(layer: u32, column: u32, row: u32) -> bool {
-    return ((block_rows(layer * blocks_across() + column) >> (16u + row)) & 1u) == 1u;
-}
-
 // Slots of a run that are awake, as bits: in 1D some, else all or none.
 fn awake_slots(run: u32) -> u32 {
-    let count = run_at(run).y;
-    if DIM > 1u {
-        let row = run / blocks_across();
-        return select(0u, (1u << count) - 1u, row_awake(row / params.march, run % blocks_across(), row % params.march));
-    }
+    let own = run_at(run);
+    if DIM > 1u { return select(0u, (1u << own.y) - 1u, is_awake(own.x)); }
     var bits = 0u;
-    for (var k = 0u; k < count; k++) {
-        let slot = RUN_LANES * run + k;
-        bits |= u32(row_awake(slot / params.march, 0u, slot % params.march)) << k;
-    }
+    for (var k = 0u; k < own.y; k++) { bits |= u32(is_awake(own.x + k)) << k; }
     return bits;
 }
 
 // The same of a run of the list.
 fn awake_listed(run: u32) -> u32 {
+    let first = RUN_LANES * run;
     var bits = 0u;
-    for (var k = 0u; k < RUN_LANES; k++) {
-        let at = RUN_LANES * run + k;
-        if at >= list_length() { break; }
-        let slot = extra[params.slots + at];
-        let row = slot / columns();
-        bits |= u32(row_awake(row / params.march, slot % columns() / STILL_BLOCK, row % params.march)) << k;
-    }
+    for (var k = 0u; k < min(RUN_LANES, list_length() - first); k++) { bits |= u32(is_awake(extra[params.slots + first + k])) << k; }
     return bits;
 }
-
-fn list_length() -> u32 { return extra[2u * params.slots]; }
 
 fn runs_in_list() -> u32 { return (list_length() + RUN_LANES - 1u) / RUN_LANES; }
 

@@ -6,9 +6,6 @@
 
 override LISTED: bool;
 
-// Entries of the list, awake or not.
-fn list_length() -> u32 { return extra[2u * params.slots]; }
-
 // Slot of a thread, or the number of slots if it has none: of all slots or, LISTED, of all listed ones.
 fn every_slot(thread: u32) -> u32 {
     if !LISTED { return min(thread, params.slots); }

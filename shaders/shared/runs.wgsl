@@ -6,6 +6,9 @@
 // Elsewhere all slots have their runs in order.
 // A reduction gives every octet the same slots, in the same order, whoever sleeps: they would add zero, so the sums keep their bits.
 
+// Entries of the list, awake or not.
+fn list_length() -> u32 { return extra[2u * params.slots]; }
+
 fn octets() -> u32 { return RUN_LANES * params.groups; }
 
 // Runs of an octet of threads: the first one, one beyond the last, and the step from one to the next.

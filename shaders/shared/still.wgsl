@@ -11,9 +11,13 @@ fn awake_rows(thread: u32) -> u32 { return block_rows(thread / STILL_BLOCK) >> 1
 // First of some rows, and the one after the last.
 fn row_span(rows: u32) -> vec2u { return select(vec2u(0u), vec2u(countTrailingZeros(rows), 32u - countLeadingZeros(rows)), rows != 0u); }
 
-// Whether nothing moves near a slot before the solve.
-fn is_still(slot: u32) -> bool {
+// The two bits of a slot's row, at places 0 and 16.
+fn row_bits(slot: u32) -> u32 {
     let row = slot / columns();
-    let block = row / params.march * blocks_across() + slot % columns() / STILL_BLOCK;
-    return ((block_rows(block) >> (row % params.march)) & 1u) == 0u;
+    return block_rows(row / params.march * blocks_across() + slot % columns() / STILL_BLOCK) >> (row % params.march);
 }
+
+// Whether nothing moves near a slot before the solve.
+fn is_still(slot: u32) -> bool { return (row_bits(slot) & 1u) == 0u; }
+
+fn is_awake(slot: u32) -> bool { return (row_bits(slot) & 0x10000u) != 0u; }

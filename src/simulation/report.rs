@@ -2,7 +2,6 @@
 
 use super::Simulation;
 use crate::error::Result;
-use crate::state::constants::RUN_LANES;
 
 impl Simulation {
     /// Momentum and energy that the energy floor has taken from gas cells without books of their own, since the start
@@ -24,7 +23,7 @@ impl Simulation {
     /// # Errors
     /// Driver errors.
     pub fn awake_share(&self) -> Result<f64> {
-        let all = self.state.interface.run_threads / RUN_LANES as usize;
+        let all = self.state.interface.runs;
         let runs = if self.state.sleeps() { self.control()?.runs as usize } else { all };
         Ok(runs as f64 / all as f64)
     }

@@ -85,7 +85,7 @@ impl CoupledSolve {
         let dots = if state.has_solids() || state.is_quadratic() { Dots::Product } else { Dots::Both };
         let runs = Runs { words: &state.interface.extra, at: state.params.runs_at, apart: state.params.slots };
         let layout = Layout {
-            threads: if state.sleeps() { state.interface.run_threads } else { state.grid.slots() },
+            threads: state.grid.slots(),
             groups: state.params.groups,
             dots,
             reference_at: PARTIALS,

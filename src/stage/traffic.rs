@@ -95,7 +95,8 @@ pub struct Load {
 }
 
 /// Stages that leave out slots that sleep.
-const SLEEPING: [&str; 5] = ["time_step", "gas_advection", "intermediate_pressure", "coupled_solve", "fluid_update"];
+const SLEEPING: [&str; 6] =
+    ["time_step", "still", "gas_advection", "intermediate_pressure", "coupled_solve", "fluid_update"];
 
 /// Bytes that a stage has moved in a run.
 #[must_use]

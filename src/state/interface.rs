@@ -21,8 +21,8 @@ pub struct Interface {
     /// Rows of blocks of columns of marching kernels in which something moves, now and in the step before; then scratch of as many words.
     /// Where nothing sleeps another buffer serves.
     pub busy: Buffer<u32>,
-    /// Threads that take the slots of all runs.
-    pub run_threads: usize,
+    /// Runs of the whole grid, awake or not.
+    pub runs: usize,
 }
 
 /// Parts of [`Interface::extra`] behind the lists, in words (`shaders/shared/runs.wgsl` and `still.wgsl`).
@@ -78,7 +78,7 @@ impl Interface {
             ghost: Buffer::new(gpu, "ghost", solid_slots)?,
             extra: Buffer::new(gpu, "extra", places.end as usize + table)?,
             busy,
-            run_threads: RUN_LANES as usize * places.all as usize,
+            runs: places.all as usize,
         })
     }
 }

@@ -64,7 +64,7 @@ fn run(gpu: &Gpu, text: &str, overrides: &[String], steps: u32, march: u32, skip
         let blocks = (params.slots / lines).div_ceil(8) * lines.div_ceil(params.march);
         let rows = &words[params.still_at as usize..][..blocks as usize];
         let control = simulation.control().unwrap();
-        let runs = simulation.state.interface.run_threads as u32 / 8;
+        let runs = simulation.state.interface.runs as u32;
         let asleep = if simulation.state.sleeps() { runs - control.runs } else { 0 };
         left_out.still =
             left_out.still.max(rows.iter().map(|word| (!word & ((1 << params.march) - 1)).count_ones()).sum());
