@@ -36,7 +36,7 @@ fn velocity_at(c: vec3i, offset: vec3i, own: vec3f) -> vec3f {
     if kind == GAS { return velocity_of(source(slot_of(at))); }
     if kind == GHOST {
         let opening = opening_of(cells[slot_of(at)]);
-        if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow); }
+        if prescribes(opening) { return velocity_of(opening.flow); }
     }
     var sum = vec3f(0.0);
     var count = 0.0;
@@ -116,7 +116,7 @@ fn face_mean(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     if kind == WALL { return 0.0; }
     if kind != GAS {
         let opening = opening_of(cells[other]);
-        if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow)[n]; }
+        if prescribes(opening) { return velocity_of(opening.flow)[n]; }
         return node[slot][n];
     }
     if near_obstacle(slot, other) { return cut_velocity(select(far, c, up), n); }

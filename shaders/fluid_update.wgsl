@@ -23,27 +23,38 @@
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> work: array<vec4f>;    // second half: M^-1 (G Q + H h) of solid nodes
 
-// Pressure of the face of GAS cell c across axis n: mean of its vertices; for B2B1 inside the gas the finite-element mean,
-// p * (1,4,1)/6 along the axis and (1,11,11,1)/24 across, without which short waves grow for c dt > 2 dx.
-fn face_pressure(c: vec3i, n: u32, up: bool) -> f32 {
-    let beyond = neighbour_kind(c, n, up);
-    let low = select(c, c + axis(n), up);
-    if QUADRATIC && beyond == GAS && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
+// Slots of the vertices of a face across axis n whose low corner is `low`; along an inactive axis each is met twice.
+fn face_vertices(low: vec3i, n: u32) -> vec4u {
+    let a = axis((n + 1u) % 3u) * reach();
+    let b = axis((n + 2u) % 3u) * reach();
+    return vec4u(slot_of(low), slot_of(low + a), slot_of(low + b), slot_of(low + a + b));
+}
+
+fn interface_indices(at: vec4u) -> vec4u {
+    return vec4u(interface_index(at.x), interface_index(at.y), interface_index(at.z), interface_index(at.w));
+}
+
+// Its mean pressure next to an obstacle, as the face of cell c that is open in part.
+fn cut_face_pressure(c: vec3i, low: vec3i, n: u32, up: bool) -> f32 {
     var sum = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
         let corner = corner_offset(k);
         if corner[n] == 1 { continue; }
-        let v = slot_of(low + corner);
-        if CUT {
-            let own = corner + select(vec3i(0), axis(n), up);
-            sum += face_shape(slot_of(c), n, up, own) * pressure[v];
-            continue;
-        }
-        var at = v;
-        if beyond == SOLID { at = interface_index(v); }
-        sum += pressure[at];
+        let own = corner + select(vec3i(0), axis(n), up);
+        sum += face_shape(slot_of(c), n, up, own) * pressure[slot_of(low + corner)];
     }
-    return select(sum / f32(1u << (DIM - 1u)), sum, CUT);
+    return sum;
+}
+
+// Pressure of the face of GAS cell c across axis n: mean of its vertices; for B2B1 inside the gas the finite-element mean,
+// p * (1,4,1)/6 along the axis and (1,11,11,1)/24 across, without which short waves grow for c dt > 2 dx.
+fn face_pressure(c: vec3i, n: u32, up: bool, beyond: u32) -> f32 {
+    let low = select(c, c + axis(n), up);
+    if QUADRATIC && beyond == GAS && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
+    if CUT { return cut_face_pressure(c, low, n, up); }
+    var at = face_vertices(low, n);
+    for (var turn = 0u; turn < u32(SOLIDS && beyond == SOLID); turn++) { at = interface_indices(at); }
+    return mean2(mean2(pressure[at.x], pressure[at.y]), mean2(pressure[at.z], pressure[at.w]));
 }
 
 // Loss of momentum of a cluster next to an obstacle: the pressure gradient over its gas.
@@ -180,7 +191,8 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
             let own = kind == GAS;
             if !own && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
             let near = select(other, c, own);
-            impulse[n] += select(1.0, -1.0, up) * aperture(slot_of(near), n, up == own) * face_pressure(near, n, up == own);
+            impulse[n] += select(1.0, -1.0, up) * aperture(slot_of(near), n, up == own)
+                * face_pressure(near, n, up == own, neighbour_kind(near, n, up == own));
         }
     }
     if any(impulse != vec3f(0.0)) {
@@ -188,37 +200,34 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     }
 }
 
-// Pressures of the vertices of a face between gas and solid, whose low corner is `low`: first of `across`, then the other axis, fastest.
-fn interface_pressures(low: vec3i, a: u32, b: u32) -> vec4f {
-    var p = vec4f(0.0);
-    p.x = pressure[interface_index(slot_of(low))];
-    if DIM > 1u { p.y = pressure[interface_index(slot_of(low + axis(a)))]; }
-    if DIM > 2u {
-        p.z = pressure[interface_index(slot_of(low + axis(b)))];
-        p.w = pressure[interface_index(slot_of(low + axis(a) + axis(b)))];
-    }
-    return p;
+// Means of the low and the high vertex of an axis on the node of a body at an offset from the cell between them.
+fn means_of(a: u32, offset: i32) -> vec2f {
+    if a >= DIM { return vec2f(1.0, 0.0); }
+    return vec2f(mean_entry(true, offset, false), mean_entry(true, offset, true));
 }
 
-// Power through a face between gas and solid: what the solid receives, with the mean of its old and new velocity.
-// `count`: block_size(), or 0 at other faces.
-fn interface_power(c: vec3i, n: u32, up: bool, count: u32) -> f32 {
+// Velocity of a node of a body, the mean of its old and new one.
+fn body_velocity(at: u32, n: u32) -> f32 {
+    return node[at][n] - select(1.0, 0.5, MIDPOINT_POWER) * control.dt * work[params.slots + at][n];
+}
+
+// Power through a face between gas and solid: what the solid receives.
+fn interface_power(c: vec3i, n: u32, up: bool) -> f32 {
     let beyond = select(c - axis(n), c + axis(n), up);
-    // The axes across, an inactive one last.
-    let a = select(0u, 1u, n == 0u);
-    let b = 3u - n - a;
-    let p = interface_pressures(select(c, beyond, up), a, b);
+    let a = (n + 1u) % 3u;
+    let b = (n + 2u) % 3u;
+    let at = interface_indices(face_vertices(select(c, beyond, up), n));
+    let p = vec4f(pressure[at.x], pressure[at.y], pressure[at.z], pressure[at.w]);
     var power = 0.0;
-    for (var k = 0u; k < count; k++) {
-        let offset = block_offset(k);  // of the node, relative to the solid cell
-        if !face_holds(offset, n, !up) { continue; }
-        let at = slot_of(beyond + offset);
-        let share = select(1.0, 0.5, MIDPOINT_POWER);
-        let v = node[at][n] - share * control.dt * work[params.slots + at][n];
-        var mean = p.xz;
-        if DIM > 1u { mean = mean_entry(true, offset[a], false) * p.xz + mean_entry(true, offset[a], true) * p.yw; }
-        if DIM > 2u { mean.x = mean_entry(true, offset[b], false) * mean.x + mean_entry(true, offset[b], true) * mean.y; }
-        power += 0.5 * mean.x * v;
+    for (var k = -reach()[b]; k <= reach()[b]; k++) {
+        let mean_b = means_of(b, k);
+        for (var j = -reach()[a]; j <= reach()[a]; j++) {
+            let mean_a = means_of(a, j);
+            let mean = dot(mean_b, vec2f(dot(mean_a, p.xy), dot(mean_a, p.zw)));
+            let away = j * axis(a) + k * axis(b);
+            // A face takes a half from each of the nodes across it.
+            power += 0.5 * mean * (body_velocity(slot_of(c + away), n) + body_velocity(slot_of(beyond + away), n));
+        }
     }
     return power;
 }
@@ -228,10 +237,11 @@ fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     let beyond = neighbour_kind(c, n, up);
     if beyond == WALL { return 0.0; }
     if SOLIDS {
-        let power = interface_power(c, n, up, select(0u, block_size(), beyond == SOLID));
+        var power = 0.0;
+        for (var turn = 0u; turn < u32(beyond == SOLID); turn++) { power = interface_power(c, n, up); }
         if beyond == SOLID { return power; }
     }
-    let p = face_pressure(c, n, up);
+    let p = face_pressure(c, n, up, beyond);
     let here = conserved[slot];
     let far = select(c - axis(n), c + axis(n), up);
     if beyond == GAS { return carried_along() * p * face_velocity(n, slot_of(min(c, far)), slot_of(max(c, far))); }

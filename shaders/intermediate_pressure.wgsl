@@ -39,7 +39,7 @@ fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
         return (a.w * a[n] + b.w * b[n]) / max(a.w + b.w, 1e-30);
     }
     let opening = opening_of(cells[slot]);
-    if opening.rule <= RULE_SUBSONIC { return opening.flow[n + 1u] / opening.flow.x; }
+    if prescribes(opening) { return opening.flow[n + 1u] / opening.flow.x; }
     return own;
 }
 

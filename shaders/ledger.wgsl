@@ -11,7 +11,7 @@
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;
-@group(0) @binding(3) var<storage, read_write> energy: array<f32>;   // first third: now; second third: shares
+@group(0) @binding(3) var<storage, read_write> energy: array<f32>;   // now; shares; of SOLID slots who gets them
 @group(0) @binding(4) var<storage, read_write> owed_flow: array<vec4f>;
 @group(0) @binding(5) var<storage, read_write> owed_energy: array<f32>;
 @group(0) @binding(6) var<storage, read_write> work: array<vec4f>;   // share that each neighbour of a slot receives
@@ -163,49 +163,70 @@ fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     return 0.0;
 }
 
-// What a slot hands to each of its `count` receivers.
-fn outgoing(slot: u32, c: vec3i, kind: u32) -> Sum {
-    var out: Sum;
-    if kind == GAS {
-        if all(owed_flow[slot] == vec4f(0.0)) && owed_energy[slot] == 0.0 { return out; }
-        let gas_neighbours = neighbours_of_kind(c, GAS);
-        if gas_neighbours == 0u { return out; }
-        out.count = f32(gas_neighbours);
-        let left = 1.0 - settled_part(slot, gas_neighbours);
-        out.flow = left * owed_flow[slot] / out.count;
-        out.energy = left * owed_energy[slot] / out.count;
-    } else if kind == SOLID {
-        let flow = conserved[slot] * cell_volume() + owed_flow[slot];
-        let gas_neighbours = neighbours_of_kind(c, GAS);
-        let surface = surface_neighbours(slot);
-        out.count = f32(select(select(neighbours_of_kind(c, SOLID), surface, surface > 0u), gas_neighbours, gas_neighbours > 0u));
-        if out.count == 0.0 { return out; }
-        var part = 1.0;
-        if gas_neighbours > 0u {
-            part = max(1.0 - HELD_AT_SURFACE * density_beside(slot) * cell_volume() / max(abs(flow.x), 1e-30), 0.0);
-        }
-        out.flow = part * flow / out.count;
-        out.energy = part * (energy[slot] * cell_volume() + owed_energy[slot]) / out.count;
+// Who gets what a slot hands on: its GAS neighbours, its SOLID ones at the surface, or all that are SOLID.
+const TO_GAS = 0.0;
+const TO_SURFACE = 1.0;
+const TO_SOLID = 2.0;
+
+struct Handed { flow: vec4f, energy: f32, receivers: f32 }
+
+fn handed_by_gas(slot: u32, c: vec3i) -> Handed {
+    let count = neighbours_of_kind(c, GAS);
+    if count == 0u { return Handed(vec4f(0.0), 0.0, TO_GAS); }
+    let each = (1.0 - settled_part(slot, count)) / f32(count);
+    return Handed(each * owed_flow[slot], each * owed_energy[slot], TO_GAS);
+}
+
+fn handed_by_solid(slot: u32, c: vec3i) -> Handed {
+    let flow = conserved[slot] * cell_volume() + owed_flow[slot];
+    let heat = energy[slot] * cell_volume() + owed_energy[slot];
+    let gas = neighbours_of_kind(c, GAS);
+    if gas > 0u {
+        let part = 1.0 - HELD_AT_SURFACE * density_beside(slot) * cell_volume() / max(abs(flow.x), 1e-30);
+        let each = max(part, 0.0) / f32(gas);
+        return Handed(each * flow, each * heat, TO_GAS);
     }
-    return out;
+    let surface = surface_neighbours(slot);
+    let count = select(neighbours_of_kind(c, SOLID), surface, surface > 0u);
+    let each = select(0.0, 1.0 / f32(max(count, 1u)), count > 0u);
+    return Handed(each * flow, each * heat, select(TO_SOLID, TO_SURFACE, surface > 0u));
 }
 
-// Whether a slot gets a share of what a neighbour hands on.
-fn receives(slot: u32, kind: u32, other: u32) -> bool {
-    let kind_there = kind_of(cells[other]);
-    if kind == GAS { return kind_there == GAS || kind_there == SOLID; }
-    if kind_there != SOLID || at_surface(other) { return false; }
-    return at_surface(slot) || surface_neighbours(other) == 0u;
-}
-
+// To each of the receivers. Loops of no turn let threads that run in step skip what none of them has to do.
 @compute @workgroup_size(WORKGROUP)
 fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
-    let out = outgoing(slot, cell_of(slot), kind_of(cells[slot]));
+    let kind = kind_of(cells[slot]);
+    let owes = kind == GAS && (any(owed_flow[slot] != vec4f(0.0)) || owed_energy[slot] != 0.0);
+    var out: Handed;
+    for (var turn = 0u; turn < u32(owes); turn++) { out = handed_by_gas(slot, cell_of(slot)); }
+    for (var turn = 0u; turn < u32(kind == SOLID); turn++) { out = handed_by_solid(slot, cell_of(slot)); }
     work[slot] = out.flow;
     energy[params.slots + slot] = out.energy;
+    if kind == SOLID { energy[2u * params.slots + slot] = out.receivers; }
+}
+
+// What the neighbours of a slot hand on to it.
+fn incoming(slot: u32, kind: u32) -> Sum {
+    var sum: Sum;
+    let surface = kind == SOLID && at_surface(slot);
+    for (var a = 0u; a < DIM; a++) {
+        for (var side = 0u; side < 2u; side++) {
+            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
+            let kind_there = kind_of(cells[other]);
+            var takes = kind_there == GAS || kind_there == SOLID;
+            if kind == SOLID {
+                let receivers = energy[2u * params.slots + other];
+                takes = kind_there == SOLID && (receivers == TO_SOLID || receivers == TO_SURFACE && surface);
+            }
+            if !takes { continue; }
+            sum.flow += work[other];
+            sum.energy += energy[params.slots + other];
+        }
+    }
+    return sum;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -218,7 +239,8 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     if (kind != GAS && kind != SOLID) || !inside(c) { return; }
     var flow = owed_flow[slot];
     var heat = owed_energy[slot];
-    if kind == GAS && (any(flow != vec4f(0.0)) || heat != 0.0) {
+    let owes = kind == GAS && (any(flow != vec4f(0.0)) || heat != 0.0);
+    for (var turn = 0u; turn < u32(owes); turn++) {
         let part = settled_part(slot, neighbours_of_kind(c, GAS));
         conserved[slot] += part * flow / cell_volume();
         energy[slot] += part * heat / cell_volume();
@@ -229,23 +251,16 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         flow += conserved[slot] * cell_volume();
         heat += energy[slot] * cell_volume();
     }
-    let shared_out = any(work[slot] != vec4f(0.0)) || energy[params.slots + slot] != 0.0;
-    if shared_out && at_surface(slot) {
+    let handed_on = any(work[slot] != vec4f(0.0)) || energy[params.slots + slot] != 0.0;
+    for (var turn = 0u; turn < u32(handed_on); turn++) {
+        let keeps = at_surface(slot);
         let count = f32(neighbours_of_kind(c, GAS));
-        flow -= count * work[slot];
-        heat -= count * energy[params.slots + slot];
-    } else if shared_out {
-        flow = vec4f(0.0);
-        heat = 0.0;
+        flow = select(vec4f(0.0), flow - count * work[slot], keeps);
+        heat = select(0.0, heat - count * energy[params.slots + slot], keeps);
     }
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = 0u; side < 2u; side++) {
-            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
-            if !receives(slot, kind, other) { continue; }
-            flow += work[other];
-            heat += energy[params.slots + other];
-        }
-    }
+    let more = incoming(slot, kind);
+    flow += more.flow;
+    heat += more.energy;
     if kind == SOLID {
         conserved[slot] = flow / cell_volume();
         energy[slot] = heat / cell_volume();

@@ -7,6 +7,7 @@
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
 #include "shared/cut_system.wgsl"
+#include "shared/mixed.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -14,37 +15,6 @@
 @group(0) @binding(4) var<storage, read> work: array<vec4f>;        // w: inverse masses of gas and solid nodes
 @group(0) @binding(5) var<storage, read> stiffness: array<f32>;
 @group(0) @binding(6) var<storage, read_write> inverse_diagonal: array<f32>;
-
-struct Entries { own: vec3f, h: vec3f, q: vec3f, h_solid: vec3f } // gas node: own, h; solid node: q, h_solid
-
-fn add_entries(entries: ptr<function, Entries>, kinds: u32, node_offset: vec3i, corner: vec3i, solid: bool) {
-    let quadratic = solid || QUADRATIC;
-    let inner = element_entry(quadratic, node_offset, corner);
-    if solid { (*entries).q += inner; } else { (*entries).own += inner; }
-    for (var n = 0u; n < DIM; n++) {
-        let up = corner[n] == 1;
-        if !face_holds(node_offset, n, up) { continue; }
-        let beyond = kind_across(kinds, corner, n);
-        let across = select(-1.0, 1.0, up) * face_entry(quadratic, n, node_offset, corner);
-        if solid {
-            if beyond == GAS { (*entries).h_solid[n] += across; }
-        } else if beyond == SOLID { (*entries).h[n] += across; }
-        else if beyond == WALL || beyond == GHOST { (*entries).own[n] += across; }
-    }
-}
-
-fn entries_at(v: vec3i, kinds: u32, j: vec3i) -> Entries {
-    var entries: Entries;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        let e = v - corner;
-        let node_offset = j - e;
-        if !inside(mirrored(e)) || any(abs(node_offset) > vec3i(1)) { continue; }
-        let kind = (kinds >> (2u * k)) & 3u;
-        if kind == GAS || kind == SOLID { add_entries(&entries, kinds, node_offset, corner, kind == SOLID); }
-    }
-    return entries;
-}
 
 fn inverse(d: f32) -> f32 { return select(0.0, 1.0 / d, d > 0.0); }
 
@@ -99,22 +69,73 @@ fn cut_square(v: vec3i) -> f32 {
 
 struct Squares { own: f32, h: f32, q: f32 }
 
-// The same between gas and body.
+// Coefficients of a vertex on a line of four nodes along x.
+struct Coefficients { x: vec4f, y: vec4f, z: vec4f }
+
+fn plus(a: Coefficients, b: Coefficients) -> Coefficients { return Coefficients(a.x + b.x, a.y + b.y, a.z + b.z); }
+
+// Sum of |coefficient|^2 / M.
+fn square_of(c: Coefficients, inverse_mass: vec4f) -> f32 { return dot(inverse_mass, c.x * c.x + c.y * c.y + c.z * c.z); }
+
+// Through the elements of one kind; through the faces between these and cells of another. What mixed_rows multiplies velocities by.
+fn of_elements(along_x: Split, elements: mat2x4f, weights: Weights) -> Coefficients {
+    let x = weights.x * elements;
+    let y = weights.y * elements;
+    let z = weights.z * elements;
+    return Coefficients(x.x * along_x.slope_below + x.y * along_x.slope_above, y.x * along_x.mean_below + y.y * along_x.mean_above,
+        z.x * along_x.mean_below + z.y * along_x.mean_above);
+}
+
+fn of_faces(along_x: Split, own: mat2x4f, other: mat2x4f, weights: Weights, y: Step, z: Step) -> Coefficients {
+    let below = vec2f(dot(z.mean, faces_y(own[0], other[0])), dot(y.mean, faces_z(own[0], other[0])));
+    let above = vec2f(dot(z.mean, faces_y(own[1], other[1])), dot(y.mean, faces_z(own[1], other[1])));
+    return Coefficients(dot(weights.x, own[0] * other[1] - own[1] * other[0]) * along_x.face,
+        y.face * (below.x * along_x.mean_below + above.x * along_x.mean_above),
+        z.face * (below.y * along_x.mean_below + above.y * along_x.mean_above));
+}
+
+// Inverse masses of a line of nodes, from that below the vertex on.
+fn inverse_masses(v: vec3i, j: i32, k: i32, solid: bool) -> vec4f {
+    var masses = vec4f(0.0);
+    for (var i = 0; i < 4; i++) {
+        let at = v - vec3i(i - 1, j, k);
+        if !in_ring(at) { continue; }
+        let slot = slot_of(at);
+        if !solid { masses[i] = work[slot].w; }
+        else if has(cells[slot], NODE_SOLID) { masses[i] = work[params.slots + slot].w; }
+    }
+    return masses;
+}
+
+// The same between gas and body; `count`: corner_count() or 0.
 fn mixed_squares(v: vec3i, apart: bool, count: u32) -> Squares {
     var squares: Squares;
-    let kinds = kinds_around_vertex(select(vec3i(0), v, count > 0u));
-    for (var k = 0u; k < count; k++) {
-        let j = node_of(v, k);
-        if !in_ring(j) { continue; }
-        let gas = work[slot_of(j)].w;
-        let solid = select(0.0, work[params.slots + slot_of(j)].w, SOLIDS && has(cells[slot_of(j)], NODE_SOLID));
-        let at = entries_at(v, kinds, j);
-        if apart {
-            squares.own += gas * dot(at.own, at.own);
-            squares.h += gas * dot(at.h, at.h) + solid * dot(at.h_solid, at.h_solid);
-            squares.q += solid * dot(at.q, at.q);
-        } else {
-            squares.own += gas * dot(at.own + at.h, at.own + at.h) + solid * dot(at.q + at.h_solid, at.q + at.h_solid);
+    let kinds = kinds_beside(v, count);
+    let gas = columns_beside(kinds.gas);
+    let body = columns_beside(kinds.solid);
+    let sides = columns_beside(kinds.closed);
+    let last = select(vec3i(-2), 2 * reach(), count > 0u);
+    for (var k = -reach().z; k <= last.z; k++) {
+        for (var j = -reach().y; j <= last.y; j++) {
+            let x = split_entries(0u, QUADRATIC);
+            let y = step_at(split_entries(1u, QUADRATIC), j);
+            let z = step_at(split_entries(2u, QUADRATIC), k);
+            let weights = weights_of(y, z);
+            let own = plus(of_elements(x, gas, weights), of_faces(x, gas, sides, weights, y, z));
+            let film = of_faces(x, gas, body, weights, y, z);
+            let masses = inverse_masses(v, j, k, false);
+            if apart { squares.own += square_of(own, masses); squares.h += square_of(film, masses); }
+            else { squares.own += square_of(plus(own, film), masses); }
+            if !SOLIDS { continue; }
+            let wide_x = split_entries(0u, true);
+            let wide_y = step_at(split_entries(1u, true), j);
+            let wide_z = step_at(split_entries(2u, true), k);
+            let wide = weights_of(wide_y, wide_z);
+            let solid = of_elements(wide_x, body, wide);
+            let solid_film = of_faces(wide_x, body, gas, wide, wide_y, wide_z);
+            let solid_masses = inverse_masses(v, j, k, true);
+            if apart { squares.q += square_of(solid, solid_masses); squares.h += square_of(solid_film, solid_masses); }
+            else { squares.own += square_of(plus(solid, solid_film), solid_masses); }
         }
     }
     return squares;
@@ -141,7 +162,7 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let deep = SOLIDS && LISTED && has(word, VERTEX_DEEP);
     let apart = interface_index(slot) != slot;
     var squares: Squares;
-    if LISTED { squares = mixed_squares(v, apart, select(wide_count(), 0u, regular || deep)); }
+    if LISTED { squares = mixed_squares(v, apart, select(corner_count(), 0u, regular || deep)); }
     for (var turn = 0u; turn < u32(regular); turn++) { squares.own = regular_square(v); }
     for (var turn = 0u; turn < u32(deep); turn++) { squares.own = wide_square(v, params.slots, true); }
     inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);

@@ -8,6 +8,8 @@
 #include "shared/mixed.wgsl"
 #include "shared/cut.wgsl"
 
+override BODIES_ONLY: bool = false; // leaves out what gas alone asks for
+
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
 @group(0) @binding(3) var<storage, read> x: array<f32>;
@@ -165,17 +167,14 @@ fn mixed_force(c: vec3i, count: u32) -> Forces {
         for (var y = -reach().y; y <= last.y; y++) {
             let gas = rows_of_block(kinds.gas, y, z);
             let solid = rows_of_block(kinds.solid, y, z);
-            let near = QUADRATIC || (y >= 0 && y <= 1 && z >= 0 && z <= 1);
+            let near = !BODIES_ONLY && (QUADRATIC || (y >= 0 && y <= 1 && z >= 0 && z <= 1));
             let by_gas = near && any(gas != vec4u(0u));
-            let by_solid = SOLIDS && any(solid != vec4u(0u));
-            for (var turn = 0u; turn < u32(by_gas || by_solid); turn++) {
-                let line = vec3i(-1, y, z);
-                let unknowns = unknowns_at(c + line);
-                for (var again = 0u; again < u32(by_gas); again++) {
-                    forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), line, unknowns.gas, unknowns.h, false);
-                }
-                if SOLIDS { forces.solid += line_force(solid, gas, vec4u(0u), line, unknowns.solid, unknowns.h, true); }
+            let line = vec3i(-1, y, z);
+            let unknowns = unknowns_at(c + line);
+            for (var turn = 0u; turn < u32(by_gas); turn++) {
+                forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), line, unknowns.gas, unknowns.h, false);
             }
+            if SOLIDS { forces.solid += line_force(solid, gas, vec4u(0u), line, unknowns.solid, unknowns.h, true); }
         }
     }
     return forces;
@@ -194,7 +193,7 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         if has(word, INTERIOR) { work[slot] = vec4f(regular_force(slot, c) * face_area() * inverse_mass, inverse_mass); }
         return;
     }
-    let regular = has(word, NODE_REGULAR);
+    let regular = !BODIES_ONLY && has(word, NODE_REGULAR);
     if CUT && !regular {
         var force = vec3f(0.0);
         if kind_of(word) == GAS && inside(c) { force = cut_force(slot); }
@@ -204,7 +203,7 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let deep = SOLIDS && has(word, NODE_DEEP);
     var forces = mixed_force(c, select(0u, block_size(), is_mixed(word)));
     for (var turn = 0u; turn < u32(regular); turn++) { forces.gas = regular_force(slot, c); }
-    work[slot] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass);
+    if !BODIES_ONLY { work[slot] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass); }
     if !SOLIDS || !has(word, NODE_SOLID) { return; }
     for (var turn = 0u; turn < u32(deep); turn++) { forces.solid = wide_force(slot, c, true); }
     let inverse = select(1.0 / inertia[slot], 0.0, DRIVEN && has(word, NODE_DRIVEN));

@@ -67,6 +67,9 @@ fn open_faces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     if slot < params.slots && kind_of(cells[slot]) == GHOST { note_open_face(cell_of(slot), slot); }
 }
 
+// Whether a vertex lies on a side of the domain.
+fn on_side(v: vec3i) -> bool { return any(((v == vec3i(0)) | (v == vec3i(params.cells))) & (reach() == vec3i(1))); }
+
 @compute @workgroup_size(WORKGROUP)
 fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
@@ -75,7 +78,8 @@ fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     let v = cell_of(slot);
     var flow = 0.0;
     var admittance = 0.0;
-    for (var k = 0u; k < corner_count() && has(cells[slot], VERTEX_GAS); k++) {
+    let count = select(0u, corner_count(), has(cells[slot], VERTEX_GAS) && on_side(v));
+    for (var k = 0u; k < count; k++) {
         let corner = corner_offset(k);
         let e = v - corner;
         if !inside(e) { continue; }

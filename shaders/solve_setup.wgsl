@@ -93,7 +93,7 @@ fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
     let opening = opening_of(cells[slot]);
     let near = slot_of(nearest_inside(c));
     if kind_of(cells[near]) == GAS { return velocity_beyond(opening, conserved[near]); }
-    if opening.rule <= RULE_SUBSONIC { return velocity_of(opening.flow); }
+    if prescribes(opening) { return velocity_of(opening.flow); }
     return nearest_gas_velocity(c);
 }
 

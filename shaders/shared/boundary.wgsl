@@ -3,6 +3,7 @@
 // sees it, u = u0 + (p - p0) / Z along the outward normal. Z = rho c lets sound pass: what a wave would do beyond the side,
 // the face does [Poinsot and Lele 1992]. Where Z is infinite, the velocity is prescribed. 1 / Z adds to the diagonal, so
 // that the system stays symmetric positive definite.
+// RULES_USED names the rules of the scene, so that the others cost nothing.
 #include "shared/opening.wgsl"
 
 @group(0) @binding(14) var<uniform> openings: array<Opening, MAX_OPENINGS>;
@@ -11,6 +12,11 @@
 const LEAST_INFLOW = 0.1;
 
 fn opening_of(word: u32) -> Opening { return openings[word >> RULE_SHIFT]; }
+
+fn any_used(first: u32, last: u32) -> bool { return (RULES_USED & ((2u << last) - (1u << first))) != 0u; }
+fn follows(o: Opening, rule: u32) -> bool { return any_used(rule, rule) && o.rule == rule; }
+// Whether the velocity beyond is that of the opening.
+fn prescribes(o: Opening) -> bool { return any_used(RULE_FIXED, RULE_SUBSONIC) && o.rule <= RULE_SUBSONIC; }
 
 // Pressure of gas that has left a reservoir without losses, at a speed. [Liepmann and Roshko 1957, section 2.10]
 fn reservoir_pressure(o: Opening, speed: f32) -> f32 {
@@ -52,29 +58,24 @@ fn gas_from_afar(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
 
 // State beyond a face next to `here`, across axis n, outward = -1 or 1.
 fn gas_beyond(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
-    let velocity = outward * here.flow[n + 1u] / here.flow.x;
-    switch o.rule {
-        case RULE_FIXED: { return Gas(o.flow, o.energy); }
-        case RULE_SUBSONIC: { return Gas(o.flow, internal_energy(here) + kinetic_energy(o.flow)); }
-        case RULE_TOTAL: {
-            let speed = inflow_speed(o, velocity);
-            let pressure = reservoir_pressure(o, speed);
-            var u = vec3f(0.0);
-            u[n] = -outward * speed;
-            return gas_from_primitive(o.flow.x * pow(pressure / o.pressure, 1.0 / params.gamma), u, pressure);
-        }
-        case RULE_ATTENUATED: {
-            return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share));
-        }
-        case RULE_FAR: { return gas_from_afar(o, n, outward, here); }
-        default: { return here; }
+    if follows(o, RULE_FIXED) { return Gas(o.flow, o.energy); }
+    if follows(o, RULE_SUBSONIC) { return Gas(o.flow, internal_energy(here) + kinetic_energy(o.flow)); }
+    if follows(o, RULE_TOTAL) {
+        let speed = inflow_speed(o, outward * here.flow[n + 1u] / here.flow.x);
+        let pressure = reservoir_pressure(o, speed);
+        var u = vec3f(0.0);
+        u[n] = -outward * speed;
+        return gas_from_primitive(o.flow.x * pow(pressure / o.pressure, 1.0 / params.gamma), u, pressure);
     }
+    if follows(o, RULE_ATTENUATED) { return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share)); }
+    if follows(o, RULE_FAR) { return gas_from_afar(o, n, outward, here); }
+    return here;
 }
 
 // Velocity that the node beyond an open face has.
 fn velocity_beyond(o: Opening, here: vec4f) -> vec3f {
-    if o.rule <= RULE_SUBSONIC { return velocity_of(o.flow); }
-    if o.rule == RULE_ATTENUATED { return velocity_of(mix(here, o.flow, o.share)); }
+    if prescribes(o) { return velocity_of(o.flow); }
+    if follows(o, RULE_ATTENUATED) { return velocity_of(mix(here, o.flow, o.share)); }
     return velocity_of(here);
 }
 
@@ -93,41 +94,37 @@ fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32)
     let pressure = pressure_of(here);
     let c = sound_speed(here.flow.x, pressure);
     let mach = outward * velocity / c;
-    switch o.rule {
-        case RULE_FIXED, RULE_SUBSONIC: { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
-        case RULE_TOTAL: {
-            let speed = inflow_speed(o, outward * velocity);
-            return OpenFace(-outward * speed, reservoir_pressure(o, speed));
-        }
-        case RULE_ATTENUATED: {
-            let beyond = mix(here.flow, o.flow, o.share);
-            return OpenFace((here.flow[n + 1u] + beyond[n + 1u]) / (here.flow.x + beyond.x), -1.0);
-        }
-        case RULE_FAR: {
-            if mach >= 1.0 { return OpenFace(velocity, -1.0); }
-            if mach <= -1.0 { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
-            return OpenFace(velocity, pressure_from_afar(o, sound_from_afar(o, n, outward, velocity)));
-        }
-        default: {
-            if mach >= 1.0 { return OpenFace(velocity, -1.0); }
-            let drift = min(1.0, o.share * max(1.0 - mach * mach, 0.0) * c * dt);
-            if o.rule == RULE_PRESSURE {
-                return OpenFace(known.x + outward * drift * (known.y - o.pressure) / (here.flow.x * c), known.y);
-            }
-            return OpenFace(mix(known.x, velocity, drift), mix(known.y, pressure, drift));
-        }
+    if prescribes(o) { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
+    if follows(o, RULE_TOTAL) {
+        let speed = inflow_speed(o, outward * velocity);
+        return OpenFace(-outward * speed, reservoir_pressure(o, speed));
     }
+    if follows(o, RULE_ATTENUATED) {
+        let beyond = mix(here.flow, o.flow, o.share);
+        return OpenFace((here.flow[n + 1u] + beyond[n + 1u]) / (here.flow.x + beyond.x), -1.0);
+    }
+    if follows(o, RULE_FAR) {
+        if mach >= 1.0 { return OpenFace(velocity, -1.0); }
+        if mach <= -1.0 { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
+        return OpenFace(velocity, pressure_from_afar(o, sound_from_afar(o, n, outward, velocity)));
+    }
+    if mach >= 1.0 { return OpenFace(velocity, -1.0); }
+    let drift = min(1.0, o.share * max(1.0 - mach * mach, 0.0) * c * dt);
+    if follows(o, RULE_PRESSURE) {
+        return OpenFace(known.x + outward * drift * (known.y - o.pressure) / (here.flow.x * c), known.y);
+    }
+    return OpenFace(mix(known.x, velocity, drift), mix(known.y, pressure, drift));
 }
 
 // 1 / Z of an open face, from density and predicted pressure of its cell.
 fn admittance_of(o: Opening, face: OpenFace, density: f32, predicted: f32) -> f32 {
     if face.reference < 0.0 { return 0.0; }
     // That of the far gas behind the wave. Z of the cell would let out less where its pressure is too high.
-    if o.rule == RULE_FAR {
+    if follows(o, RULE_FAR) {
         let ratio = pow(face.reference / o.pressure, 0.5 + 0.5 / params.gamma);
         return 1.0 / (o.flow.x * sound_speed(o.flow.x, o.pressure) * ratio);
     }
     let c = sound_speed(density, predicted);
-    if o.rule == RULE_TOTAL { return 1.0 / (density * max(abs(face.velocity), LEAST_INFLOW * c)); }
+    if follows(o, RULE_TOTAL) { return 1.0 / (density * max(abs(face.velocity), LEAST_INFLOW * c)); }
     return 1.0 / (density * c);
 }

@@ -82,7 +82,7 @@ fn side_transfer(low: vec3i, n: u32, level: u32, shares: vec2f) -> f32 {
         if inside(beyond) || !holds_gas(c) || kind_of(cells[slot_of(beyond)]) != GHOST { continue; }
         let opening = opening_of(cells[slot_of(beyond)]);
         var flow = flow_at(slot_of(c));
-        if opening.rule <= RULE_SUBSONIC { flow = opening.flow; }
+        if prescribes(opening) { flow = opening.flow; }
         let corner = i32(1u - column) * axis(n) + i32(level) * axis(t);
         inflow[column] = select(1.0, -1.0, up) * flow[t + 1u] / flow.x
             * aperture(slot_of(c), t, up) * face_shape(slot_of(c), t, up, corner);

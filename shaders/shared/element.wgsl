@@ -1,17 +1,6 @@
 // The two element pairs on one cell: 3 velocity nodes per axis (offsets -1, 0, +1), 2 vertices per axis (low, high).
-// gradient_entry = -int N_v dN_i, mean_entry = int N_v N_i on the unit cell; on inactive axes the mean is 1.
+// mean_entry = int N_v N_i on the unit cell; on inactive axes the mean is 1.
 // A face takes 1/2 from each of the two nodes across it. [Cao et al. 2022, section 2.6; Fang et al. 2020]
-
-fn gradient_entry(quadratic: bool, node: i32, high: bool) -> f32 {
-    if quadratic {
-        if node == 0 { return select(-1.0 / 6.0, 1.0 / 6.0, high); }
-        if node < 0 { return select(1.0 / 3.0, 1.0 / 6.0, high); }
-        return select(-1.0 / 6.0, -1.0 / 3.0, high);
-    }
-    if node == 0 { return select(-0.5, 0.5, high); }
-    if node < 0 { return select(0.5, 0.0, high); }
-    return select(0.0, -0.5, high);
-}
 
 fn mean_entry(quadratic: bool, node: i32, high: bool) -> f32 {
     if quadratic {
@@ -29,17 +18,6 @@ fn mass_entry(quadratic: bool, node: vec3i) -> f32 {
         share *= mean_entry(quadratic, node[a], false) + mean_entry(quadratic, node[a], true);
     }
     return share;
-}
-
-// Gradient coefficients of one vertex (corner) of an element on one of its nodes, all axes; times face_area() in physical units.
-fn element_entry(quadratic: bool, node: vec3i, corner: vec3i) -> vec3f {
-    var mean = vec3f(1.0);
-    var slope = vec3f(0.0);
-    for (var a = 0u; a < DIM; a++) {
-        mean[a] = mean_entry(quadratic, node[a], corner[a] == 1);
-        slope[a] = gradient_entry(quadratic, node[a], corner[a] == 1);
-    }
-    return vec3f(slope.x * mean.y * mean.z, mean.x * slope.y * mean.z, mean.x * mean.y * slope.z);
 }
 
 // Coefficient of one vertex of a face of an element, across axis n, on one node: 1/2 across, means along the face.

@@ -36,13 +36,22 @@ fn open_carrier(c: vec3i, n: u32) -> vec4f {
         here[n] = -here[n];
     } else if !inside(c) {
         let opening = opening_of(word_at(c));
-        if opening.rule <= RULE_SUBSONIC { return vec4f(velocity_of(opening.flow), 0.0); }
+        if prescribes(opening) { return vec4f(velocity_of(opening.flow), 0.0); }
     }
     return here;
 }
 
-// Whether three cells on each side of the face above `low`, or images of cells, hold gas alone; with cut cells those around them, too.
+// Whether the cells a to f of a face, `low` being c, or what they are images of, hold gas alone; with cut cells those around them, too.
 fn all_gas(low: vec3i, n: u32) -> bool {
+    if MIRRORED == 0u && PERIODIC == 0u {
+        if low[n] < 2 || low[n] + 3 >= i32(params.cells[n]) { return false; }
+        let s = step_of(n);
+        let at = max(slot_of(low), 2u * s);
+        let inner = vec4u(cells[at - s], cells[at], cells[at + s], cells[at + 2u * s]);
+        let outer = cells[at - 2u * s] | cells[at + 3u * s];
+        if CUT && !has(inner.x & inner.y & inner.z & inner.w, NODE_INTERIOR) { return false; }
+        return kind_of(inner.x | inner.y | inner.z | inner.w | outer) == GAS;
+    }
     for (var k = -2; k <= 3; k++) {
         let at = mirrored(low + k * axis(n));
         if !inside(at) || kind_of(cells[slot_of(at)]) != GAS { return false; }

@@ -58,30 +58,6 @@ fn regular_rows(slot: u32, v: vec3i) -> f32 {
     return low.y * below.x + high.x * above.x + low.z * below.y - high.z * above.y;
 }
 
-// Kinds of the cells around a vertex: the one below it along x, y and z at place 0, above them at 7. `count`: corner_count() or 0.
-fn kinds_beside(v: vec3i, count: u32) -> Kinds {
-    var kinds: Kinds;
-    for (var k = 0u; k < count; k++) { add_kind(&kinds, kind_of(cells[slot_of(mirrored(v - corner_offset(k)))]), 7u - k); }
-    return kinds;
-}
-
-// The two cells along x in each of the four rows.
-fn columns_beside(bits: u32) -> mat2x4f {
-    let rows = vec4u(bits) >> vec4u(0u, 2u, 4u, 6u);
-    return mat2x4f(column(rows, 0u), column(rows, 1u));
-}
-
-// Places of the cells below and above along y, and along z.
-const BELOW = vec2u(0x33u, 0x0fu);
-const ABOVE = vec2u(0xccu, 0xf0u);
-
-// Whether the nodes at k = vertex - node along y and z belong to one of these cells.
-fn touches(bits: u32, y: i32, z: i32) -> bool {
-    let k = vec2i(y, z);
-    let near = select(vec2u(0u), BELOW, k >= vec2i(0)) | select(vec2u(0u), ABOVE, k <= vec2i(1));
-    return (bits & near.x & near.y) != 0u;
-}
-
 fn velocity_at(base: u32, j: vec3i) -> vec3f { return work[base + slot_of(j)].xyz; }
 
 // What a line of nodes gives to a vertex through the faces between cells of one kind and another: the transpose of faces_between.

@@ -1,6 +1,6 @@
 // Stencils between gas and body: every vertex, or node, once, and the elements that it shares with the other by their kinds.
 // Cells come as bits, one word per kind; rows of cells along x, four of which lie around a line of vertices or nodes along x, in the order
-// y below and z below, y above and z below, y below and z above, both above.
+// y below and z below, y above and z below, y below and z above, both above. Needs the binding cells.
 
 // Cells of one kind each, one bit per cell.
 struct Kinds { gas: u32, solid: u32, closed: u32 }
@@ -48,3 +48,27 @@ fn column(rows: vec4u, i: u32) -> vec4f { return vec4f((rows >> vec4u(i)) & vec4
 // +1 where a cell has one of the other kind above it, -1 where below: y and z faces of four cells around a line.
 fn faces_y(own: vec4f, other: vec4f) -> vec2f { return own.xz * other.yw - own.yw * other.xz; }
 fn faces_z(own: vec4f, other: vec4f) -> vec2f { return own.xy * other.zw - own.zw * other.xy; }
+
+// Kinds of the cells around a vertex: the one below it along x, y and z at place 0, above them at 7. `count`: corner_count() or 0.
+fn kinds_beside(v: vec3i, count: u32) -> Kinds {
+    var kinds: Kinds;
+    for (var k = 0u; k < count; k++) { add_kind(&kinds, kind_of(cells[slot_of(mirrored(v - corner_offset(k)))]), 7u - k); }
+    return kinds;
+}
+
+// The two cells along x in each of the four rows.
+fn columns_beside(bits: u32) -> mat2x4f {
+    let rows = vec4u(bits) >> vec4u(0u, 2u, 4u, 6u);
+    return mat2x4f(column(rows, 0u), column(rows, 1u));
+}
+
+// Places of the cells below and above along y, and along z.
+const BELOW = vec2u(0x33u, 0x0fu);
+const ABOVE = vec2u(0xccu, 0xf0u);
+
+// Whether the nodes at k = vertex - node along y and z belong to one of these cells.
+fn touches(bits: u32, y: i32, z: i32) -> bool {
+    let k = vec2i(y, z);
+    let near = select(vec2u(0u), BELOW, k >= vec2i(0)) | select(vec2u(0u), ABOVE, k <= vec2i(1));
+    return (bits & near.x & near.y) != 0u;
+}

@@ -15,6 +15,7 @@ override FRICTION: bool;        // some body does not slip
 override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity
 override IMPLICIT: bool;        // one elastic step by backward Euler instead of explicit sub-steps
 override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's volumetric part, which the law then lacks
+override RULES_USED: u32;        // rules of open sides in the scene, as bits
 override PERIODIC: u32;          // axes whose ends meet, as bits
 override MIRRORED: u32;         // sides that are planes of symmetry: walls, as bits; gas only, B1B0
 override SLEEPS: bool;          // gas that nothing reaches in a step may be left out of it, see still.wgsl

@@ -26,6 +26,7 @@ pub struct CoupledSolve {
     masses: [Bound; 2],
     open: Bound,
     forces_of_pressure: [Bound; 2],
+    forces_on_bodies: Option<Bound>,
     velocities: [Bound; 2],
     vertices: Vertices,
     surface: Option<Surface>,
@@ -94,6 +95,10 @@ impl CoupledSolve {
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, limits, &layout)?;
         let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
         let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
+        let on_bodies = || {
+            let named = [("x", state.pressure.raw())];
+            state.bind(gpu, "solve_forces.wgsl", "solve_forces", &named, &[("LISTED", 1.0), ("BODIES_ONLY", 1.0)])
+        };
         let solid = |shader: &str, entries: &[&str]| -> Result<Vec<Bound>> {
             let entries = if state.has_solids() { entries } else { &[] };
             entries.iter().map(|entry| state.bind(gpu, shader, entry, &[], &[])).collect()
@@ -108,6 +113,7 @@ impl CoupledSolve {
             masses: setup("solve_masses")?,
             open: state.bind(gpu, "solve_open.wgsl", "solve_open", &[], &[("LISTED", 1.0)])?,
             forces_of_pressure: forces(state.pressure.raw())?,
+            forces_on_bodies: state.has_solids().then(on_bodies).transpose()?,
             velocities: setup("solve_velocities")?,
             vertices: Vertices::new(parts)?,
             surface: Surface::new(parts)?,
@@ -189,8 +195,8 @@ impl CoupledSolve {
     /// X = X* + D, and with bodies the forces that belong to it.
     pub fn record_solution(&self, pass: &mut Pass, state: &State) {
         pass.dispatch(&self.add, &extent(state, "UPDATE", Entry::Reduce));
-        if state.has_solids() {
-            pass.dispatch(&self.forces_of_pressure[1], &extent(state, "UPDATE", Entry::ListAwake));
+        if let Some(forces) = &self.forces_on_bodies {
+            pass.dispatch(forces, &extent(state, "UPDATE", Entry::ListAwake));
         }
         for kernel in &self.gradient {
             pass.dispatch(kernel, &slots(state, "UPDATE"));

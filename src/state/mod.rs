@@ -118,6 +118,7 @@ impl State {
         };
         let table = cut::table(&grid, &geometry);
         let mut overrides = params::overrides(scene, !start.is_empty());
+        overrides.push(("RULES_USED", f64::from(openings.rules_used())));
         overrides.push(("DRIVEN", f64::from(u8::from(supports.driven))));
         overrides.push(("FRICTION", f64::from(u8::from(supports.friction))));
         overrides.push(("CUT", f64::from(u8::from(!table.is_empty()))));

@@ -142,6 +142,12 @@ impl Openings {
         place.map_or(constants::WALL, |place| constants::GHOST | (place << constants::RULE_SHIFT))
     }
 
+    /// Rules in the table, as bits.
+    #[must_use]
+    pub fn rules_used(&self) -> u32 {
+        self.table.iter().fold(0, |used, opening| used | 1 << opening.rule)
+    }
+
     /// Whether any state changes in time.
     #[must_use]
     pub fn timed(&self) -> bool {
