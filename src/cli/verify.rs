@@ -49,12 +49,12 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
     let done = || bar.iter().for_each(|bar| bar.inc(1));
     let devices = [std::slice::from_ref(&gpu), &more_devices(cli)?].concat();
     let (findings, outcome) = verify::perform(&devices, &Common::new(suite, &notify), &cases, &done);
-    let (rows, plots) = (findings.rows, findings.plots);
+    let (rows, plots, seconds) = (findings.rows, findings.plots, findings.seconds);
     if let Some(bar) = &bar {
         bar.finish_and_clear();
     }
     let head = head(options, &gpu, start.elapsed().as_secs_f64());
-    let object = verify::json(&head, &rows);
+    let object = verify::json(&head, &rows, &seconds);
     write(&options.out.join("report.html"), &verify::html(&head, &rows, &plots))?;
     write(&options.out.join("verify.json"), &format!("{object:#}\n"))?;
     if cli.json {

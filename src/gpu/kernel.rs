@@ -1,5 +1,6 @@
 //! Compute kernels whose bindings are read from the WGSL: Rust names buffers, never binding numbers.
 
+use std::fmt::Write as _;
 use std::num::NonZeroU64;
 use std::sync::Arc;
 
@@ -11,6 +12,9 @@ use crate::error::{Error, Result};
 
 /// Threads of a workgroup, flat along x; every shader sees it as `const WORKGROUP`.
 pub const WORKGROUP: u32 = 64;
+
+/// The override that tells the two forms of a kernel apart, in its name too.
+const LISTED: &str = "LISTED";
 
 /// What is fixed when a shader is compiled.
 #[derive(Clone, Copy, Debug, Default)]
@@ -64,24 +68,35 @@ pub fn group_counts(groups: u64, limit: u32) -> [u32; 3] {
 }
 
 impl Kernel {
-    /// One entry point of a shader, compiled once per device and constants.
+    /// One entry point of a shader, compiled once per device, constants text, and values of the overrides that it reads.
     ///
     /// # Errors
     /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings.
     pub fn new(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
-        let key = format!("{shader}: {entry} {:?}\n{}", constants.overrides, constants.source);
+        let (compiled, module) = compiled(gpu, shader, constants.source)?;
+        let mut read = String::new();
+        for (name, value) in constants.overrides {
+            if *name == LISTED || compiled.reads_override(entry, name)? {
+                let _ = write!(read, " {name} {value}");
+            }
+        }
+        let key = format!("{shader}: {entry}{read}\n{}", constants.source);
         if let Some(known) = lock(&gpu.kernels).get(&key) {
             return Ok(known.clone());
         }
-        let kernel = Kernel::compile(gpu, shader, entry, constants)?;
+        let kernel = Kernel::compile(gpu, (&compiled, &module), entry, constants)?;
         lock(&gpu.kernels).insert(key, kernel.clone());
         Ok(kernel)
     }
 
     /// Compiles one entry point.
-    fn compile(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
-        let (compiled, module) = compiled(gpu, shader, constants.source)?;
-        let label = format!("shaders/{shader}: {entry}");
+    fn compile(
+        gpu: &Gpu,
+        (compiled, module): (&Compiled, &wgpu::ShaderModule),
+        entry: &str,
+        constants: &Constants<'_>,
+    ) -> Result<Kernel> {
+        let label = format!("shaders/{}: {entry}", compiled.shader.name);
         let bindings = compiled.bindings(entry)?;
         let threads_per_group = compiled.threads_per_group(entry)?;
         let entries: Vec<_> = bindings.iter().map(layout_entry).collect();
@@ -96,12 +111,12 @@ impl Kernel {
         });
         let overrides: Vec<_> =
             constants.overrides.iter().copied().filter(|(name, _)| compiled.has_override(name)).collect();
-        let listed = overrides.iter().any(|&(name, value)| name == "LISTED" && value != 0.0);
+        let listed = overrides.iter().any(|&(name, value)| name == LISTED && value != 0.0);
         let name = if listed { format!("{entry} (listed)") } else { entry.to_owned() };
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(&label),
             layout: Some(&pipeline_layout),
-            module: &module,
+            module,
             entry_point: Some(entry),
             compilation_options: wgpu::PipelineCompilationOptions { constants: &overrides, ..Default::default() },
             cache: None,

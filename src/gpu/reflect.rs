@@ -1,5 +1,7 @@
 //! What a shader declares, read from its parsed form: no device needed.
 
+use std::collections::BTreeSet;
+
 use wgpu::naga;
 
 use super::shader::Shader;
@@ -41,9 +43,26 @@ pub struct Compiled {
     pub module: naga::Module,
     /// Which entry point uses which variable.
     pub uses: naga::valid::ModuleInfo,
+    /// For each entry point the names of the overrides that it reads, directly or through functions.
+    overrides: Vec<BTreeSet<String>>,
 }
 
 impl Compiled {
+    /// Of a parsed and validated text.
+    #[must_use]
+    pub fn new(shader: Shader, module: naga::Module, uses: naga::valid::ModuleInfo) -> Compiled {
+        let overrides = module.entry_points.iter().map(|point| overrides_read(&module, &point.function)).collect();
+        Compiled { shader, module, uses, overrides }
+    }
+
+    /// Whether an entry point gives other code for another value of `override name`.
+    ///
+    /// # Errors
+    /// [`Error::Shader`] for an unknown entry point.
+    pub fn reads_override(&self, entry: &str, name: &str) -> Result<bool> {
+        Ok(self.overrides[self.position(entry)?].contains(name))
+    }
+
     /// Names of the compute entry points, in the order of the text.
     pub fn entry_points(&self) -> impl Iterator<Item = &str> {
         self.module.entry_points.iter().map(|point| point.name.as_str())
@@ -117,5 +136,44 @@ impl Compiled {
         };
         let min_bytes = u64::from(self.module.types[variable.ty].inner.size(self.module.to_ctx()));
         Ok(Binding { name, index: place.binding, access, min_bytes })
+    }
+}
+
+/// Names of the overrides that a function and those it calls read, and of all that global expressions do.
+fn overrides_read(module: &naga::Module, function: &naga::Function) -> BTreeSet<String> {
+    let mut read = BTreeSet::new();
+    note_overrides(module, &module.global_expressions, &mut read);
+    let (mut known, mut left) = (BTreeSet::new(), vec![function]);
+    while let Some(function) = left.pop() {
+        note_overrides(module, &function.expressions, &mut read);
+        let mut called = Vec::new();
+        note_calls(&function.body, &mut called);
+        left.extend(called.into_iter().filter(|callee| known.insert(*callee)).map(|callee| &module.functions[callee]));
+    }
+    read
+}
+
+fn note_overrides(module: &naga::Module, expressions: &naga::Arena<naga::Expression>, read: &mut BTreeSet<String>) {
+    for (_, expression) in expressions.iter() {
+        if let naga::Expression::Override(handle) = expression {
+            read.extend(module.overrides[*handle].name.clone());
+        }
+    }
+}
+
+fn note_calls(block: &naga::Block, called: &mut Vec<naga::Handle<naga::Function>>) {
+    for statement in block {
+        match statement {
+            naga::Statement::Call { function, .. } => called.push(*function),
+            naga::Statement::Block(inner) => note_calls(inner, called),
+            naga::Statement::If { accept, reject, .. } => {
+                [accept, reject].into_iter().for_each(|inner| note_calls(inner, called))
+            }
+            naga::Statement::Switch { cases, .. } => cases.iter().for_each(|case| note_calls(&case.body, called)),
+            naga::Statement::Loop { body, continuing, .. } => {
+                [body, continuing].into_iter().for_each(|inner| note_calls(inner, called));
+            }
+            _ => {}
+        }
     }
 }

@@ -103,7 +103,7 @@ impl Shader {
                 self.describe(&with_causes(error.as_inner()), &labels, "")
             },
         )?;
-        Ok(Compiled { shader: self, module, uses })
+        Ok(Compiled::new(self, module, uses))
     }
 
     /// File and line, `shaders/p2g.wgsl:12`, of a line of the flattened text (from 1).

@@ -96,7 +96,7 @@ pub fn html(head: &Head, rows: &[Row], plots: &[(&'static str, Plot)]) -> String
 
 /// The result as an object.
 #[must_use]
-pub fn json(head: &Head, rows: &[Row]) -> serde_json::Value {
+pub fn json(head: &Head, rows: &[Row], seconds: &[(&str, f64)]) -> serde_json::Value {
     let row = |row: &Row| {
         let mut object = json!(row);
         object["verdict"] = json!(row.verdict());
@@ -104,7 +104,8 @@ pub fn json(head: &Head, rows: &[Row]) -> serde_json::Value {
     };
     let case = |(case, rows): (&Case, Vec<&Row>)| {
         let rows: Vec<_> = rows.into_iter().map(row).collect();
-        json!({ "id": case.id, "title": case.title, "group": case.group, "source": case.source, "rows": rows })
+        let seconds = seconds.iter().find(|(id, _)| *id == case.id).map(|(_, seconds)| seconds);
+        json!({ "id": case.id, "title": case.title, "group": case.group, "source": case.source, "seconds": seconds, "rows": rows })
     };
     let passed = rows.iter().all(|row| row.verdict() != Verdict::Fail);
     let cases: Vec<_> = by_case(rows).map(case).collect();

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 
 use super::plot::{Plot, Style};
 use super::profile::Profile;
@@ -137,6 +138,8 @@ pub struct Findings {
     pub rows: Vec<Row>,
     /// All plots, with the case they belong to; an empty one stands for the whole.
     pub plots: Vec<(&'static str, Plot)>,
+    /// Wall-clock time of each case \[s\].
+    pub seconds: Vec<(&'static str, f64)>,
     /// Deviations of eq. (38) over the cells, by title.
     curves: Vec<(String, Vec<[f64; 2]>)>,
 }
@@ -146,6 +149,7 @@ impl Findings {
     pub fn add(&mut self, next: Findings) {
         self.rows.extend(next.rows);
         self.plots.extend(next.plots);
+        self.seconds.extend(next.seconds);
         self.curves.extend(next.curves);
     }
 
@@ -174,7 +178,7 @@ impl<'a> Session<'a> {
     /// Runs a case to its end. A run that diverges is a failed row, not the end of the verification. What was found before an error
     /// stays.
     pub fn perform(gpu: &'a Gpu, common: &'a Common<'a>, case: &'static Case) -> (Findings, Result<()>) {
-        let (suite, health, findings) = (common.suite, Vec::new(), Findings::default());
+        let (suite, health, findings, start) = (common.suite, Vec::new(), Findings::default(), Instant::now());
         let mut session = Session { gpu, common, suite, case: case.id, health, findings };
         let outcome = match (case.run)(&mut session) {
             Err(error @ crate::Error::Diverged { .. }) => {
@@ -186,6 +190,7 @@ impl<'a> Session<'a> {
         if outcome.is_ok() {
             session.report_health();
         }
+        session.findings.seconds.push((case.id, start.elapsed().as_secs_f64()));
         (session.findings, outcome)
     }
 

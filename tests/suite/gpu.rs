@@ -51,7 +51,7 @@ fn group_counts_cover_every_length() {
 
 #[test]
 fn a_dispatch_of_more_than_65535_workgroups_reaches_every_element() {
-    let Some(gpu) = gpu_or_skip().map(|gpu| with_shaders(gpu, &[("number.wgsl", NUMBER)])) else { return };
+    let Some(gpu) = with_shaders(&[("number.wgsl", NUMBER)]) else { return };
     let count = 65_535 * 64 + 65;
     let numbers = Buffer::<u32>::new(&gpu, "numbers", count).unwrap();
     let params = Buffer::<u32>::uniform(&gpu, "params", 1).unwrap();
@@ -79,7 +79,7 @@ fn a_dispatch_of_more_than_65535_workgroups_reaches_every_element() {
 
 #[test]
 fn copies_and_clears_keep_their_place_among_dispatches() {
-    let Some(gpu) = gpu_or_skip().map(|gpu| with_shaders(gpu, &[("number.wgsl", NUMBER)])) else { return };
+    let Some(gpu) = with_shaders(&[("number.wgsl", NUMBER)]) else { return };
     let numbers = Buffer::<u32>::new(&gpu, "numbers", 8).unwrap();
     let kept = Buffer::<u32>::new(&gpu, "kept", 2).unwrap();
     let params = Buffer::<u32>::uniform(&gpu, "params", 1).unwrap();
@@ -97,7 +97,7 @@ fn copies_and_clears_keep_their_place_among_dispatches() {
 
 #[test]
 fn binding_by_name_is_checked_both_ways() {
-    let Some(gpu) = gpu_or_skip().map(|gpu| with_shaders(gpu, &[("number.wgsl", NUMBER)])) else { return };
+    let Some(gpu) = with_shaders(&[("number.wgsl", NUMBER)]) else { return };
     let kernel = number_kernel(&gpu);
     let numbers = Buffer::<u32>::new(&gpu, "numbers", 4).unwrap();
     let (good, buffer) = (("numbers", numbers.raw()), numbers.raw());
@@ -118,7 +118,6 @@ fn binding_by_name_is_checked_both_ways() {
 
 #[test]
 fn more_than_eight_storage_buffers_are_refused() {
-    let Some(gpu) = gpu_or_skip() else { return };
     let declared = (0..9).map(|i| format!("@group(0) @binding({i}) var<storage, read_write> b{i}: array<u32>;\n"));
     let written = (0..9).map(|i| format!("    b{i}[0] = 1u;\n"));
     let text = format!(
@@ -126,7 +125,7 @@ fn more_than_eight_storage_buffers_are_refused() {
         declared.collect::<String>(),
         written.collect::<String>()
     );
-    let gpu = with_shaders(gpu, &[("nine.wgsl", &text)]);
+    let Some(gpu) = with_shaders(&[("nine.wgsl", &text)]) else { return };
     let text = message(Kernel::new(&gpu, "nine.wgsl", "nine", &Constants::default()));
     assert!(text.contains("uses 9 storage buffers"), "{text}");
 }
@@ -172,6 +171,22 @@ fn an_unknown_device_is_answered_with_the_list() {
 fn compiled(files: &[(&str, &str)], constants: &str) -> Result<Shader, Error> {
     let files = files.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect();
     Shader::load("main.wgsl", constants, &Folder::Given(files))?.compile().map(|compiled| compiled.shader)
+}
+
+#[test]
+fn a_kernel_depends_on_the_overrides_that_it_reads() {
+    // Through functions, in whatever statement they are called, and not those of its neighbour.
+    let text = "override A: u32; override B: u32 = 1; override C: u32; override D: u32;
+        @group(0) @binding(0) var<storage, read_write> out: array<u32>;
+        fn deep() { out[0] = A; }
+        fn middle(n: u32) { for (var k = 0u; k < n; k++) { switch k { case 1u: { deep(); } default: { } } } }
+        fn value() -> u32 { return B; }
+        @compute @workgroup_size(1) fn first() { if out[1] > 2u { middle(value()); } }
+        @compute @workgroup_size(1) fn second() { out[2] = C; }";
+    let files = vec![("main.wgsl".to_owned(), text.to_owned())];
+    let compiled = Shader::load("main.wgsl", "", &Folder::Given(files)).unwrap().compile().unwrap();
+    let read = |entry: &str| ["A", "B", "C", "D"].map(|name| compiled.reads_override(entry, name).unwrap());
+    assert_eq!((read("first"), read("second")), ([true, true, false, false], [false, false, true, false]));
 }
 
 #[test]

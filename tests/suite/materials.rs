@@ -4,7 +4,7 @@ use brisance::gpu::{Buffer, Constants, Extent, Gpu, Kernel, Pass, readback};
 use brisance::material::{KINDS, Material, wgsl_includes, wgsl_switch};
 use glam::{DMat3, DVec3};
 
-use crate::common::{Random, gpu_or_skip, with_shaders};
+use crate::common::{Random, with_shaders};
 use crate::reference::material::eigen;
 
 /// Asks a law for everything it knows of given deformation gradients.
@@ -58,21 +58,23 @@ fn columns(m: DMat3) -> [f32; 12] {
     [a, b, c].concat().try_into().expect("three columns of four")
 }
 
+fn asked() -> Option<Gpu> {
+    with_shaders(&[("ask.wgsl", &format!("{ASK}\n{}\n{}", wgsl_includes(), wgsl_switch()))])
+}
+
 fn ask(gpu: &Gpu, material: &Material, given: &[DMat3]) -> Vec<Answer> {
-    let text = format!("{ASK}\n{}\n{}", wgsl_includes(), wgsl_switch());
-    let gpu = with_shaders(gpu.clone(), &[("ask.wgsl", &text)]);
-    let kernel = Kernel::new(&gpu, "ask.wgsl", "ask", &Constants { overrides: &[("DIM", 3.0)], source: "" })
+    let kernel = Kernel::new(gpu, "ask.wgsl", "ask", &Constants { overrides: &[("DIM", 3.0)], source: "" })
         .unwrap_or_else(|error| panic!("{error}"));
-    let params = Buffer::<brisance::material::MaterialParams>::new(&gpu, "material", 1).expect("memory");
-    let matrices = Buffer::<f32>::new(&gpu, "given", 12 * given.len()).expect("memory");
-    let answers = Buffer::<f32>::new(&gpu, "answers", 28 * given.len()).expect("memory");
-    params.write(&gpu, 0, &[material.params()]);
-    matrices.write(&gpu, 0, &given.iter().flat_map(|f| columns(*f)).collect::<Vec<_>>());
+    let params = Buffer::<brisance::material::MaterialParams>::new(gpu, "material", 1).expect("memory");
+    let matrices = Buffer::<f32>::new(gpu, "given", 12 * given.len()).expect("memory");
+    let answers = Buffer::<f32>::new(gpu, "answers", 28 * given.len()).expect("memory");
+    params.write(gpu, 0, &[material.params()]);
+    matrices.write(gpu, 0, &given.iter().flat_map(|f| columns(*f)).collect::<Vec<_>>());
     let names = [("material", params.raw()), ("given", matrices.raw()), ("answers", answers.raw())];
-    let mut pass = Pass::new(&gpu, "ask");
-    pass.dispatch(&kernel.bind(&gpu, &names).expect("all names"), &Extent::Threads(given.len() as u64));
+    let mut pass = Pass::new(gpu, "ask");
+    pass.dispatch(&kernel.bind(gpu, &names).expect("all names"), &Extent::Threads(given.len() as u64));
     pass.submit().expect("a device");
-    let found = readback::read(&gpu, &answers).expect("a device");
+    let found = readback::read(gpu, &answers).expect("a device");
     let matrix = |at: &[f32]| {
         let column = |k: usize| DVec3::new(at[4 * k].into(), at[4 * k + 1].into(), at[4 * k + 2].into());
         DMat3::from_cols(column(0), column(1), column(2))
@@ -155,7 +157,7 @@ fn largest(m: DMat3) -> f64 {
 
 #[test]
 fn stress_is_the_derivative_of_energy() {
-    let Some(gpu) = gpu_or_skip() else { return };
+    let Some(gpu) = asked() else { return };
     for material in all() {
         for (size, of_stress, of_energy) in [(0.3, 2e-5, 2e-5), (1e-3, 3e-4, 1e-3)] {
             let given = gradients(size, 40);
@@ -180,7 +182,7 @@ fn stiffness(material: &Material, f: DMat3, n: DVec3, m: DVec3) -> f64 {
 
 #[test]
 fn no_wave_in_a_deformed_body_is_faster_than_the_law_says() {
-    let Some(gpu) = gpu_or_skip() else { return };
+    let Some(gpu) = asked() else { return };
     let mut random = Random(11);
     let mut given = gradients(0.5, 40);
     given.push(DMat3::IDENTITY);
@@ -201,7 +203,7 @@ fn no_wave_in_a_deformed_body_is_faster_than_the_law_says() {
 
 #[test]
 fn laws_do_not_see_rotations() {
-    let Some(gpu) = gpu_or_skip() else { return };
+    let Some(gpu) = asked() else { return };
     let turn = rotation(&mut Random(3));
     let given = gradients(0.3, 40);
     let turned = given.iter().map(|f| turn * *f).collect::<Vec<_>>();
@@ -229,7 +231,7 @@ fn shear_and_trace(material: &Material, f: DMat3) -> [f64; 2] {
 
 #[test]
 fn metals_flow_down_to_the_grown_yield_stress() {
-    let Some(gpu) = gpu_or_skip() else { return };
+    let Some(gpu) = asked() else { return };
     for kind in ["von_mises", "hencky"] {
         let metal = material(kind, YIELDS);
         let given = gradients(0.3, 60);
@@ -251,7 +253,7 @@ fn metals_flow_down_to_the_grown_yield_stress() {
 /// Squares of such strains are below the smallest numbers of single precision.
 #[test]
 fn the_slightest_strains_are_no_fault() {
-    let Some(gpu) = gpu_or_skip() else { return };
+    let Some(gpu) = asked() else { return };
     let strained = |step: i32| {
         let e = 10.0_f64.powf(-0.05 * f64::from(step));
         DMat3::from_cols(DVec3::X, DVec3::new(e, 1.0, 2.0 * e), DVec3::new(3.0 * e, 0.0, 1.0))
@@ -268,7 +270,7 @@ fn the_slightest_strains_are_no_fault() {
 
 #[test]
 fn soil_bears_pressure_by_friction_and_no_tension() {
-    let Some(gpu) = gpu_or_skip() else { return };
+    let Some(gpu) = asked() else { return };
     for cohesion in [0.0, 2.0] {
         let soil = material("drucker_prager", &[("friction_angle", 35.0), ("cohesion", cohesion)]);
         let given = gradients(0.2, 80);

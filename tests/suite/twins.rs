@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 /// Numbers of a particle that are compared.
 type Components = fn(&Particle) -> Vec<f64>;
 
-use crate::common::Random;
+use crate::common::{Borrowed, Random};
 use crate::reference::grid::Grid;
 use crate::reference::material::Material;
 use crate::reference::step::{Report, Trace, traced_step};
@@ -78,7 +78,6 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
 
 /// A simulation and its twin.
 pub(crate) struct Twins {
-    gpu: Gpu,
     simulation: Simulation,
     problem: Problem,
     state: State,
@@ -86,6 +85,7 @@ pub(crate) struct Twins {
     pub(crate) recordings: usize,
     /// What differs more than rounding explains.
     failures: Vec<String>,
+    gpu: Borrowed, // outlives the simulation
 }
 
 fn fetch<T: bytemuck::Pod>(gpu: &Gpu, buffer: &Buffer<T>) -> Vec<T> {
@@ -94,7 +94,7 @@ fn fetch<T: bytemuck::Pod>(gpu: &Gpu, buffer: &Buffer<T>) -> Vec<T> {
 
 impl Twins {
     /// Both in the same state: the scene's, with random gas and velocity gradients of a relative size, in numbers that f32 holds.
-    pub(crate) fn new(gpu: Gpu, text: &str, overrides: &[&str], noise: f32) -> Twins {
+    pub(crate) fn new(gpu: Borrowed, text: &str, overrides: &[&str], noise: f32) -> Twins {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let scene = Scene::parse(text, "kernels.toml", &overrides).unwrap_or_else(|error| panic!("{error}"));
         let mut simulation = Simulation::new(&gpu, &scene).unwrap();

@@ -127,7 +127,7 @@ fn documents_are_well_formed() {
     assert!(!html.contains("NaN,") && !html.contains(",inf") && !html.contains("src=") && !html.contains("href="));
     assert!(html.contains("class=\"fail\""));
 
-    let object = verify::json(&head(), &rows);
+    let object = verify::json(&head(), &rows, &[]);
     let object: serde_json::Value = serde_json::from_str(&object.to_string()).unwrap();
     assert_eq!((&object["passed"], &object["cases"][1]["rows"][0]["verdict"]), (&false.into(), &"fail".into()));
     assert_eq!(object["cases"][0]["id"], "sod");
