@@ -72,23 +72,24 @@ fn cylinder(session: &mut Session<'_>) -> Result<()> {
 }
 
 /// Why the pressure at the nose of the sphere is too low.
-const THIN: &str = "the shock leaves 2 % too much entropy with 16 and with 24 cells per radius, cause not found; the total enthalpy is right to 0.5 %";
+const THIN: &str = "eight cells from shock to nose: the captured shock leaves 1.5 % too much entropy on the axis, and pressures take turns by 1 % from cell to cell";
 
 fn sphere(session: &mut Session<'_>) -> Result<()> {
     let pitot = gasdynamics::pitot_pressure(AIR, MACH);
-    for cells in [28, 56] {
+    for cells in [24, 60] {
         let run = session.run("validation/sphere.toml", Setting::standard(cells), &[])?;
         // the first row of cells lies beside the axis by half a cell
         let line = Profile::of(&run.scene, &run.snapshot);
         let row = session.check(&run, "stand-off over radius", stand_off(&line)).reference(SPHERE, FITTED);
-        let nose = line.extremes(PRESSURE, [-1.0 - 3.0 * line.spacing, -1.0])[1];
-        let fine = cells == 56;
+        // a cell that the nose halves has its centre at the nose
+        let nose = line.extremes(PRESSURE, [-1.0 - 3.0 * line.spacing, -1.0 + 0.25 * line.spacing])[1];
+        let fine = cells == 60;
         if fine {
             row.within(0.05);
         }
         let row = session.check(&run, "pressure at the nose", nose).reference(pitot, "Rayleigh pitot");
         if fine {
-            row.within(0.01).known(Limit::AtLeast(0.95 * pitot), THIN);
+            row.within(0.01).known(Limit::AtLeast(0.98 * pitot), THIN);
         }
         session.plot(nose_plot(&run, &line, SPHERE));
     }

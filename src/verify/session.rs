@@ -12,7 +12,7 @@ use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::expect::{Budget, Summary};
 use crate::gpu::Gpu;
-use crate::scene::{Pair, Scene};
+use crate::scene::{self, Pair, Scene};
 use crate::simulation::Simulation;
 use crate::snapshot::Snapshot;
 
@@ -37,6 +37,8 @@ pub enum Integrator {
     Predictor,
     /// Two solves per step.
     Ars222,
+    /// Two solves where the scene's steps allow them, else one.
+    Auto,
 }
 
 impl Integrator {
@@ -47,11 +49,22 @@ impl Integrator {
             Integrator::Paper => "paper",
             Integrator::Predictor => "predictor",
             Integrator::Ars222 => "ars222",
+            Integrator::Auto => "auto",
         }
     }
 
     fn overrides(self) -> Vec<String> {
         vec![format!("numerics.integrator={}", self.name())]
+    }
+
+    /// That of a scene, which has made its choice.
+    fn of(scene: &Scene) -> Self {
+        match scene.integrator() {
+            scene::Integrator::Paper => Integrator::Paper,
+            scene::Integrator::Predictor => Integrator::Predictor,
+            scene::Integrator::Ars222 => Integrator::Ars222,
+            scene::Integrator::Auto => Integrator::Auto,
+        }
     }
 }
 
@@ -240,7 +253,7 @@ impl<'a> Session<'a> {
             scene = scene.with_resolution(cells)?;
         }
         let size = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join("x");
-        let label = format!("{} {} {size}", pair_name(pair), integrator.name());
+        let label = format!("{} {} {size}", pair_name(pair), Integrator::of(&scene).name());
         (self.common.notify)(&format!("{}: {label}", self.case))?;
         Ok((scene, label))
     }

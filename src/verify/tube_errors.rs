@@ -71,7 +71,7 @@ pub(super) fn expected(errors: &Errors, setting: Setting) -> Option<f64> {
         (Pair::B2b1, Integrator::Predictor) => 2,
         (Pair::B2b1, Integrator::Paper) => 3,
         (Pair::B1b0, Integrator::Ars222) => 4,
-        (Pair::B2b1, Integrator::Ars222) => return None,
+        (Pair::B2b1, Integrator::Ars222) | (_, Integrator::Auto) => return None,
     };
     let column = super::tubes::RESOLUTIONS.iter().position(|cells| *cells == setting.cells)?;
     Some(errors[row][column]).filter(|error| error.is_finite())
