@@ -30,6 +30,10 @@ fn put(block: u32, at: u32, lane: u32, value: vec4f) {
     if lane == 0u { partials[block * PARTIALS + at] = value; }
 }
 
+// Threads change places from turn to turn: where they are as many as a few rows of slots, one would get all that comes in through a side,
+// another all that leaves, and the large sums would round off what their difference is made of.
+const PLACES_PER_TURN = 5u;
+
 @compute @workgroup_size(WORKGROUP)
 fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
@@ -40,7 +44,12 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     var extremes = vec4f(-3e38);
     var speed = vec2f(0.0); // of the gas, of sound, squared
     let volume = cell_volume();
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+    let threads = groups.x * groups.y * WORKGROUP;
+    var place = thread_index(group, groups, lane);
+    for (var first = 0u; first < params.slots; first += threads) {
+        let slot = first + place;
+        place = select(place + PLACES_PER_TURN, place + PLACES_PER_TURN - threads, place + PLACES_PER_TURN >= threads);
+        if slot >= params.slots { continue; }
         let kind = kind_of(cells[slot]);
         let u = Gas(conserved[slot], energy[slot]);
         if !RING_BOOKS && (kind == GAS || kind == SOLID) {

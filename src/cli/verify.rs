@@ -15,8 +15,10 @@ use crate::gpu::{Gpu, GpuOptions};
 use crate::verify::{self, Case, Common, Head, Row, Suite, Verdict};
 use crate::{Error, Result};
 
-/// Cases that run at a time, at most.
-const AT_A_TIME: usize = 4;
+/// Cases that run at a time, at most, on a GPU and on a processor.
+const AT_A_TIME: [usize; 2] = [4, 16];
+/// How many threads Mesa's software driver has per device; with 0 it computes in the thread that asks.
+const DRIVER_THREADS: &str = "LP_NUM_THREADS";
 
 /// Runs the suite and judges. What was found before an error or an interruption is written all the same.
 ///
@@ -35,6 +37,7 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
         list(&cases, cli.json);
         return Ok(());
     }
+    share_cores_by_cases();
     interrupt::listen();
     let start = Instant::now();
     let gpu = open_device(cli)?;
@@ -47,7 +50,7 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
         if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { Ok(()) }
     };
     let done = || bar.iter().for_each(|bar| bar.inc(1));
-    let devices = [std::slice::from_ref(&gpu), &more_devices(cli)?].concat();
+    let devices = [std::slice::from_ref(&gpu), &more_devices(cli, &gpu)?].concat();
     let (findings, outcome) = verify::perform(&devices, &Common::new(suite, &notify), &cases, &done);
     let (rows, plots, seconds) = (findings.rows, findings.plots, findings.seconds);
     if let Some(bar) = &bar {
@@ -68,10 +71,24 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
     verdict(&rows, &options.out)
 }
 
+/// Starts the program again with a software driver that has no threads of its own, unless the caller has decided that: most cases are
+/// small, and cases at a time fill the cores better than threads that wait for each other after every kernel. GPUs do not care.
+fn share_cores_by_cases() {
+    #[cfg(unix)]
+    if std::env::var_os(DRIVER_THREADS).is_none()
+        && let Ok(program) = std::env::current_exe()
+    {
+        use std::os::unix::process::CommandExt;
+        // It returns only where that is not possible; then the driver keeps its threads.
+        let _ = std::process::Command::new(program).args(std::env::args_os().skip(1)).env(DRIVER_THREADS, "0").exec();
+    }
+}
+
 /// The same device opened again, for cases beside the first: one for each further processor core, up to [`AT_A_TIME`] in all.
-fn more_devices(cli: &Cli) -> Result<Vec<Gpu>> {
+fn more_devices(cli: &Cli, first: &Gpu) -> Result<Vec<Gpu>> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    (1..cores.min(AT_A_TIME)).map(|_| Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })).collect()
+    let all = cores.min(AT_A_TIME[usize::from(first.is_software())]);
+    (1..all).map(|_| Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })).collect()
 }
 
 fn list(cases: &[&Case], as_json: bool) {

@@ -121,6 +121,8 @@ pub struct DeviceLimits {
     pub extra_capacity: u32,
     /// Groups, at most, that leave partial results.
     pub groups: u32,
+    /// Slots that each of their threads takes before there is another group.
+    pub per_thread: u32,
     /// Slots that one thread of a marching kernel takes.
     pub march: u32,
 }
@@ -129,13 +131,23 @@ impl DeviceLimits {
     /// Limits for a number of extra vertices. On a CPU every barrier of a reduction costs more than the work it shares out.
     #[must_use]
     pub fn new(software: bool, extra_capacity: usize) -> Self {
-        let (groups, march) = if software { (SOFTWARE_GROUPS, SOFTWARE_MARCH) } else { (constants::PARTIALS, MARCH) };
-        Self { extra_capacity: extra_capacity as u32, groups, march }
+        let extra_capacity = extra_capacity as u32;
+        if software {
+            return Self {
+                extra_capacity,
+                groups: SOFTWARE_GROUPS,
+                per_thread: SOFTWARE_PER_THREAD,
+                march: SOFTWARE_MARCH,
+            };
+        }
+        Self { extra_capacity, groups: constants::PARTIALS, per_thread: 1, march: MARCH }
     }
 }
 
 /// Groups that leave partial results on a software driver (measured: 1024 cost 10 ms more per reduction at 512 x 512).
 const SOFTWARE_GROUPS: u32 = 64;
+/// Slots per thread of these groups in small scenes.
+const SOFTWARE_PER_THREAD: u32 = 32;
 /// Length of a march on a CPU, where reading a neighbour again costs as much as the first time.
 const SOFTWARE_MARCH: u32 = 16;
 /// The same on a GPU, which needs the threads more (not measured on one).
@@ -173,7 +185,10 @@ impl Params {
             history: HISTORY,
             bodies: scene.bodies.len() as u32,
             max_substeps: scene.max_substeps(),
-            groups: (grid.slots() as u32).max(solids.particles).div_ceil(WORKGROUP).clamp(1, limits.groups),
+            groups: (grid.slots() as u32)
+                .max(solids.particles)
+                .div_ceil(WORKGROUP * limits.per_thread)
+                .clamp(1, limits.groups),
             march: limits.march,
             wall_sides: wall_sides(scene),
             blending: u32::from(numerics.blending),
