@@ -30,11 +30,12 @@ fn face_vertices(low: vec3i, n: u32) -> vec4u {
     return vec4u(slot_of(low), slot_of(low + a), slot_of(low + b), slot_of(low + a + b));
 }
 
+// Where these vertices keep the pressure between gas and body.
 fn interface_indices(at: vec4u) -> vec4u {
     return vec4u(interface_index(at.x), interface_index(at.y), interface_index(at.z), interface_index(at.w));
 }
 
-// Its mean pressure next to an obstacle, as the face of cell c that is open in part.
+// Mean pressure of the open part of a face of cell c next to an obstacle.
 fn cut_face_pressure(c: vec3i, low: vec3i, n: u32, up: bool) -> f32 {
     var sum = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
@@ -206,7 +207,7 @@ fn means_of(a: u32, offset: i32) -> vec2f {
     return vec2f(mean_entry(true, offset, false), mean_entry(true, offset, true));
 }
 
-// Velocity of a node of a body, the mean of its old and new one.
+// Velocity of a node of a body after the solve; with MIDPOINT_POWER the mean of the old and the new one.
 fn body_velocity(at: u32, n: u32) -> f32 {
     return node[at][n] - select(1.0, 0.5, MIDPOINT_POWER) * control.dt * work[params.slots + at][n];
 }

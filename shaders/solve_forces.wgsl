@@ -158,7 +158,8 @@ fn cut_force(slot: u32) -> vec3f {
 struct Forces { gas: vec3f, solid: vec3f }
 
 // Sum over the lines of vertices around a node between gas and body; `count`: block_size(), or 0 elsewhere. The bounds of the loops
-// depend on it so that no driver unrolls them: in software the unrolled form takes twice as long.
+// depend on it so that no driver unrolls them: in software the unrolled form takes twice as long. Lines without cells around them, as
+// beyond the ring, have no weight.
 fn mixed_force(c: vec3i, count: u32) -> Forces {
     var forces: Forces;
     let kinds = kinds_of_block(c, count);
