@@ -51,7 +51,8 @@ fn cut_face_pressure(c: vec3i, low: vec3i, n: u32, up: bool) -> f32 {
 // p * (1,4,1)/6 along the axis and (1,11,11,1)/24 across, without which short waves grow for c dt > 2 dx.
 fn face_pressure(c: vec3i, n: u32, up: bool, beyond: u32) -> f32 {
     let low = select(c, c + axis(n), up);
-    if QUADRATIC && beyond == GAS && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
+    let between_gas = beyond == GAS || is_image(select(c - axis(n), c + axis(n), up));
+    if QUADRATIC && between_gas && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
     if CUT { return cut_face_pressure(c, low, n, up); }
     var at = face_vertices(low, n);
     for (var turn = 0u; turn < u32(SOLIDS && beyond == SOLID); turn++) { at = interface_indices(at); }
@@ -83,7 +84,7 @@ fn wide_face_is_gas(low: vec3i, n: u32) -> bool {
     for (var z = range[0].z; z <= range[1].z; z++) {
         for (var y = range[0].y; y <= range[1].y; y++) {
             for (var x = range[0].x; x <= range[1].x; x++) {
-                let v = low + vec3i(x, y, z);
+                let v = mirrored_vertex(low + vec3i(x, y, z));
                 if !is_vertex(v) || !has(cells[slot_of(v)], VERTEX_GAS) { return false; }
             }
         }
@@ -105,7 +106,7 @@ fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
                     if a == n { weight *= select(2.0 / 3.0, 1.0 / 6.0, offset[a] != 0); }
                     else { weight *= select(11.0, 1.0, offset[a] < 0 || offset[a] > 1) / 24.0; }
                 }
-                sum += weight * (pressure[slot_of(low + offset)] - reference);
+                sum += weight * (pressure[slot_of(mirrored_vertex(low + offset))] - reference);
             }
         }
     }

@@ -90,8 +90,11 @@ fn rows_of_block(block: u32, y: i32, z: i32) -> vec4u {
 // Unknowns of the vertices at -1 .. 2 along x: those of the gas, of bodies, and h.
 struct Unknowns { gas: vec4f, solid: vec4f, h: vec4f }
 
+fn vertex_slot(v: vec3i) -> u32 { return slot_of(mirrored_vertex(v)); }
+
 fn unknowns_at(first: vec3i) -> Unknowns {
-    let at = vec4u(slot_of(first), slot_of(first + vec3i(1, 0, 0)), slot_of(first + vec3i(2, 0, 0)), slot_of(first + vec3i(3, 0, 0)));
+    let at = vec4u(vertex_slot(first), vertex_slot(first + vec3i(1, 0, 0)), vertex_slot(first + vec3i(2, 0, 0)),
+        vertex_slot(first + vec3i(3, 0, 0)));
     let own = vec4f(x[at.x], x[at.y], x[at.z], x[at.w]);
     var line = Unknowns(own, own, own);
     if !SOLIDS { return line; }

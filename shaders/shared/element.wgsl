@@ -31,17 +31,33 @@ fn face_entry(quadratic: bool, n: u32, node: vec3i, corner: vec3i) -> f32 {
 
 // Assembled B2B1 stencil of one axis where only gas, or only solid, and the sides of the domain are around: a product over the axes.
 // Entries of the vertices at -1 .. 2 of a node, whose places are `v`: from the two cells of each, as far as these lie inside.
-// Inside: (-1, -3, 3, 1)/6 along, (1, 11, 11, 1)/24 across. For gas the weak walls and open sides act on P itself.
+// Inside: (-1, -3, 3, 1)/6 along, (1, 11, 11, 1)/24 across. For gas the weak walls and open sides act on P itself. At a plane of symmetry
+// a vertex has both its cells, the first one before it stands for its image, too, and no node beyond is of its own.
 struct AxisEntries { slope: vec4f, mean: vec4f }
+
+// 1 where nodes of an axis lie before its planes of symmetry.
+fn own_nodes(a: u32, node: vec4i) -> vec4f {
+    let low = vec4<bool>(mirrors(2u * a) == 0);
+    let high = vec4<bool>(mirrors(2u * a + 1u) == 0);
+    return vec4f(((node >= vec4i(0)) | low) & ((node < vec4i(i32(params.cells[a]))) | high));
+}
 
 fn wide_entries(a: u32, v: vec4i, solid: bool) -> AxisEntries {
     if a >= DIM { return AxisEntries(vec4f(0.0), vec4f(0.0, 1.0, 0.0, 0.0)); }
     let n = vec4i(i32(params.cells[a]));
-    let below = vec4f((v >= vec4i(1)) & (v <= n));
-    let above = vec4f((v >= vec4i(0)) & (v < n));
-    let sides = select(vec4f(v == n) - vec4f(v == vec4i(0)), vec4f(0.0), solid);
-    return AxisEntries((below * vec4f(0.0, -2.0, 1.0, 1.0) + above * vec4f(-1.0, -1.0, 2.0, 0.0)) / 6.0
+    let low = mirrors(2u * a);
+    let high = mirrors(2u * a + 1u);
+    let below = vec4f((v >= vec4i(1 - low)) & (v <= n));
+    let above = vec4f((v >= vec4i(0)) & (v < n + high));
+    let sides = select(vec4f(v == n) * f32(1 - high) - vec4f(v == vec4i(0)) * f32(1 - low), vec4f(0.0), solid);
+    var entries = AxisEntries((below * vec4f(0.0, -2.0, 1.0, 1.0) + above * vec4f(-1.0, -1.0, 2.0, 0.0)) / 6.0
         + vec4f(0.0, 0.5, 0.5, 0.0) * sides, (below * vec4f(0.0, 3.0, 8.0, 1.0) + above * vec4f(1.0, 8.0, 3.0, 0.0)) / 24.0);
+    if MIRRORED == 0u { return entries; }
+    let own = own_nodes(a, v - vec4i(-1, 0, 1, 2));
+    let images = vec2f(f32(low) * f32(v.z == 1), f32(high) * f32(v.y == n.x - 1));
+    entries.slope += vec4f(0.0, images.y, -images.x, 0.0) / 6.0;
+    entries.mean += vec4f(0.0, images.y, images.x, 0.0) / 24.0;
+    return AxisEntries(own * entries.slope, own * entries.mean);
 }
 
 fn wide_entries_of_node(a: u32, j: i32, solid: bool) -> AxisEntries {

@@ -59,6 +59,15 @@ fn mirrored(c: vec3i) -> vec3i {
     return select(select(c, 2 * last + vec3i(1) - c, high & (c > last)), -vec3i(1) - c, low & (c < vec3i(0)));
 }
 
+// The same of a vertex; those on such a side are their own images.
+fn mirrored_vertex(v: vec3i) -> vec3i {
+    if MIRRORED == 0u { return v; }
+    let low = vec3i(mirrors(0u), mirrors(2u), mirrors(4u)) == vec3i(1);
+    let high = vec3i(mirrors(1u), mirrors(3u), mirrors(5u)) == vec3i(1);
+    let last = vec3i(params.cells);
+    return select(select(v, 2 * last - v, high & (v > last)), -v, low & (v < vec3i(0)));
+}
+
 fn is_image(c: vec3i) -> bool { return MIRRORED != 0u && any(mirrored(c) != c); }
 
 // Whether a slot lies beyond a periodic side: it stands for one at the other end and holds nothing.

@@ -26,6 +26,18 @@ fn split_entries(a: u32, quadratic: bool) -> Split {
         vec4f(0.0, -0.5, 0.5, 0.0), vec4f(0.0, -0.5, 0.5, 0.0), face);
 }
 
+// The same where the vertex at `v` is fixed and nodes differ: what an image beyond a plane of symmetry has goes to its node, of what is across
+// the plane with the other sign.
+fn with_images(entries: Split, a: u32, v: i32) -> Split {
+    if MIRRORED == 0u || a >= DIM { return entries; }
+    let own = own_nodes(a, vec4i(v) - vec4i(-1, 0, 1, 2));
+    let images = vec2f(f32(mirrors(2u * a) * i32(v == 1)), f32(mirrors(2u * a + 1u) * i32(v == i32(params.cells[a]) - 1)));
+    return Split(own * folded(entries.mean_below, images), own * folded(entries.mean_above, images),
+        own * folded(entries.slope_below, -images), own * folded(entries.slope_above, -images), own * folded(entries.face, -images));
+}
+
+fn folded(entry: vec4f, images: vec2f) -> vec4f { return entry + vec4f(0.0, images.y * entry.x, images.x * entry.w, 0.0); }
+
 // The same of one k: below, above.
 struct Step { mean: vec2f, slope: vec2f, face: f32 }
 

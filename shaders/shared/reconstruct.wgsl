@@ -13,8 +13,8 @@ const EVEN_EPSILON = 1e-6;
 // The first form takes over up to where the velocity falls from one cell to the next by this part of the speed of sound.
 const STEEP = 0.1;
 // Least speed of the dissipation in a shock, over that of sound. The solve captures shocks without dissipation of its own, and a shock
-// that the gas does not cross along this axis would get none: waves would trail it [docs/method.md].
-const SHOCK_SPREAD = 0.6;
+// that the gas does not cross along this axis would get none: waves would trail it. B2B1 with one velocity for the faces needs more [docs/method.md].
+fn shock_spread() -> f32 { return select(0.6, 1.2, QUADRATIC && CONSISTENT); }
 
 // Cells a to f along an axis, the face between c and d, the share of the second form there, and the least speed of the dissipation.
 struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32, spread: f32 }
@@ -25,7 +25,7 @@ fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d
 fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
     let sound = sound_between(c, d);
     let share = steepness(n, sound, a, b, c, d, e, f);
-    return Stencil(a, b, c, d, e, f, 1.0 - share, min(SHOCK_SPREAD * share * sound, most_spread()));
+    return Stencil(a, b, c, d, e, f, 1.0 - share, min(shock_spread() * share * sound, most_spread()));
 }
 
 // A third of a cell per stage: with all three axes in a shock, the most that is stable.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Pair, Scene};
+use super::Scene;
 
 /// Time integration of the gas.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -16,7 +16,8 @@ pub enum Integrator {
     Predictor,
     /// Two such solves per step, of second order in smooth flow: ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6].
     Ars222,
-    /// `ars222` in scenes of gas alone whose time step allows it, else `predictor`.
+    /// `ars222` in scenes of gas alone whose time step allows it, else `predictor`. Only the advective part of the step counts: since the
+    /// internal energy is carried implicitly, no acoustic Courant number limits `ars222`.
     Auto,
 }
 
@@ -28,8 +29,7 @@ pub enum FaceVelocity {
     Cell,
     /// What the pressure solve sees of it: gas at rest stays quiet. Gas only.
     Consistent,
-    /// `consistent` in scenes of gas alone with the pair B1B0, else `cell`: with B2B1 the consistent one
-    /// rings behind strong shocks.
+    /// `consistent` in scenes of gas alone, else `cell`.
     #[default]
     Auto,
 }
@@ -71,7 +71,7 @@ impl Scene {
         match self.numerics.face_velocity {
             FaceVelocity::Cell => false,
             FaceVelocity::Consistent => true,
-            FaceVelocity::Auto => self.bodies.is_empty() && self.numerics.pair == Pair::B1b0,
+            FaceVelocity::Auto => self.bodies.is_empty(),
         }
     }
 

@@ -238,7 +238,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
         ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
-        ("MIRRORED", f64::from(if solids || numerics.pair == Pair::B2b1 { 0 } else { whole_walls(scene) })),
+        ("MIRRORED", f64::from(if solids { 0 } else { whole_walls(scene) })),
         ("SLEEPS", flag(sleeps(scene, solids))),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (

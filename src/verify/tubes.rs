@@ -221,8 +221,8 @@ fn report_waves(session: &mut Session<'_>, tube: &Tube, run: &Run, ours: &Profil
             let row = session.check(run, name, off).source(EXACT).pass(Limit::AtMost(SHOCK_CELLS));
             if strength < 0.1 && run.scene.numerics.pair == Pair::B2b1 {
                 row.known(
-                    Limit::AtMost(2.5),
-                    "a shock of 7 % of the pressure, moved by the bump of 3 % that the start leaves: 2 to 3 cells on any grid",
+                    Limit::AtMost(2.0),
+                    "a shock of 7 % of the pressure, moved by the bump of 3 % that the start leaves",
                 );
             }
         }

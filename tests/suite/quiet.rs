@@ -96,6 +96,7 @@ fn print(title: &str, s: f64, [pressure, speed, iterations]: [f64; 3]) {
 fn rest_noise_does_not_grow_by_default() {
     let Some(gpu) = gpu_or_skip() else { return };
     let two = "integrator = \"ars222\"\n";
+    let wide = "pair = \"b2b1\"\n";
     for (dimension, cells, s, steps, numerics) in [
         (2, 32, 0.5, 150, ""),
         (2, 32, 5.0, 100, ""),
@@ -106,19 +107,26 @@ fn rest_noise_does_not_grow_by_default() {
         (1, 128, 20.0, 100, two),
         (2, 32, 5.0, 100, two),
         (3, 12, 5.0, 60, two),
+        (1, 128, 5.0, 100, wide),
+        (2, 32, 5.0, 100, wide),
+        (3, 12, 5.0, 60, wide),
+        (2, 32, 20.0, 100, wide),
     ] {
         let found = noise(&gpu, dimension, cells, s, steps, numerics);
         print(&format!("{dimension}D {cells} {}", numerics.trim()), s, found);
-        assert!(found[0] < 2e-3, "{dimension}D, {numerics} s = {s}: {found:?}");
+        let most = if dimension == 3 && numerics == wide { 4e-3 } else { 2e-3 };
+        assert!(found[0] < most, "{dimension}D, {numerics} s = {s}: {found:?}");
     }
     let [with, without] = ["", "filter = 0.0\n"].map(|filter| noise(&gpu, 3, 12, 20.0, 60, filter));
     print("without the filter, 3D 12", 20.0, without);
     assert!(with[0] < 0.7 * without[0], "long steps do not need the filter: {with:?} {without:?}");
     let short = ["", "filter = 0.0\n"].map(|filter| noise(&gpu, 2, 16, 5.0, 10, filter));
     assert_eq!(short[0], short[1], "shorter steps are filtered");
-    let cell = noise(&gpu, 2, 32, 5.0, 100, "face_velocity = \"cell\"\n");
-    print("cell, 2D 32", 5.0, cell);
-    assert!(cell[0] > 1e-2, "the velocity of the cells is quiet too, then the carrier is not needed: {cell:?}");
+    for pair in ["", wide] {
+        let cell = noise(&gpu, 2, 32, 5.0, 100, &format!("{pair}face_velocity = \"cell\"\n"));
+        print(&format!("cell, 2D 32 {}", pair.trim()), 5.0, cell);
+        assert!(cell[0] > 1e-2, "the velocity of the cells is quiet too, then the carrier is not needed: {cell:?}");
+    }
 }
 
 /// Gas at rest whose density and pressure alternate from cell to cell, without sides: amplitude of the mode and relative change of mass
@@ -277,10 +285,11 @@ fn rest_noise_table() {
     let Some(gpu) = gpu_or_skip() else { return };
     for (dimension, cells) in [(1, 128), (2, 32), (3, 16)] {
         for s in [0.5, 2.0, 5.0, 20.0] {
-            for numerics in ["", "integrator = \"ars222\"\n", "face_velocity = \"cell\"\n"] {
+            for numerics in ["", "integrator = \"ars222\"\n", "pair = \"b2b1\"\n", "face_velocity = \"cell\"\n"] {
                 let found = noise(&gpu, dimension, cells, s, 300, numerics);
                 print(&format!("{dimension}D {cells} {}", numerics.trim()), s, found);
-                assert!(numerics.contains("cell") || found[0] < 2e-3, "{dimension}D, {numerics} s = {s}: {found:?}");
+                let most = if dimension == 3 && numerics.contains("b2b1") { 4e-3 } else { 2e-3 };
+                assert!(numerics.contains("cell") || found[0] < most, "{dimension}D, {numerics} s = {s}: {found:?}");
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The velocity that carries the gas through its faces: what the pressure solve sees of it. Gas only.
 
 use super::grid::{add, shift};
-use super::{GAS, GHOST, Gas, Problem, WALL, boundary};
+use super::{GAS, GHOST, Gas, Pair, Problem, WALL, boundary};
 
 /// Per cell: velocity averaged over the other axes, and the sum of its differences across the faces.
 pub(crate) struct Carrier {
@@ -42,7 +42,11 @@ impl Carrier {
             return None;
         }
         let grid = &problem.grid;
-        let given_back = if problem.numerics.two_solves { 1.0 / 3.0 } else { 0.25 };
+        let given_back = match problem.numerics.pair {
+            _ if problem.numerics.two_solves => 1.0 / 3.0,
+            Pair::B1b0 => 0.25,
+            Pair::B2b1 => 0.23,
+        };
         let mut carrier =
             Self { velocity: vec![[0.0; 3]; grid.slots()], divergence: vec![0.0; grid.slots()], given_back };
         let inside: Vec<_> = grid.interior().into_iter().filter(|c| cells[grid.slot(*c)] == GAS).collect();

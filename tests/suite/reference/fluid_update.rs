@@ -20,8 +20,8 @@ pub(crate) fn face_pressure(
     let grid = &problem.grid;
     let high = shift(low, axis, 1);
     let (a, b) = (interface.cells[grid.slot(low)], interface.cells[grid.slot(high)]);
-    if a == GAS
-        && b == GAS
+    let image = problem.mirrored(low) != low || problem.mirrored(high) != high;
+    if (image || a == GAS && b == GAS)
         && problem.numerics.pair == Pair::B2b1
         && let Some(smooth) = smooth_pressure(problem, interface, &solution.pressure[P], axis, high)
     {
@@ -43,7 +43,7 @@ fn smooth_pressure(
     let grid = &problem.grid;
     let mut sum = 0.0;
     for off in grid.offsets(-1, 2).into_iter().filter(|o| o[axis] < 2) {
-        let vertex = add(high, off);
+        let vertex = problem.mirrored_vertex(add(high, off));
         let stored = (0..grid.dimension).all(|d| grid.periodic[d] || (vertex[d] >= 0 && vertex[d] <= grid.cells[d]));
         if !stored || !interface::touches(problem, &interface.cells, vertex, GAS) {
             return None;

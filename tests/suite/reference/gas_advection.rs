@@ -5,7 +5,7 @@ pub(crate) use super::boundary::fill_ghosts;
 use super::carrier::Carrier;
 use super::grid::shift;
 use super::interface::Interface;
-use super::{GAS, GHOST, Gas, Problem, SOLID, Weno, internal_energy};
+use super::{GAS, GHOST, Gas, Pair, Problem, SOLID, Weno, internal_energy};
 
 /// Fluxes of (rho, m, E) through the faces of each axis, stored at the low cell.
 pub(crate) type Fluxes = [Vec<[f64; 5]>; 3];
@@ -26,19 +26,20 @@ pub(crate) struct Shock {
 /// Next to anything but gas.
 const NARROW: Shock = Shock { even: 0.0, spread: 0.0 };
 
-/// Least speed of the dissipation in a shock, over that of sound.
-const SHOCK_SPREAD: f64 = 0.6;
+/// Least speed of the dissipation in a shock, over that of sound; and with B2B1 where faces have one velocity.
+const SHOCK_SPREAD: [f64; 2] = [0.6, 1.2];
 
 /// The face in the middle of six cells; the dissipation crosses at most a third of a cell per `dt`.
 fn shock(problem: &Problem, dt: f64, stencil: &Stencil, axis: usize) -> Shock {
-    let gamma = problem.gamma;
+    let (gamma, numerics) = (problem.gamma, &problem.numerics);
+    let least = SHOCK_SPREAD[usize::from(numerics.pair == Pair::B2b1 && numerics.consistent)];
     let most = problem.grid.spacing / (3.0 * dt);
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
     let drop = speed.windows(2).fold(0.0, |most, pair| f64::max(most, pair[0] - pair[1]));
     let heat = 0.5 * (internal_energy(stencil[2]) / stencil[2][0] + internal_energy(stencil[3]) / stencil[3][0]);
     let sound = (gamma * (gamma - 1.0) * heat).sqrt();
     let share = f64::min(1.0, (drop / (STEEP * sound)).powi(2));
-    Shock { even: 1.0 - share, spread: f64::min(SHOCK_SPREAD * share * sound, most) }
+    Shock { even: 1.0 - share, spread: f64::min(least * share * sound, most) }
 }
 
 /// Value at the face between the third and fourth of six cells in a row, the first upwind; the last only tells how large values are. The

@@ -176,7 +176,7 @@ pub(crate) struct Problem {
 impl Problem {
     /// Is a side a plane of symmetry?
     fn mirrors(&self, side: usize) -> bool {
-        self.numerics.pair == Pair::B1b0 && self.materials.is_empty() && matches!(self.sides[side], Side::Wall)
+        self.materials.is_empty() && matches!(self.sides[side], Side::Wall)
     }
 
     /// What a cell beyond such sides is the image of.
@@ -190,6 +190,19 @@ impl Problem {
             }
         }
         cell
+    }
+
+    /// The same of a vertex.
+    pub(crate) fn mirrored_vertex(&self, mut vertex: [i32; 3]) -> [i32; 3] {
+        for (axis, place) in vertex.iter_mut().enumerate().take(self.grid.dimension) {
+            let last = self.grid.cells[axis];
+            if *place < 0 && self.mirrors(2 * axis) {
+                *place = -*place;
+            } else if *place > last && self.mirrors(2 * axis + 1) {
+                *place = 2 * last - *place;
+            }
+        }
+        vertex
     }
 
     /// A problem with the default method, no obstacles and no gravity.
