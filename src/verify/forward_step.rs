@@ -62,7 +62,10 @@ fn report(session: &mut Session<'_>, run: &Run) {
     row.pass(between(0.7266, 0.03)).known(between(0.7266, 0.06), TRIPLE_POINT);
     let surface = Profile::along(run, 0, 0.2 + 0.5 * spacing);
     let met = surface.steepest_rise(PRESSURE, [0.8, 2.0]);
-    session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));
+    let row = session.check(run, "shock meets the step", met).reference(1.2969, REFERENCE).pass(between(1.2969, 0.07));
+    if run.scene.numerics.pair == Pair::B2b1 {
+        row.known(between(1.2969, 0.083), "one cell beyond with 80 per unit; a quarter of a cell between cells");
+    }
     let face = Profile::along(run, 1, 0.6 - 0.5 * spacing).extremes(PRESSURE, [0.0, 0.2])[1];
     let pitot = gasdynamics::pitot_pressure(run.scene.gas.gamma, 3.0);
     let row = session.check(run, "highest pressure at the face", face).reference(pitot, "Rayleigh pitot").within(0.02);
