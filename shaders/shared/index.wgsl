@@ -50,23 +50,18 @@ fn nearest_ring(c: vec3i) -> vec3i {
 // 1 where a side is a plane of symmetry.
 fn mirrors(side: u32) -> i32 { return i32((MIRRORED >> side) & 1u); }
 
-// What a cell beyond such a side is the image of.
-fn mirrored(c: vec3i) -> vec3i {
+// What stands for a place beyond such sides; `gap` is that between the image of the first place and the first: 1 for cells, 0 for vertices.
+fn before_sides(c: vec3i, gap: i32) -> vec3i {
     if MIRRORED == 0u { return c; }
     let low = vec3i(mirrors(0u), mirrors(2u), mirrors(4u)) == vec3i(1);
     let high = vec3i(mirrors(1u), mirrors(3u), mirrors(5u)) == vec3i(1);
-    let last = vec3i(params.cells) - vec3i(1);
-    return select(select(c, 2 * last + vec3i(1) - c, high & (c > last)), -vec3i(1) - c, low & (c < vec3i(0)));
+    let last = vec3i(params.cells) - vec3i(gap);
+    return select(select(c, 2 * last + vec3i(gap) - c, high & (c > last)), -vec3i(gap) - c, low & (c < vec3i(0)));
 }
 
-// The same of a vertex; those on such a side are their own images.
-fn mirrored_vertex(v: vec3i) -> vec3i {
-    if MIRRORED == 0u { return v; }
-    let low = vec3i(mirrors(0u), mirrors(2u), mirrors(4u)) == vec3i(1);
-    let high = vec3i(mirrors(1u), mirrors(3u), mirrors(5u)) == vec3i(1);
-    let last = vec3i(params.cells);
-    return select(select(v, 2 * last - v, high & (v > last)), -v, low & (v < vec3i(0)));
-}
+// What a cell, or a vertex, beyond such a side is the image of.
+fn mirrored(c: vec3i) -> vec3i { return before_sides(c, 1); }
+fn mirrored_vertex(v: vec3i) -> vec3i { return before_sides(v, 0); }
 
 fn is_image(c: vec3i) -> bool { return MIRRORED != 0u && any(mirrored(c) != c); }
 

@@ -179,30 +179,27 @@ impl Problem {
         self.materials.is_empty() && matches!(self.sides[side], Side::Wall)
     }
 
-    /// What a cell beyond such sides is the image of.
-    pub(crate) fn mirrored(&self, mut cell: [i32; 3]) -> [i32; 3] {
-        for (axis, place) in cell.iter_mut().enumerate().take(self.grid.dimension) {
-            let last = self.grid.cells[axis] - 1;
+    /// What stands for a place beyond such sides; `gap` is that between the image of the first place and the first.
+    fn before_sides(&self, mut place: [i32; 3], gap: i32) -> [i32; 3] {
+        for (axis, place) in place.iter_mut().enumerate().take(self.grid.dimension) {
+            let last = self.grid.cells[axis] - gap;
             if *place < 0 && self.mirrors(2 * axis) {
-                *place = -1 - *place;
+                *place = -gap - *place;
             } else if *place > last && self.mirrors(2 * axis + 1) {
-                *place = 2 * last + 1 - *place;
+                *place = 2 * last + gap - *place;
             }
         }
-        cell
+        place
+    }
+
+    /// What a cell beyond such sides is the image of.
+    pub(crate) fn mirrored(&self, cell: [i32; 3]) -> [i32; 3] {
+        self.before_sides(cell, 1)
     }
 
     /// The same of a vertex.
-    pub(crate) fn mirrored_vertex(&self, mut vertex: [i32; 3]) -> [i32; 3] {
-        for (axis, place) in vertex.iter_mut().enumerate().take(self.grid.dimension) {
-            let last = self.grid.cells[axis];
-            if *place < 0 && self.mirrors(2 * axis) {
-                *place = -*place;
-            } else if *place > last && self.mirrors(2 * axis + 1) {
-                *place = 2 * last - *place;
-            }
-        }
-        vertex
+    pub(crate) fn mirrored_vertex(&self, vertex: [i32; 3]) -> [i32; 3] {
+        self.before_sides(vertex, 0)
     }
 
     /// A problem with the default method, no obstacles and no gravity.
