@@ -13,6 +13,7 @@
 #include "shared/carrier.wgsl"
 #include "shared/cut_system.wgsl"
 #include "shared/cut_carrier.wgsl"
+#include "shared/body_power.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -202,45 +203,13 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     }
 }
 
-// Means of the low and the high vertex of an axis on the node of a body at an offset from the cell between them.
-fn means_of(a: u32, offset: i32) -> vec2f {
-    if a >= DIM { return vec2f(1.0, 0.0); }
-    return vec2f(mean_entry(true, offset, false), mean_entry(true, offset, true));
-}
-
-// Velocity of a node of a body after the solve; with MIDPOINT_POWER the mean of the old and the new one.
-fn body_velocity(at: u32, n: u32) -> f32 {
-    return node[at][n] - select(1.0, 0.5, MIDPOINT_POWER) * control.dt * work[params.slots + at][n];
-}
-
-// Power through a face between gas and solid: what the solid receives.
-fn interface_power(c: vec3i, n: u32, up: bool) -> f32 {
-    let beyond = select(c - axis(n), c + axis(n), up);
-    let a = (n + 1u) % 3u;
-    let b = (n + 2u) % 3u;
-    let at = interface_indices(face_vertices(select(c, beyond, up), n));
-    let p = vec4f(pressure[at.x], pressure[at.y], pressure[at.z], pressure[at.w]);
-    var power = 0.0;
-    for (var k = -reach()[b]; k <= reach()[b]; k++) {
-        let mean_b = means_of(b, k);
-        for (var j = -reach()[a]; j <= reach()[a]; j++) {
-            let mean_a = means_of(a, j);
-            let mean = dot(mean_b, vec2f(dot(mean_a, p.xy), dot(mean_a, p.zw)));
-            let away = j * axis(a) + k * axis(b);
-            // A face takes a half from each of the nodes across it.
-            power += 0.5 * mean * (body_velocity(slot_of(c + away), n) + body_velocity(slot_of(beyond + away), n));
-        }
-    }
-    return power;
-}
-
-// p u through a face of GAS cell c.
+// What passes a face of GAS cell c: p u, and what the advection carried too late.
 fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     let beyond = neighbour_kind(c, n, up);
     if beyond == WALL { return 0.0; }
     if SOLIDS {
         var power = 0.0;
-        for (var turn = 0u; turn < u32(beyond == SOLID); turn++) { power = interface_power(c, n, up); }
+        for (var turn = 0u; turn < u32(beyond == SOLID); turn++) { power = interface_power(c, n, up) + late_heat(c, n, up); }
         if beyond == SOLID { return power; }
     }
     let p = face_pressure(c, n, up, beyond);
@@ -281,8 +250,13 @@ fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         return;
     }
     let kind = kind_of(cells[slot]);
-    if kind == SOLID || kind == WALL { return; }
+    if kind == WALL { return; }
     var heat = 0.0;
+    if SOLIDS && kind == SOLID {
+        heat = late_heat_of(slot);
+        if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }
+        return;
+    }
     for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { heat += heat_of(at, kind == GAS); }
     heat /= cluster_share(slot);
     if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }

@@ -51,6 +51,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "scan.wgsl",
     "shared/ars.wgsl",
     "shared/blocks.wgsl",
+    "shared/body_power.wgsl",
     "shared/books.wgsl",
     "shared/boundary.wgsl",
     "shared/bspline.wgsl",

@@ -103,6 +103,14 @@ impl Scene {
         }
     }
 
+    /// Whether what the solve adds to the velocity of a body carries internal energy of the gas, too, half of it: where a step is a kick by
+    /// the pressures and then elastic sub-steps. Other orders start the solve from a predicted velocity, or damp what this would mend.
+    #[must_use]
+    pub fn late_heat(&self) -> bool {
+        let kicks = self.numerics.ghost == Ghost::Absorbs && self.numerics.coupling == Coupling::First;
+        kicks && self.numerics.elasticity == Elasticity::Explicit
+    }
+
     /// Vectors per slot that the order of the elastic step has to keep.
     #[must_use]
     pub fn elastic_vectors(&self) -> usize {

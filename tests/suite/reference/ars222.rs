@@ -43,8 +43,8 @@ pub(crate) fn two_solves(
             intermediate_pressure::intermediate(problem, faces, (advected, &star), Some(carrying), open, a * dt);
         let solution =
             coupled_solve(&Inputs { problem, interface: faces, bins, intermediate: &intermediate, nodes, dt: a * dt });
-        let mut gas =
-            fluid_update::fluid_update(problem, faces, (&cold, &intermediate), &solution, &nodes.velocity, a * dt);
+        let (carried, pressed) = ((&cold, &intermediate), (&solution, nodes));
+        let mut gas = fluid_update::fluid_update(problem, faces, carried, pressed, a * dt, ledger);
         *open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
         let mut floored = vec![[0.0; 5]; ledger.len()];
         let count = fluid_update::energy_floor(problem, &faces.cells, &star, &mut gas, &mut floored);

@@ -7,6 +7,7 @@ use super::element;
 use super::grid::{add, shift};
 use super::interface::{self, Interface};
 use super::intermediate_pressure::{Intermediate, face_velocity};
+use super::p2g::Nodes;
 use super::{GAS, Gas, Pair, Problem, SOLID, internal_energy, kinetic_energy};
 
 /// Pressure of the face above `low`.
@@ -86,20 +87,56 @@ fn working_velocity(problem: &Problem, solution: &Solution, before: &[[f64; 3]])
     before.iter().zip(&solution.solid_velocity).map(midpoint).collect()
 }
 
-/// The stage: gas after the pressure step. `before` is the solid velocity that entered the solve.
+/// Internal energy per area and time that half of what a body gains in the solve carries through the face above `low`.
+fn late_heat(
+    problem: &Problem,
+    interface: &Interface,
+    solution: &Solution,
+    nodes: &Nodes,
+    (axis, low): (usize, [i32; 3]),
+) -> f64 {
+    let at = [low, shift(low, axis, 1)].map(|c| problem.grid.slot(c));
+    let kinds = at.map(|slot| interface.cells[slot]);
+    let mass = at.map(|slot| nodes.mass[slot]);
+    if !problem.numerics.late_heat || !matches!(kinds, [GAS, SOLID] | [SOLID, GAS]) || mass[0] + mass[1] == 0.0 {
+        return 0.0;
+    }
+    let gain = at.map(|slot| solution.solid_velocity[slot][axis] - nodes.velocity[slot][axis]);
+    let gain = (mass[0] * gain[0] + mass[1] * gain[1]) / (mass[0] + mass[1]);
+    let blocked = interface.blocked[at[usize::from(kinds[1] == SOLID)]];
+    let pressure = face_pressure(problem, interface, solution, axis, low);
+    0.5 * gain * blocked * pressure / (problem.gamma - 1.0)
+}
+
+/// What passes the face above `low` leaves the slot of the solid, or comes to it.
+fn book_heat(
+    problem: &Problem,
+    interface: &Interface,
+    (axis, low): (usize, [i32; 3]),
+    heat: f64,
+    ledger: &mut [[f64; 5]],
+) {
+    let [below, above] = [low, shift(low, axis, 1)].map(|c| problem.grid.slot(c));
+    if interface.cells[below] == SOLID {
+        ledger[below][4] -= heat;
+    } else {
+        ledger[above][4] += heat;
+    }
+}
+
+/// The stage: gas after the pressure step. `nodes` are the solid nodes that entered the solve.
 pub(crate) fn fluid_update(
     problem: &Problem,
     interface: &Interface,
     (star, intermediate): (&Gas, &Intermediate),
-    solution: &Solution,
-    before: &[[f64; 3]],
+    (solution, nodes): (&Solution, &Nodes),
     dt: f64,
+    ledger: &mut [[f64; 5]],
 ) -> Gas {
     let (grid, gamma) = (&problem.grid, problem.gamma);
     let gas_slots: Vec<_> = grid.interior().into_iter().filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
-    let touching = |low: [i32; 3], axis: usize| {
-        interface.cells[grid.slot(low)] == GAS || interface.cells[grid.slot(shift(low, axis, 1))] == GAS
-    };
+    let kind = |c: [i32; 3]| interface.cells[grid.slot(c)];
+    let touching = |low: [i32; 3], axis: usize| kind(low) == GAS || kind(shift(low, axis, 1)) == GAS;
     let mut pressure = [vec![0.0; grid.slots()], vec![0.0; grid.slots()], vec![0.0; grid.slots()]];
     let mut next = star.clone();
     for (axis, pressure) in pressure.iter_mut().enumerate().take(grid.dimension) {
@@ -108,19 +145,20 @@ pub(crate) fn fluid_update(
         }
         for c in &gas_slots {
             let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));
-            let difference = pressure[above] - pressure[below];
-            next.conserved[above][1 + axis] -= dt / grid.spacing * difference;
+            next.conserved[above][1 + axis] -= dt / grid.spacing * (pressure[above] - pressure[below]);
         }
     }
-    let solid = working_velocity(problem, solution, before);
+    let solid = working_velocity(problem, solution, &nodes.velocity);
     let mut work = pressure.clone();
     let carrier = Carrier::new(problem, &interface.cells, &next);
     for axis in 0..grid.dimension {
         for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
             let slot = grid.slot(low);
-            let closed = interface.cells[slot] == SOLID || interface.cells[grid.slot(shift(low, axis, 1))] == SOLID;
+            let closed = kind(low) == SOLID || kind(shift(low, axis, 1)) == SOLID;
             work[axis][slot] = if closed {
-                solid_power(problem, solution, &solid, axis, low) / grid.area()
+                let late = late_heat(problem, interface, solution, nodes, (axis, low));
+                book_heat(problem, interface, (axis, low), late * dt * grid.area(), ledger);
+                late + solid_power(problem, solution, &solid, axis, low) / grid.area()
             } else {
                 let high = grid.slot(shift(low, axis, 1));
                 let velocity = match &carrier {

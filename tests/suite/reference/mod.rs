@@ -102,6 +102,8 @@ pub(crate) struct Numerics {
     pub(crate) film_nearest: bool,
     /// Power at the interface with the mean of the old and new solid velocity; otherwise the new one.
     pub(crate) power_midpoint: bool,
+    /// Half of what bodies gain in the solve carries internal energy of the gas.
+    pub(crate) late_heat: bool,
     /// Solid nodes follow the local pressure gradient.
     pub(crate) gradients: bool,
     /// The elastic step comes before the solve.
@@ -138,6 +140,7 @@ impl Default for Numerics {
             solid_threshold: 0.5,
             film_nearest: true,
             power_midpoint: true,
+            late_heat: true,
             gradients: false,
             coupling_last: false,
             shared_volume: false,
