@@ -99,13 +99,14 @@ fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     }
     let c = cell_of(slot);
     let own = velocity_of(source(slot));
-    for (var k = 0u; k < block_size(); k++) {
+    for (var k = 0u; k < block_size() / 2u; k++) {
         let offset = block_offset(k);
         let share = vec3f(across_share(offset, 0u), across_share(offset, 1u), across_share(offset, 2u)) * vec3f(reach());
         if all(share == vec3f(0.0)) { continue; }
-        sum += share * velocity_at(c, offset, own);
+        sum += share * (velocity_at(c, offset, own) + velocity_at(c, -offset, own));
     }
-    node[slot] = vec4f(sum, 0.0);
+    let middle = 1.0 / f32(1u << (DIM - 1u));
+    node[slot] = vec4f(middle * own * vec3f(reach()) + sum, 0.0);
 }
 
 // Mass-weighted carrier at the face between GAS cell c and its neighbour.
@@ -148,15 +149,15 @@ fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(num_workgrou
     if LISTED {
         let c = cell_of(slot);
         if CUT { sum = cut_divergence(slot); }
-        else { for (var n = 0u; n < DIM; n++) { sum += face_mean(c, slot, n, true) - face_mean(c, slot, n, false); } }
+        else { for (var n = 0u; n < DIM; n++) { sum += rounded(face_mean(c, slot, n, true) - face_mean(c, slot, n, false)); } }
     } else {
         let density = source(slot).x;
         let own = node[slot];
         for (var n = 0u; n < DIM; n++) {
             let low = source(slot - step_of(n)).x;
             let high = source(slot + step_of(n)).x;
-            sum += (density * own[n] + high * node[slot + step_of(n)][n]) / (density + high)
-                - (low * node[slot - step_of(n)][n] + density * own[n]) / (low + density);
+            sum += rounded((density * own[n] + high * node[slot + step_of(n)][n]) / (density + high)
+                - (low * node[slot - step_of(n)][n] + density * own[n]) / (low + density));
         }
     }
     node[slot].w = sum;
@@ -202,9 +203,9 @@ fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
             let x = 0.5 * here.x + 0.25 * (low.x + high.x);
             let y = row_average(here);
             let d = here.density;
-            let divergence = mean_of(d.y, x.y, d.z, x.z) - mean_of(d.x, x.x, d.y, x.y)
-                + mean_of(d.y, y, high.density.y, row_average(high)) - mean_of(low.density.y, row_average(low), d.y, y);
-            node[slot] = vec4f(x.y, y, 0.0, divergence);
+            let along_x = mean_of(d.y, x.y, d.z, x.z) - mean_of(d.x, x.x, d.y, x.y);
+            let along_y = mean_of(d.y, y, high.density.y, row_average(high)) - mean_of(low.density.y, row_average(low), d.y, y);
+            node[slot] = vec4f(x.y, y, 0.0, rounded(along_x) + rounded(along_y));
         }
         low = here;
         here = high;

@@ -162,7 +162,7 @@ fn interior_heat(slot: u32) -> f32 {
             below = (conserved[low][n + 1u] + here[n + 1u]) / (conserved[low].x + here.x);
             above = (here[n + 1u] + conserved[high][n + 1u]) / (here.x + conserved[high].x);
         }
-        heat += interior_face(slot, n) * below - interior_face(high, n) * above;
+        heat += rounded(interior_face(slot, n) * below - interior_face(high, n) * above);
     }
     return carried_along() * heat;
 }
@@ -228,14 +228,16 @@ fn heat_of(slot: u32, own: bool) -> f32 {
     let c = cell_of(slot);
     var heat = 0.0;
     for (var n = 0u; n < DIM; n++) {
+        var along = 0.0;
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
             let sign = select(1.0, -1.0, up);
             let other = select(c - axis(n), c + axis(n), up);
             if !own && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
             let near = select(other, c, own);
-            heat += sign * aperture(slot_of(near), n, up == own) * face_power(near, slot_of(near), n, up == own);
+            along += sign * aperture(slot_of(near), n, up == own) * face_power(near, slot_of(near), n, up == own);
         }
+        heat += rounded(along);
     }
     return heat;
 }

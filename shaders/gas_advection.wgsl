@@ -75,6 +75,8 @@ fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool) {
     // Slots without gas around them, as deep inside a body, have nothing to do.
     let axes = select(0u, DIM, has(cells[slot], NODE_GAS));
     for (var n = 0u; n < axes; n++) {
+        var along: Change;
+        along.velocity = (*change).velocity;
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
             let other = select(c - axis(n), c + axis(n), up);
@@ -83,8 +85,9 @@ fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool) {
             if limited { part = min(theta[slot], theta[slot_of(other)]); }
             let near = select(other, c, is_gas);
             let f = face_fluxes(near, n, up == is_gas);
-            add_face(change, f, part, select(1.0, -1.0, up) * aperture(slot_of(near), n, up == is_gas));
+            add_face(&along, f, part, select(1.0, -1.0, up) * aperture(slot_of(near), n, up == is_gas));
         }
+        *change = plus(*change, along);
     }
 }
 
@@ -97,7 +100,9 @@ fn interior_fluxes(n: u32, low: u32, stencil: Stencil) -> Fluxes {
 }
 
 // The same through both faces across one axis, far from walls, bodies and open sides.
-fn add_axis(change: ptr<function, Change>, slot: u32, n: u32, here: Gas) {
+fn axis_change(velocity: vec3f, slot: u32, n: u32, here: Gas) -> Change {
+    var change: Change;
+    change.velocity = velocity;
     let s = step_of(n);
     let last = params.slots - 1u;
     let a = source(max(slot, 3u * s) - 3u * s);
@@ -106,8 +111,9 @@ fn add_axis(change: ptr<function, Change>, slot: u32, n: u32, here: Gas) {
     let e = source(slot + s);
     let f = source(slot + 2u * s);
     let g = source(min(slot + 3u * s, last));
-    add_face(change, interior_fluxes(n, slot - s, stencil_above(n, slot - s, a, b, c, here, e, f)), 1.0, 1.0);
-    add_face(change, interior_fluxes(n, slot, stencil_above(n, slot, b, c, here, e, f, g)), 1.0, -1.0);
+    add_face(&change, interior_fluxes(n, slot - s, stencil_above(n, slot - s, a, b, c, here, e, f)), 1.0, 1.0);
+    add_face(&change, interior_fluxes(n, slot, stencil_above(n, slot, b, c, here, e, f, g)), 1.0, -1.0);
+    return change;
 }
 
 // The state that the change of this stage is added to.
@@ -198,9 +204,11 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         if has(cells[slot], INTERIOR) {
             var change: Change;
             if LIMITER { change.velocity = velocity_of(here.flow); }
-            add_face(&change, low, 1.0, 1.0);
-            add_face(&change, high, 1.0, -1.0);
-            for (var m = 0u; m < n; m++) { add_axis(&change, slot, m, here); }
+            var along = change;
+            add_face(&along, low, 1.0, 1.0);
+            add_face(&along, high, 1.0, -1.0);
+            change = plus(change, along);
+            for (var m = 0u; m < n; m++) { change = plus(change, axis_change(change.velocity, slot, m, here)); }
             finish(slot, here, change);
         }
         low = high;

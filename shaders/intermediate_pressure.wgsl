@@ -67,15 +67,17 @@ fn cut_divergence(slot: u32, own: f32) -> f32 {
 fn carried_divergence(slot: u32) -> f32 {
     let own = node[slot].w;
     if LISTED && CUT { return own - given_back() * cut_divergence(slot, own) / cluster_share(slot); }
-    var sum = own;
+    var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
+        var along = 0.0;
         for (var side = 0u; side < 2u; side++) {
             var other = select(slot - step_of(n), slot + step_of(n), side == 1u);
             if LISTED && PERIODIC != 0u { other = slot_of(cell_of(slot) + select(-1, 1, side == 1u) * axis(n)); }
-            if !LISTED || kind_of(cells[other]) == GAS { sum -= given_back() * (node[other].w - own); }
+            if !LISTED || kind_of(cells[other]) == GAS { along += node[other].w - own; }
         }
+        sum += along;
     }
-    return sum;
+    return own - given_back() * sum;
 }
 
 // Velocity difference of the faces of a cell, summed over the axes.

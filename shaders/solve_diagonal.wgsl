@@ -41,15 +41,18 @@ fn wide_square(v: vec3i, base: u32, solid: bool) -> f32 {
 fn regular_square(v: vec3i) -> f32 {
     if QUADRATIC { return wide_square(v, 0u, false); }
     var sum = 0.0;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        let ex = narrow_pair(0u, v.x, corner.x);
-        let ey = narrow_pair(1u, v.y, corner.y);
-        let ez = narrow_pair(2u, v.z, corner.z);
-        let entry = vec3f(ex.y * ey.x * ez.x, ex.x * ey.y * ez.x, ex.x * ey.x * ez.y);
-        sum += work[slot_of(v - corner)].w * dot(entry, entry);
+    for (var k = 0u; k < corner_count() / 2u; k++) {
+        sum += narrow_square(v, corner_offset(k)) + narrow_square(v, reach() - corner_offset(k));
     }
     return sum;
+}
+
+fn narrow_square(v: vec3i, corner: vec3i) -> f32 {
+    let ex = narrow_pair(0u, v.x, corner.x);
+    let ey = narrow_pair(1u, v.y, corner.y);
+    let ez = narrow_pair(2u, v.z, corner.z);
+    let entry = vec3f(ex.y * ey.x * ez.x, ex.x * ey.y * ez.x, ex.x * ey.x * ez.y);
+    return rounded(work[slot_of(v - corner)].w * dot(entry, entry));
 }
 
 // The same near an obstacle; the coefficients on one cluster add up first.

@@ -43,15 +43,13 @@ fn value_at(slot: u32, solid: bool) -> f32 {
     return x[slot];
 }
 
-// (mean, slope) of the two vertices along x.
-fn narrow_line(at: u32, ex: vec3f) -> vec2f { return vec2f(ex.x * x[at] + ex.y * x[at + 1u], ex.z * (x[at + 1u] - x[at])); }
-
-// (mean, slope along x, slope along y) of a layer.
+// (mean, slope along x, slope along y) of a layer of vertices; x and y alike, so that what is symmetric stays so to the last bit.
 fn narrow_layer(at: u32, ex: vec3f, ey: vec3f) -> vec3f {
-    let low = narrow_line(at, ex);
-    if DIM == 1u { return vec3f(low, 0.0); }
-    let high = narrow_line(at + params.stride.x, ex);
-    return vec3f(ey.x * low + ey.y * high, ey.z * (high.x - low.x));
+    let low = vec2f(x[at], x[at + 1u]);
+    if DIM == 1u { return vec3f(dot(ex.xy, low), ex.z * (low.y - low.x), 0.0); }
+    let high = vec2f(x[at + params.stride.x], x[at + params.stride.x + 1u]);
+    return vec3f(ey.x * dot(ex.xy, low) + ey.y * dot(ex.xy, high), ex.z * (ey.x * (low.y - low.x) + ey.y * (high.y - high.x)),
+        ey.z * (ex.x * (high.x - low.x) + ex.y * (high.y - low.y)));
 }
 
 // Only gas and the sides of the domain around the node.

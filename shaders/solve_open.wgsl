@@ -92,7 +92,7 @@ fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
             let face = OpenFace(energy[2u * params.slots + beyond], energy[params.slots + beyond]);
             let y = admittance_of(opening_of(cells[beyond]), face, conserved[here].x, energy[params.slots + here]);
             let share = aperture(here, n, up) * face_shape(here, n, up, corner);
-            flow += share * (select(-1.0, 1.0, up) * face.velocity + y * (pressure[slot] - face.reference));
+            flow += rounded(share * (select(-1.0, 1.0, up) * face.velocity + y * (pressure[slot] - face.reference)));
             admittance += share * y;
         }
     }

@@ -21,25 +21,42 @@
 @group(0) @binding(7) var<storage, read_write> residual: array<f32>;
 @group(0) @binding(8) var<storage, read_write> energy: array<f32>;  // last third: inverse masses of gas nodes, for the plain forms
 
-// Masses of a line, a layer and a block of cells as a node in their middle sees them.
-fn line_mass(at: u32) -> f32 {
-    let middle = mass_share(0);
-    return middle * conserved[at].x + mass_share(1) * (conserved[at - 1u].x + conserved[at + 1u].x);
-}
-
-fn layer_mass(at: u32) -> f32 {
-    if DIM == 1u { return line_mass(at); }
-    let y = params.stride.x;
-    return mass_share(0) * line_mass(at) + mass_share(1) * (line_mass(at - y) + line_mass(at + y));
+// Densities of the cells around a node, summed by how many axes they lie off it; `layer`: of those in a plane, off its middle.
+fn layer_densities(at: u32) -> vec3f {
+    let x = conserved[at - 1u].x + conserved[at + 1u].x;
+    if DIM == 1u { return vec3f(conserved[at].x, x, 0.0); }
+    let s = params.stride.x;
+    let y = conserved[at - s].x + conserved[at + s].x;
+    let corners = (conserved[at - s - 1u].x + conserved[at + s + 1u].x) + (conserved[at - s + 1u].x + conserved[at + s - 1u].x);
+    return vec3f(conserved[at].x, x + y, corners);
 }
 
 fn interior_mass(at: u32) -> f32 {
-    if DIM < 3u { return layer_mass(at); }
+    let middle = vec4f(layer_densities(at), 0.0);
+    if DIM < 3u { return weighed(middle); }
     let z = params.stride.x * params.stride.y;
-    return mass_share(0) * layer_mass(at) + mass_share(1) * (layer_mass(at - z) + layer_mass(at + z));
+    let outer = layer_densities(at - z) + layer_densities(at + z);
+    return weighed(vec4f(middle.x, middle.y + outer.x, middle.z + outer.y, outer.z));
+}
+
+// Mass that a node sees, over the volume of a cell.
+fn weighed(densities: vec4f) -> f32 {
+    var sum = 0.0;
+    for (var off = 0u; off <= DIM; off++) {
+        var share = densities[off];
+        for (var a = 0u; a < DIM; a++) { share *= mass_share(i32(a < off)); }
+        sum += share;
+    }
+    return sum;
 }
 
 fn mass_share(node: i32) -> f32 { return mean_entry(QUADRATIC, node, false) + mean_entry(QUADRATIC, node, true); }
+
+fn gas_density(c: vec3i) -> f32 {
+    let near = mirrored(c);
+    if !inside(near) || kind_of(cells[slot_of(near)]) != GAS { return 0.0; }
+    return conserved[slot_of(near)].x;
+}
 
 // Lumped mass of a gas node from the gas cells around it.
 @compute @workgroup_size(WORKGROUP)
@@ -53,13 +70,13 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         if kind_of(cells[slot]) == GAS { mass = conserved[slot].x * cluster_share(slot); }
     } else if has(cells[slot], NODE_GAS) && !is_image(cell_of(slot)) {
         let c = cell_of(slot);
-        for (var k = 0u; k < block_size(); k++) {
+        var around = vec4f(0.0);    // pairs across the node by how many axes they lie off
+        for (var k = 0u; k < block_size() / 2u; k++) {
             let offset = block_offset(k);
-            let near = mirrored(c + offset);
-            if !inside(near) { continue; }
-            let at = slot_of(near);
-            if kind_of(cells[at]) == GAS { mass += conserved[at].x * mass_entry(QUADRATIC, -offset); }
+            around[dot(offset, offset)] += gas_density(c + offset) + gas_density(c - offset);
         }
+        around.x = gas_density(c);
+        mass = weighed(around);
     }
     let inverse = select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0);
     if LISTED || QUADRATIC { work[slot] = vec4f(0.0, 0.0, 0.0, inverse); }

@@ -30,17 +30,24 @@ fn vertex_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     }
 }
 
-// A vertex with only gas around it. Differences, so that a constant pressure stays constant, up to the sides.
+// Pressure and compliance of the cell at a corner of a vertex.
+fn interior_corner(slot: u32, corner: vec3i) -> vec2f {
+    let o = vec3u(corner);
+    let at = slot - o.x - params.stride.x * (o.y + params.stride.y * o.z);
+    return vec2f(energy[params.slots + at], fill[at].y);
+}
+
+// A vertex with only gas around it. Differences from the highest pressure, so that a constant one stays constant, up to the sides, and pairs
+// across the vertex, so that no order shows.
 fn interior_vertex(slot: u32) {
-    let reference = energy[params.slots + slot];
+    var reference = vec2f(0.0);
+    for (var k = 0u; k < corner_count(); k++) { reference.x = max(reference.x, interior_corner(slot, corner_offset(k)).x); }
     var sum = vec2f(0.0);
-    for (var k = 0u; k < corner_count(); k++) {
-        let o = vec3u(corner_offset(k));
-        let at = slot - o.x - params.stride.x * (o.y + params.stride.y * o.z);
-        sum += vec2f(energy[params.slots + at] - reference, fill[at].y);
+    for (var k = 0u; k < corner_count() / 2u; k++) {
+        sum += (interior_corner(slot, corner_offset(k)) - reference) + (interior_corner(slot, reach() - corner_offset(k)) - reference);
     }
     let mean = sum / f32(corner_count());
-    pressure[slot] = reference + mean.x;
+    pressure[slot] = reference.x + mean.x;
     stiffness[slot] = mean.y * cell_volume();
 }
 
@@ -60,6 +67,41 @@ fn cut_vertex(slot: u32) {
     }
     pressure[slot] = reference + sum.y / max(sum.x, 1e-30);
     stiffness[slot] = sum.z * cell_volume();
+}
+
+// Sums over cells around a vertex. gas: count, pressure over the reference, compliance; weight: density times gravity times the way from
+// the cell to the vertex, in cells; solid, rigid: compliance of bodies, and of those with a given motion.
+struct Around { gas: vec3f, reference: f32, weight: f32, solid: f32, rigid: f32 }
+
+fn both(a: Around, b: Around) -> Around {
+    return Around(a.gas + b.gas, 0.0, a.weight + b.weight, a.solid + b.solid, a.rigid + b.rigid);
+}
+
+fn beside(v: vec3i, corner: vec3i, reference: f32) -> Around {
+    var one: Around;
+    let c = v - corner;
+    if !inside(c) { return one; }
+    let at = slot_of(c);
+    let kind = kind_of(cells[at]);
+    if kind == GAS {
+        one.gas = vec3f(1.0, energy[params.slots + at] - reference, fill[at].y);
+        if !SOLIDS { one.weight = rounded(conserved[at].x * dot(params.gravity, vec3f(corner) - 0.5)); }
+    }
+    if kind == SOLID {
+        one.solid = max(fill[at].y, 0.0);
+        one.rigid = max(-fill[at].y, 0.0);
+    }
+    return one;
+}
+
+// Highest pressure of the gas cells around a vertex.
+fn highest_around(v: vec3i) -> f32 {
+    var highest = 0.0;
+    for (var k = 0u; k < corner_count(); k++) {
+        let c = v - corner_offset(k);
+        if inside(c) && kind_of(cells[slot_of(c)]) == GAS { highest = max(highest, energy[params.slots + slot_of(c)]); }
+    }
+    return highest;
 }
 
 // Whether a node that is not driven looks at a vertex, from its 4^DIM block.
@@ -92,38 +134,24 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         cut_vertex(slot);
         return;
     }
-    var gas = vec3f(0.0);   // count, sum of pressure over the reference, compliance sum
-    var reference = 0.0;    // pressure of the first
-    var weight = 0.0;       // sum of density times gravity times the way from the cell to the vertex, in cells
-    var solid = 0.0;
-    var rigid = 0.0;        // compliance sum of cells with a given motion
+    var sum: Around;
     if has(word, VERTEX_GAS | VERTEX_SOLID) {
         let v = cell_of(slot);
-        for (var k = 0u; k < corner_count(); k++) {
-            let c = v - corner_offset(k);
-            if !inside(c) { continue; }
-            let at = slot_of(c);
-            let kind = kind_of(cells[at]);
-            if kind == GAS {
-                let p = energy[params.slots + at];
-                if gas.x == 0.0 { reference = p; }
-                gas += vec3f(1.0, p - reference, fill[at].y);
-                if !SOLIDS { weight += conserved[at].x * dot(params.gravity, vec3f(corner_offset(k)) - 0.5); }
-            }
-            if kind == SOLID {
-                solid += max(fill[at].y, 0.0);
-                rigid += max(-fill[at].y, 0.0);
-            }
+        let reference = highest_around(v);
+        for (var k = 0u; k < corner_count() / 2u; k++) {
+            sum = both(sum, both(beside(v, corner_offset(k), reference), beside(v, reach() - corner_offset(k), reference)));
         }
+        sum.reference = reference;
     }
+    let gas = sum.gas;
     let part = cell_volume() / f32(corner_count());
     // Where cells are all around, what they weigh cancels.
-    let below = select(0.0, weight * params.spacing, gas.x < f32(corner_count()));
-    let gas_pressure = reference + (gas.y + below) / max(gas.x, 1.0);
+    let below = select(0.0, sum.weight * params.spacing, gas.x < f32(corner_count()));
+    let gas_pressure = sum.reference + (gas.y + below) / max(gas.x, 1.0);
     let s_gas = gas.z * part;
     var s_solid = 0.0;
     var q = 0.0;
-    if SOLIDS { s_solid = solid * part; q = ghost[slot]; }
+    if SOLIDS { s_solid = sum.solid * part; q = ghost[slot]; }
     var at = NO_EXTRA;
     if SOLIDS { at = extra[slot]; }
     if at != NO_EXTRA {
@@ -136,7 +164,7 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         return;
     }
     // Inside a body with a given motion nothing gives way; a free node of a body that it touches would meet a pressure without bound.
-    if DRIVEN && s_gas + s_solid == 0.0 && rigid > 0.0 && meets_free_node(cell_of(slot)) { s_solid = rigid * part; }
+    if DRIVEN && s_gas + s_solid == 0.0 && sum.rigid > 0.0 && meets_free_node(cell_of(slot)) { s_solid = sum.rigid * part; }
     let s = s_gas + s_solid;
     pressure[slot] = select(q, gas_pressure + s_solid / s * (q - gas_pressure), s > 0.0);
     stiffness[slot] = s;

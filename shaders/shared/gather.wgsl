@@ -27,25 +27,20 @@ fn wide_rows(slot: u32, v: vec3i, base: u32, solid: bool) -> f32 {
     return sum;
 }
 
-// (divergence's x part, means across x of the other two) of the nodes below and above the vertex along x: the transpose of
-// narrow_line. `low` and `high` are the entries of these two nodes.
-fn narrow_line(at: u32, low: vec3f, high: vec3f) -> vec3f {
+// Sum over a layer of nodes, and its mean z velocity: the transpose of the forces' narrow_layer, x and y alike, too.
+fn narrow_layer(at: u32, v: vec3i) -> vec2f {
+    let x_low = narrow_entry(0u, v.x - 1);
+    let x_high = narrow_entry(0u, v.x);
     let a = work[at - 1u].xyz;
     let b = work[at].xyz;
-    return vec3f(low.z * a.x - high.z * b.x, low.y * a.yz + high.x * b.yz);
-}
-
-// Sum over a layer of nodes, and its z velocity.
-fn narrow_layer(at: u32, v: vec3i) -> vec2f {
-    let low_x = narrow_entry(0u, v.x - 1);
-    let high_x = narrow_entry(0u, v.x);
-    let above = narrow_line(at, low_x, high_x);
-    if DIM == 1u { return vec2f(above.x, 0.0); }
-    let below = narrow_line(at - params.stride.x, low_x, high_x);
-    let low = narrow_entry(1u, v.y - 1);
-    let high = narrow_entry(1u, v.y);
-    let sum = low.y * below + high.x * above;
-    return vec2f(sum.x + low.z * below.y - high.z * above.y, sum.z);
+    if DIM == 1u { return vec2f(x_low.z * a.x - x_high.z * b.x, 0.0); }
+    let y_low = narrow_entry(1u, v.y - 1);
+    let y_high = narrow_entry(1u, v.y);
+    let c = work[at - params.stride.x - 1u].xyz;
+    let d = work[at - params.stride.x].xyz;
+    let along_x = x_low.z * (y_low.y * c.x + y_high.x * a.x) - x_high.z * (y_low.y * d.x + y_high.x * b.x);
+    let along_y = y_low.z * (x_low.y * c.y + x_high.x * d.y) - y_high.z * (x_low.y * a.y + x_high.x * b.y);
+    return vec2f(rounded(along_x) + rounded(along_y), y_low.y * (x_low.y * c.z + x_high.x * d.z) + y_high.x * (x_low.y * a.z + x_high.x * b.z));
 }
 
 fn regular_rows(slot: u32, v: vec3i) -> f32 {

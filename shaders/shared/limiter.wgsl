@@ -18,6 +18,16 @@ fn add_excess(change: ptr<function, Change>, flow: vec4f, energy: f32) {
     (*change).slip += abs(slip);
 }
 
+// Adds what passes along another axis.
+fn plus(a: Change, b: Change) -> Change {
+    let high = rounded4(b.high.flow);
+    let rest = rounded4(vec4f(b.high.energy, b.heat, b.lost_density, b.lost_energy));
+    let low = rounded4(b.low.flow);
+    let slip = rounded4(vec4f(b.slip, b.low.energy));
+    return Change(Gas(a.high.flow + high, a.high.energy + rest.x), Gas(a.low.flow + low, a.low.energy + slip.w), a.velocity,
+        a.lost_density + rest.z, a.lost_energy + rest.w, a.slip + slip.xyz, a.heat + rest.y);
+}
+
 fn scaled(c: Change, share: f32) -> Change {
     return Change(Gas(share * c.high.flow, share * c.high.energy), Gas(share * c.low.flow, share * c.low.energy), c.velocity,
         share * c.lost_density, share * c.lost_energy, share * c.slip, share * c.heat);

@@ -97,5 +97,5 @@ fn weno(even: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f) -> vec4f {
 fn weno_from_both(even: f32, up: f32, down: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f, f: vec4f) -> vec4f {
     let unit = 1.0 / max(max(largest(b, c, d, e), max(abs(a), abs(f))), vec4f(1e-30));
     return up * (c + step_to_face(even, unit, b - a, c - b, d - c, e - d))
-        + down * (d - step_to_face(even, unit, f - e, e - d, d - c, c - b));
+        + down * (d + step_to_face(even, unit, e - f, d - e, c - d, b - c));
 }
