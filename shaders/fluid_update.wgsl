@@ -93,25 +93,29 @@ fn wide_face_is_gas(low: vec3i, n: u32) -> bool {
     return true;
 }
 
-// By differences, so that a constant pressure stays constant.
+// (1, 4, 1) / 6 of the vertices along axis n, by differences from `reference`.
+fn face_line(middle: vec3i, n: u32, reference: f32) -> f32 {
+    let below = pressure[slot_of(mirrored_vertex(middle - axis(n)))] - reference;
+    let above = pressure[slot_of(mirrored_vertex(middle + axis(n)))] - reference;
+    return rounded((below + above) / 6.0) + rounded(2.0 / 3.0 * (pressure[slot_of(mirrored_vertex(middle))] - reference));
+}
+
+// (1, 11, 11, 1) / 24 across; an inactive axis has one layer.
+fn across_weights(a: u32) -> vec4f { return select(vec4f(0.0, 1.0, 0.0, 0.0), vec4f(1.0, 11.0, 11.0, 1.0) / 24.0, a < DIM); }
+
+// By differences, so that a constant pressure stays constant, from the highest in the middle, and from both ends alike.
 fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
-    let range = wide_range(n);
-    let reference = pressure[slot_of(low)];
-    var sum = 0.0;
-    for (var z = range[0].z; z <= range[1].z; z++) {
-        for (var y = range[0].y; y <= range[1].y; y++) {
-            for (var x = range[0].x; x <= range[1].x; x++) {
-                let offset = vec3i(x, y, z);
-                var weight = 1.0;
-                for (var a = 0u; a < DIM; a++) {
-                    if a == n { weight *= select(2.0 / 3.0, 1.0 / 6.0, offset[a] != 0); }
-                    else { weight *= select(11.0, 1.0, offset[a] < 0 || offset[a] > 1) / 24.0; }
-                }
-                sum += weight * (pressure[slot_of(mirrored_vertex(low + offset))] - reference);
-            }
-        }
+    let a = (n + 1u) % 3u;
+    let b = (n + 2u) % 3u;
+    let at = face_vertices(low, n);
+    let reference = max(max(pressure[at.x], pressure[at.y]), max(pressure[at.z], pressure[at.w]));
+    var rows: vec4f;
+    for (var k = -reach()[b]; k <= 2 * reach()[b]; k++) {
+        var lines: vec4f;
+        for (var j = -reach()[a]; j <= 2 * reach()[a]; j++) { lines[j + 1] = face_line(low + j * axis(a) + k * axis(b), n, reference); }
+        rows[k + 1] = paired(lines * across_weights(a));
     }
-    return reference + sum;
+    return reference + paired(rows * across_weights(b));
 }
 
 // Mean pressure of the low face of a cell deep inside the gas.

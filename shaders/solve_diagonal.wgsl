@@ -18,24 +18,32 @@
 
 fn inverse(d: f32) -> f32 { return select(0.0, 1.0 / d, d > 0.0); }
 
-// The node that has this vertex at wide_offset(k), which covers both element pairs.
-fn node_of(v: vec3i, k: u32) -> vec3i { return v - wide_offset(k); }
-
 // Sum of |coefficient|^2 / M over the nodes, where only gas, or only solid, and the sides of the domain are around.
 fn wide_square(v: vec3i, base: u32, solid: bool) -> f32 {
     let ex = wide_entries_of_vertex(0u, v.x, solid);
     let ey = wide_entries_of_vertex(1u, v.y, solid);
     let ez = wide_entries_of_vertex(2u, v.z, solid);
-    var sum = 0.0;
-    for (var k = 0u; k < wide_count(); k++) {
-        let j = node_of(v, k);
-        if !in_ring(j) { continue; }
-        let at = wide_offset(k) + vec3i(1);
-        let entry = vec3f(ex.slope[at.x] * ey.mean[at.y] * ez.mean[at.z], ex.mean[at.x] * ey.slope[at.y] * ez.mean[at.z],
-            ex.mean[at.x] * ey.mean[at.y] * ez.slope[at.z]);
-        sum += work[base + slot_of(j)].w * dot(entry, entry);
+    var layers: vec4f;
+    for (var z = -reach().z; z <= 2 * reach().z; z++) {
+        var terms: mat4x4f;
+        for (var k = 0u; k < min(wide_count(), 16u); k++) {
+            let offset = vec3i(wide_offset(k).xy, z);
+            if !in_ring(v - offset) { continue; }
+            let at = offset + vec3i(1);
+            let entry = vec3f(ex.slope[at.x] * ey.mean[at.y] * ez.mean[at.z], ex.mean[at.x] * ey.slope[at.y] * ez.mean[at.z],
+                ex.mean[at.x] * ey.mean[at.y] * ez.slope[at.z]);
+            terms[at.y][at.x] = rounded(work[base + slot_of(v - offset)].w * dot(entry, entry));
+        }
+        layers[z + 1] = plane_sum(terms);
     }
-    return sum;
+    return paired(layers);
+}
+
+// Sum over a plane of terms, pairs across its middle first, that is the same for all its mirror images.
+fn plane_sum(terms: mat4x4f) -> f32 {
+    let outer = terms[0] + terms[3].wzyx;
+    let inner = terms[1] + terms[2].wzyx;
+    return ((outer.x + outer.w) + (inner.y + inner.z)) + ((outer.y + inner.x) + (outer.z + inner.w));
 }
 
 fn regular_square(v: vec3i) -> f32 {

@@ -17,6 +17,29 @@ override BODIES_ONLY: bool = false; // leaves out what gas alone asks for
 @group(0) @binding(5) var<storage, read> inertia: array<f32>;
 @group(0) @binding(6) var<storage, read> energy: array<f32>;    // last third: inverse masses of gas nodes deep inside the gas with B1B0
 
+// B2B1 in a plane where only gas and the sides of the domain are around; x and y alike, so that what is symmetric stays so to the last
+// bit. Differences from the highest value in the middle, so that a constant pressure moves nothing.
+fn plane_force(slot: u32, c: vec3i) -> vec3f {
+    let ex = wide_entries_of_node(0u, c.x, false);
+    let ey = wide_entries_of_node(1u, c.y, false);
+    var highest = x[slot_of(clamp(c, vec3i(0), vec3i(params.cells) * reach()))];
+    for (var k = 1u; k < corner_count(); k++) {
+        highest = max(highest, x[slot_of(clamp(c + corner_offset(k), vec3i(0), vec3i(params.cells) * reach()))]);
+    }
+    var lines: mat4x4f;
+    for (var j = 0u; j < 4u; j++) {
+        let at = slot + params.stride.x * j - params.stride.x;
+        lines[j] = vec4f(x[at - 1u], x[at], x[at + 1u], x[at + 2u]) - highest;
+    }
+    let columns = transpose(lines);
+    var slopes: array<vec4f, 2>;
+    for (var j = 0u; j < 4u; j++) {
+        slopes[0][j] = paired(ex.slope * lines[j]);
+        slopes[1][j] = paired(ey.slope * columns[j]);
+    }
+    return vec3f(paired(slopes[0] * ey.mean), paired(slopes[1] * ex.mean), 0.0);
+}
+
 // B2B1 where only gas, or only solid, and the sides of the domain are around: a product of one-dimensional stencils, line by line.
 // Of gas only differences, so that a constant pressure moves nothing.
 fn wide_force(slot: u32, c: vec3i, solid: bool) -> vec3f {
@@ -54,6 +77,7 @@ fn narrow_layer(at: u32, ex: vec3f, ey: vec3f) -> vec3f {
 
 // Only gas and the sides of the domain around the node.
 fn regular_force(slot: u32, c: vec3i) -> vec3f {
+    if QUADRATIC && DIM == 2u { return plane_force(slot, c); }
     if QUADRATIC { return wide_force(slot, c, false); }
     let ex = narrow_entry(0u, c.x);
     let ey = narrow_entry(1u, c.y);

@@ -5,6 +5,26 @@
 // Rows of one vertex: its own unknown, and h and Q where they are apart.
 struct Rows { own: f32, h: f32, q: f32 }
 
+// The transpose of plane_force.
+fn plane_rows(slot: u32, v: vec3i) -> f32 {
+    let ex = wide_entries_of_vertex(0u, v.x, false);
+    let ey = wide_entries_of_vertex(1u, v.y, false);
+    var lines: array<mat4x4f, 2>;
+    for (var j = 0u; j < 4u; j++) {
+        let at = slot + params.stride.x - params.stride.x * j;
+        let line = transpose(mat4x2f(work[at + 1u].xy, work[at].xy, work[at - 1u].xy, work[at - 2u].xy));
+        lines[0][j] = line[0];
+        lines[1][j] = line[1];
+    }
+    let columns = transpose(lines[1]);
+    var slopes: array<vec4f, 2>;
+    for (var j = 0u; j < 4u; j++) {
+        slopes[0][j] = paired(ex.slope * lines[0][j]);
+        slopes[1][j] = paired(ey.slope * columns[j]);
+    }
+    return rounded(paired(slopes[0] * ey.mean)) + rounded(paired(slopes[1] * ex.mean));
+}
+
 // The transpose of wide_force. `base`: where the nodes of gas or solid start.
 fn wide_rows(slot: u32, v: vec3i, base: u32, solid: bool) -> f32 {
     let ex = wide_entries_of_vertex(0u, v.x, solid);
@@ -44,6 +64,7 @@ fn narrow_layer(at: u32, v: vec3i) -> vec2f {
 }
 
 fn regular_rows(slot: u32, v: vec3i) -> f32 {
+    if QUADRATIC && DIM == 2u { return plane_rows(slot, v); }
     if QUADRATIC { return wide_rows(slot, v, 0u, false); }
     let above = narrow_layer(slot, v);
     if DIM < 3u { return above.x; }

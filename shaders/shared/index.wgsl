@@ -32,6 +32,12 @@ fn axis(a: u32) -> vec3i { return vec3i(i32(a == 0u), i32(a == 1u), i32(a == 2u)
 fn rounded(term: f32) -> f32 { return max(term, -3.4e38); }
 fn rounded4(terms: vec4f) -> vec4f { return max(terms, vec4f(-3.4e38)); }
 
+// Sum of four terms along a line, the same from both ends.
+fn paired(terms: vec4f) -> f32 {
+    let t = rounded4(terms);
+    return (t.x + t.w) + (t.y + t.z);
+}
+
 // Slot distance of neighbours along an axis.
 fn step_of(a: u32) -> u32 {
     if a == 0u { return 1u; }

@@ -88,6 +88,8 @@ fn piston(session: &mut Session<'_>) -> Result<()> {
 fn report_piston(session: &mut Session<'_>, journey: &Journey, speed: f64, time: f64) {
     let run = &journey.run;
     let spacing = run.scene.domain.spacing();
+    // the gates are for 400 cells; half as many may miss by twice as much
+    let coarse = (400.0 / f64::from(run.scene.domain.cells[0])).max(1.0);
     let stop = &run.snapshot;
     let line = Profile::of(&run.scene, stop);
     let [back, face] = faces(stop, 0.1);
@@ -108,7 +110,7 @@ fn report_piston(session: &mut Session<'_>, journey: &Journey, speed: f64, time:
     let beside: Vec<f64> = beside.collect();
     let mean = beside.iter().sum::<f64>() / beside.len() as f64;
     let row = session.check(run, "pressure at the face behind, mean over eight cells of the way", mean);
-    row.reference(low, EXACT).within(0.02);
+    row.reference(low, EXACT).within(0.02 * coarse);
     let off = beside.iter().map(|p| (p / low - 1.0).abs()).fold(0.0, f64::max);
     session.check(run, "the same, largest relative error at a time", off).source(EXACT);
     let plateau = line.mean(PRESSURE, [back - 0.3, back - 4.0 * spacing]);
@@ -122,28 +124,28 @@ fn report_piston(session: &mut Session<'_>, journey: &Journey, speed: f64, time:
         [(stop, face), (&journey.stops[0], 1.6)].map(|(stop, face)| gas_between(&run.scene, stop, [face, 4.0])[0]);
     let swept = AIR * speed * time;
     let row = session.check(run, "gas missing ahead, over that swept", (start - now) / swept);
-    row.reference(0.0, "nothing leaks").pass(Limit::Between(-1e-3, 1e-3)).known(Limit::Between(-5e-3, 5e-3), LEDGER);
+    row.reference(0.0, "nothing leaks")
+        .pass(Limit::Between(-1e-3, 1e-3))
+        .known(Limit::Between(-5e-3 * coarse, 5e-3 * coarse), LEDGER);
     let drift = journey.books[1].drift_since(&journey.books[0])["gas_mass"];
     session
         .check(run, "gas mass of both sides and the ledger, drift", drift)
         .source("conservation law")
         .pass(Limit::AtMost(1e-6));
-    let exact = vec![
-        [1.4 - time, 1.0],
-        [place, middle],
-        [1.4 - (1.0 - 1.2 * speed) * time, low],
-        [back, low],
-        [face, high],
-        [shock, high],
-        [shock, 1.0],
-        [4.0, 1.0],
-    ];
+    let fan = [[1.4 - time, 1.0], [place, middle], [1.4 - (1.0 - 1.2 * speed) * time, low]];
+    plot_piston(
+        session,
+        run,
+        &line,
+        [&fan[..], &[[back, low], [face, high], [shock, high], [shock, 1.0], [4.0, 1.0]]].concat(),
+    );
+}
+
+/// Pressure along the tube, exact and ours.
+fn plot_piston(session: &mut Session<'_>, run: &Run, line: &Profile, exact: Vec<[f64; 2]>) {
     let plot = Plot::new(format!("Driven piston, {}: pressure", run.label), "x", "pressure");
-    session.plot(plot.with(EXACT, Style::Reference, exact).with(
-        run.label.clone(),
-        Style::Marks,
-        line.points(PRESSURE),
-    ));
+    let ours = line.points(PRESSURE);
+    session.plot(plot.with(EXACT, Style::Reference, exact).with(run.label.clone(), Style::Marks, ours));
 }
 
 fn chamber(session: &mut Session<'_>) -> Result<()> {
@@ -219,7 +221,7 @@ fn report_wedge(session: &mut Session<'_>, run: &Run, exact: &ObliqueShock) -> f
     });
     let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
     let row = session.check(run, "pressure at the middle of the flank", mean(&off));
-    row.reference(exact.pressure, WEDGE).within(0.03);
+    row.reference(exact.pressure, WEDGE).within(0.03).known(Limit::AtLeast(0.96 * exact.pressure), STEPS);
     session.check(run, "the same in the cells next to it", mean(&near)).reference(exact.pressure, WEDGE);
     mean(&off)
 }

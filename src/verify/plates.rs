@@ -88,12 +88,13 @@ fn free_plate(session: &mut Session<'_>) -> Result<()> {
             let setting = Setting::standard(cells);
             let mut journey = session.follow("validation/free_plate.toml", setting, &weight, times)?;
             journey.run.label = format!("{} mass {}", journey.run.label, 0.1 * density);
-            let velocity = if cells < 410 { 0.05 } else { 0.03 };
+            // the gates are for 400 cells and for the velocity on 200; half as many cells may miss the place by twice as much
+            let [share, velocity] = if cells < 410 { [0.04, 0.05] } else { [0.02, 0.03] };
             let path = journey.path(0);
             let (early, place) = (path[1].1.centroid[0] - path[0].1.centroid[0], table[0][1]);
             let row = session.check(&journey.run, "displacement at 0.6", early).reference(place, LAGRANGIAN);
-            row.within(0.02).known(Limit::Between(place, place + 0.1 * journey.run.scene.domain.spacing()), FOOT);
-            report_motion(session, &journey, LAGRANGIAN, &table[1..], Some(Gates { place: 0.02, velocity }));
+            row.within(share).known(Limit::Between(place, place + 0.1 * journey.run.scene.domain.spacing()), FOOT);
+            report_motion(session, &journey, LAGRANGIAN, &table[1..], Some(Gates { place: share, velocity }));
             books::report(session, &journey, Some(5e-3));
             if cells == 410 {
                 session.plot(motion_plot(&journey, LAGRANGIAN, table));

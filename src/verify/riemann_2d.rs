@@ -20,6 +20,9 @@ pub(super) const CASES: &[Case] = &[Case {
     run: riemann,
 }];
 
+/// Why one side of the diagonal may differ from the other.
+const FUSED: &str = "a driver that fuses a product with a sum rounds one side of the diagonal otherwise";
+
 /// One of the problems.
 struct Configuration {
     number: u32,
@@ -57,7 +60,8 @@ fn riemann(session: &mut Session<'_>) -> Result<()> {
             let density: Vec<f64> = run.snapshot.density.iter().copied().map(f64::from).collect();
             if configuration.symmetric {
                 let name = format!("configuration {number}: largest asymmetry about the diagonal");
-                session.check(&run, &name, asymmetry(&run)).source("symmetry").pass(Limit::AtMost(1e-3));
+                let row = session.check(&run, &name, asymmetry(&run)).source("symmetry");
+                row.pass(Limit::AtMost(1e-10)).known(Limit::AtMost(1e-3), FUSED);
             }
             if !quick {
                 let scene = run.scene.with_resolution(FINE)?;
