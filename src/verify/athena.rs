@@ -104,8 +104,8 @@ fn sod(session: &mut Session<'_>) -> Result<()> {
 }
 
 /// Amplitude of the velocity of the sound wave and of the density of the entropy wave, see the scene.
-const AMPLITUDES: [f64; 2] = [0.02, 0.1];
-/// Turns of the iteration for the simple wave, which gains a factor of six per turn.
+const AMPLITUDES: [f64; 2] = [0.04, 0.1];
+/// Turns of the iteration for the simple wave, which gains a factor of three per turn.
 const TURNS: u32 = 30;
 
 /// Riemann's simple wave to the right with velocity a cos(2 pi x) at the start, for gamma = 5/3. [Whitham, Linear and Nonlinear Waves,
