@@ -21,7 +21,7 @@
 @group(0) @binding(7) var<storage, read_write> residual: array<f32>;
 @group(0) @binding(8) var<storage, read_write> energy: array<f32>;  // last third: inverse masses of gas nodes, for the plain forms
 
-// Densities of the cells around a node, summed by how many axes they lie off it; `layer`: of those in a plane, off its middle.
+// Densities of the cells of a plane around a cell, summed by how many axes they lie off it: the cell itself, beside it, across its corners.
 fn layer_densities(at: u32) -> vec3f {
     let x = conserved[at - 1u].x + conserved[at + 1u].x;
     if DIM == 1u { return vec3f(conserved[at].x, x, 0.0); }
@@ -39,7 +39,7 @@ fn interior_mass(at: u32) -> f32 {
     return weighed(vec4f(middle.x, middle.y + outer.x, middle.z + outer.y, outer.z));
 }
 
-// Mass that a node sees, over the volume of a cell.
+// Mass that a node sees, over the volume of a cell, from densities summed by how many axes the cells lie off it.
 fn weighed(densities: vec4f) -> f32 {
     var sum = 0.0;
     for (var off = 0u; off <= DIM; off++) {
@@ -52,6 +52,7 @@ fn weighed(densities: vec4f) -> f32 {
 
 fn mass_share(node: i32) -> f32 { return mean_entry(QUADRATIC, node, false) + mean_entry(QUADRATIC, node, true); }
 
+// Density of a GAS cell, or of what it is the image of; 0 elsewhere.
 fn gas_density(c: vec3i) -> f32 {
     let near = mirrored(c);
     if !inside(near) || kind_of(cells[slot_of(near)]) != GAS { return 0.0; }
