@@ -28,7 +28,8 @@ fn cell_of(slot: u32) -> vec3i {
 fn axis(a: u32) -> vec3i { return vec3i(i32(a == 0u), i32(a == 1u), i32(a == 2u)); }
 
 // A term as it is, rounded on its own: no driver may reorder or fuse it with what it is added to. Sums of two such terms, one per axis,
-// keep what is symmetric in x and y so, to the last bit. NaN becomes the lowest number, which no density or energy survives.
+// keep what is symmetric in x and y so, to the last bit. NaN becomes the lowest number: what it is added to may look
+// like a number, so kernels that find faults must see momentum or density, which NaN reaches in the next step at the latest.
 fn rounded(term: f32) -> f32 { return max(term, -3.4e38); }
 fn rounded4(terms: vec4f) -> vec4f { return max(terms, vec4f(-3.4e38)); }
 
