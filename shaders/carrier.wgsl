@@ -120,7 +120,7 @@ fn face_mean(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
         if prescribes(opening) { return velocity_of(opening.flow)[n]; }
         return node[slot][n];
     }
-    if near_obstacle(slot, other) { return cut_velocity(select(far, c, up), n); }
+    if near_obstacle(cells[slot], cells[other]) { return cut_velocity(select(far, c, up), n); }
     let a = source(slot).x;
     let b = source(other).x;
     return (a * node[slot][n] + b * node[other][n]) / (a + b);

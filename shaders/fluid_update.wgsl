@@ -136,11 +136,9 @@ fn interior_impulse(slot: u32) -> vec3f {
 fn flow_at(slot: u32) -> vec4f { return conserved[slot]; }
 
 // Velocity of the face between two GAS cells.
-fn face_velocity(n: u32, low: u32, high: u32) -> f32 {
-    let a = conserved[low];
-    let b = conserved[high];
+fn face_velocity(n: u32, low: u32, high: u32, a: vec4f, b: vec4f) -> f32 {
     if CONSISTENT {
-        if near_obstacle(low, high) { return cut_velocity(cell_of(low), n) - given_back() * (node[high].w - node[low].w); }
+        if near_obstacle(cells[low], cells[high]) { return cut_velocity(cell_of(low), n) - given_back() * (node[high].w - node[low].w); }
         return carried_velocity(n, node[low], a.x, node[high], b.x);
     }
     return (a[n + 1u] + b[n + 1u]) / (a.x + b.x);
@@ -208,7 +206,7 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 }
 
 // What passes a face of GAS cell c: p u, and what the advection carried too late.
-fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
+fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
     let beyond = neighbour_kind(c, n, up);
     if beyond == WALL { return 0.0; }
     if SOLIDS {
@@ -217,19 +215,23 @@ fn face_power(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
         if beyond == SOLID { return power; }
     }
     let p = face_pressure(c, n, up, beyond);
-    let here = conserved[slot];
-    let far = select(c - axis(n), c + axis(n), up);
-    if beyond == GAS { return carried_along() * p * face_velocity(n, slot_of(min(c, far)), slot_of(max(c, far))); }
+    let far = slot_of(select(c - axis(n), c + axis(n), up));
+    if beyond == GAS {
+        let there = conserved[far];
+        let velocity = face_velocity(n, select(far, slot, up), select(slot, far, up), select(there, here, up), select(here, there, up));
+        return carried_along() * p * velocity;
+    }
     // Open: the velocity that the solve saw there.
-    let ring = slot_of(far);
-    let face = OpenFace(energy[2u * params.slots + ring], energy[params.slots + ring]);
-    let y = admittance_of(opening_of(cells[ring]), face, here.x, energy[params.slots + slot]);
+    let face = OpenFace(energy[2u * params.slots + far], energy[params.slots + far]);
+    let y = admittance_of(opening_of(cells[far]), face, here.x, energy[params.slots + slot]);
     return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 
-// Power through the faces of a slot; of one that is not its `own`, through those it shares with GAS cells.
-fn heat_of(slot: u32, own: bool) -> f32 {
+// Power through the faces of a slot; of one that is not its `own`, through those it shares with GAS cells. `gives`: to slots of the ring
+// what passes towards them.
+fn heat_of(slot: u32, own: bool, gives: bool) -> f32 {
     let c = cell_of(slot);
+    let here = conserved[slot];
     var heat = 0.0;
     for (var n = 0u; n < DIM; n++) {
         var along = 0.0;
@@ -239,7 +241,11 @@ fn heat_of(slot: u32, own: bool) -> f32 {
             let other = select(c - axis(n), c + axis(n), up);
             if !own && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
             let near = select(other, c, own);
-            along += sign * aperture(slot_of(near), n, up == own) * face_power(near, slot_of(near), n, up == own);
+            var state = here;
+            if !own { state = conserved[slot_of(near)]; }
+            let power = sign * aperture(slot_of(near), n, up == own) * face_power(near, slot_of(near), state, n, up == own);
+            along += power;
+            if own && gives && !inside(other) { energy[slot_of(other)] -= power * control.dt / params.spacing; }
         }
         heat += rounded(along);
     }
@@ -263,7 +269,10 @@ fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }
         return;
     }
-    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { heat += heat_of(at, kind == GAS); }
+    // A slot of the ring has its part from the cell before it.
+    for (var turn = u32(!inside(cell_of(slot))); turn < 1u; turn++) {
+        for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { heat += heat_of(at, kind == GAS, at == slot); }
+    }
     heat /= cluster_share(slot);
     if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }
 }

@@ -59,36 +59,46 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
     }
 }
 
-// dt L(U) of a slot; of all cells that share its state together.
+// dt L(U) of a slot inside the domain; of all cells that share its state together.
 fn change_of(slot: u32, limited: bool) -> Change {
     var change: Change;
-    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { add_faces(&change, at, limited); }
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { add_faces(&change, at, limited, at == slot); }
     if CUT { change = scaled(change, 1.0 / cluster_share(slot)); }
     return change;
 }
 
-// What passes the faces of a slot if it is GAS, else those it shares with GAS cells.
-fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool) {
+// What passes the faces of a slot if it is GAS, else those it shares with GAS cells. `gives`: to slots of the ring what passes towards them.
+fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool, gives: bool) {
     let c = cell_of(slot);
     let is_gas = kind_of(cells[slot]) == GAS;
     if LIMITER && is_gas { (*change).velocity = velocity_of(source(slot).flow); }
     // Slots without gas around them, as deep inside a body, have nothing to do.
     let axes = select(0u, DIM, has(cells[slot], NODE_GAS));
     for (var n = 0u; n < axes; n++) {
+        let row = row_around(slot, c, n);
         var along: Change;
         along.velocity = (*change).velocity;
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
             let other = select(c - axis(n), c + axis(n), up);
-            if !is_gas && (!inside(other) || kind_of(cells[slot_of(other)]) != GAS) { continue; }
+            let r = row_at_face(row, up);
+            if !is_gas && !(inside(other) && kind_of(select(r.c.word, r.d.word, up)) == GAS) { continue; }
             var part = 1.0;
             if limited { part = min(theta[slot], theta[slot_of(other)]); }
-            let near = select(other, c, is_gas);
-            let f = face_fluxes(near, n, up == is_gas);
-            add_face(&along, f, part, select(1.0, -1.0, up) * aperture(slot_of(near), n, up == is_gas));
+            let f = face_fluxes(slot, c, n, up, r);
+            let open = select(1.0, -1.0, up) * aperture(select(slot_of(other), slot, is_gas), n, up == is_gas);
+            add_face(&along, f, part, open);
+            if is_gas && gives && !inside(other) { give(slot_of(other), f, part, -open); }
         }
         *change = plus(*change, along);
     }
+}
+
+// What passes through the side to a slot of the ring, which has no other face.
+fn give(slot: u32, f: Fluxes, part: f32, sign: f32) {
+    var change: Change;
+    add_face(&change, f, part, sign);
+    write_result(slot, start_of(slot, source(slot)), change);
 }
 
 // Fluxes deep inside the gas, through the face above slot `low`.
@@ -161,15 +171,29 @@ fn stay(slot: u32) {
     write_result(slot, Gas(conserved[slot], energy[slot]), Change());
 }
 
+// Whether a slot of the ring gets what passes through the side from the cell before it.
+fn is_served(c: vec3i) -> bool {
+    let near = nearest_inside(c);
+    let steps = abs(near - c);
+    return steps.x + steps.y + steps.z == 1 && kind_of(cells[slot_of(near)]) == GAS && !stays(slot_of(near));
+}
+
 // One slot of the list.
 @compute @workgroup_size(WORKGROUP)
 fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
     let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
+    let c = cell_of(slot);
+    let beyond = !inside(c);
     let still = stays(slot);
-    if still { stay(slot); }
-    for (var turn = u32(still); turn < 1u; turn++) { finish(slot, source(slot), change_of(slot, false)); }
+    if beyond {
+        if LIMITER { theta[slot] = 1.0; }
+        if !is_served(c) { write_result(slot, start_of(slot, source(slot)), Change()); }
+    } else if still {
+        stay(slot);
+    }
+    for (var turn = u32(still || beyond); turn < 1u; turn++) { finish(slot, source(slot), change_of(slot, false)); }
 }
 
 // A column of params.march slots along the last axis: each state there is read once, each face computed once.
@@ -227,7 +251,7 @@ fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
-    if is_alias(c) || stays(slot) { return; }
+    if !inside(c) || is_alias(c) || stays(slot) { return; }
     var least = theta[slot];
     for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
         let member = cell_of(at);

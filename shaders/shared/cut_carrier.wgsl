@@ -107,10 +107,8 @@ fn face_volume(low: vec3i, n: u32) -> f32 {
     return sum + side_transfer(low, n, 0u, s.above) + side_transfer(low, n, 1u, t.below);
 }
 
-// Whether the face above GAS cell `low`, towards a GAS cell, is one of these.
-fn near_obstacle(low: u32, high: u32) -> bool {
-    return CUT && DIM == 2u && !(has(cells[low], NODE_REGULAR) && has(cells[high], NODE_REGULAR));
-}
+// Whether the face between two GAS cells is one of these, by their words.
+fn near_obstacle(low: u32, high: u32) -> bool { return CUT && DIM == 2u && !has(low & high, NODE_REGULAR); }
 
 // Velocity of the face in its open part, without the correction by the divergence.
 fn cut_velocity(low: vec3i, n: u32) -> f32 {

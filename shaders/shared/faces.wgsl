@@ -1,12 +1,10 @@
-// Fluxes through the faces of gas_advection: of any slot by cell coordinates, and what the faces deep inside the gas need.
+// Fluxes through the faces of gas_advection: of any slot inside the domain by the seven cells around it in a row, and what the faces deep
+// inside the gas need. Every state is read once per axis: in software a load takes as long as dozens of products.
 // Needs ARS and SECOND, source(), the bindings cells and node, and reconstruct, flux, boundary, carrier, cut and cut_carrier.
 
 fn flow_at(slot: u32) -> vec4f { return source(slot).flow; }
 
 fn is_open(word: u32) -> bool { return kind_of(word) == GAS || kind_of(word) == GHOST; }
-
-// Word of a slot; beyond a plane of symmetry of what it is the image of.
-fn word_at(c: vec3i) -> u32 { return cells[slot_of(nearest_ring(mirrored(c)))]; }
 
 // What a plane of symmetry across axis n makes of a state.
 fn image(n: u32, gas: Gas) -> Gas {
@@ -15,68 +13,66 @@ fn image(n: u32, gas: Gas) -> Gas {
     return out;
 }
 
-// State of a GAS cell, or of the image of one, reached along axis n; of the nearest cell beyond other sides.
-fn gas_at(c: vec3i, n: u32) -> Gas {
-    let here = source(slot_of(nearest_inside(mirrored(c))));
-    if is_image(c) { return image(n, here); }
-    return here;
+// A cell of a row, or what it is the image of: word, and state of the gas there; beyond other sides of the nearest cell of the ring,
+// and of the gas beyond.
+struct Seen { word: u32, gas: Gas }
+
+fn seen(slot: u32, c: vec3i, n: u32, offset: i32) -> Seen {
+    let count = i32(params.cells[n]);
+    let place = place_along(n, c[n] + offset);
+    let s = i32(step_of(n));
+    let word = cells[u32(i32(slot) + (clamp(place, -1, count) - c[n]) * s)];
+    let gas = source(u32(i32(slot) + (clamp(place, 0, count - 1) - c[n]) * s));
+    if is_reflected(n, c[n] + offset) { return Seen(word, image(n, gas)); }
+    return Seen(word, gas);
 }
 
-// The same of an open slot.
-fn open_gas(c: vec3i, n: u32) -> Gas {
-    let here = gas_at(c, n);
-    if inside(mirrored(c)) { return here; }
-    return gas_beyond(opening_of(cells[slot_of(nearest_ring(c))]), n, select(1.0, -1.0, c[n] < 0), here);
-}
+// Seven cells in a row along an axis, d being the slot itself.
+struct Row { a: Seen, b: Seen, c: Seen, d: Seen, e: Seen, f: Seen, g: Seen }
 
-// Its carrier; beyond an outlet that of the nearest cell.
-fn open_carrier(c: vec3i, n: u32) -> vec4f {
-    var here = node[slot_of(nearest_inside(c))];
-    if is_image(c) {
-        here[n] = -here[n];
-    } else if !inside(c) {
-        let opening = opening_of(word_at(c));
-        if prescribes(opening) { return vec4f(velocity_of(opening.flow), 0.0); }
+fn row_around(slot: u32, c: vec3i, n: u32) -> Row {
+    let own = Seen(cells[slot], source(slot));
+    var row = Row(seen(slot, c, n, -3), seen(slot, c, n, -2), seen(slot, c, n, -1), own,
+        seen(slot, c, n, 1), seen(slot, c, n, 2), seen(slot, c, n, 3));
+    let count = i32(params.cells[n]);
+    let below = vec2<bool>(place_along(n, c[n] - 2) < 0, place_along(n, c[n] - 1) < 0);
+    let above = vec2<bool>(place_along(n, c[n] + 2) >= count, place_along(n, c[n] + 1) >= count);
+    if below.x {
+        row.b.gas = beyond_side(n, -1.0, select(row.b.word, row.c.word, below.y), chosen(row.d.gas, row.c.gas, below.y));
+        row.c.gas = chosen(row.b.gas, row.c.gas, below.y);
     }
-    return here;
+    if above.x {
+        row.f.gas = beyond_side(n, 1.0, select(row.f.word, row.e.word, above.y), chosen(row.d.gas, row.e.gas, above.y));
+        row.e.gas = chosen(row.f.gas, row.e.gas, above.y);
+    }
+    return row;
 }
 
-// Whether the cells a to f of a face, `low` being c, or what they are images of, hold gas alone; with cut cells those around them, too.
-fn all_gas(low: vec3i, n: u32) -> bool {
-    if MIRRORED == 0u && PERIODIC == 0u {
-        if low[n] < 2 || low[n] + 3 >= i32(params.cells[n]) { return false; }
-        let s = step_of(n);
-        let at = max(slot_of(low), 2u * s);
-        let inner = vec4u(cells[at - s], cells[at], cells[at + s], cells[at + 2u * s]);
-        let outer = cells[at - 2u * s] | cells[at + 3u * s];
-        if CUT && !has(inner.x & inner.y & inner.z & inner.w, NODE_INTERIOR) { return false; }
-        return kind_of(inner.x | inner.y | inner.z | inner.w | outer) == GAS;
-    }
-    for (var k = -2; k <= 3; k++) {
-        let at = mirrored(low + k * axis(n));
-        if !inside(at) || kind_of(cells[slot_of(at)]) != GAS { return false; }
-        if CUT && k > -2 && k < 3 && !has(cells[slot_of(at)], NODE_INTERIOR) { return false; }
-    }
-    return true;
+fn beyond_side(n: u32, outward: f32, word: u32, here: Gas) -> Gas {
+    if kind_of(word) != GHOST { return here; }
+    return gas_beyond(opening_of(word), n, outward, here);
 }
 
-// The cells across the face between `near` and its neighbour; where the outer ones hold no gas, the inner ones stand for them.
-fn stencil_at(near: vec3i, n: u32, up: bool, here: Gas, next: Gas, open: bool) -> Stencil {
-    let behind = select(near + axis(n), near - axis(n), up);
-    let beyond = select(near - 2 * axis(n), near + 2 * axis(n), up);
-    let has_first = is_open(word_at(behind));
-    let has_last = open && is_open(word_at(beyond));
-    var first = here;
-    var last = next;
-    if has_first { first = open_gas(behind, n); }
-    if has_last { last = open_gas(beyond, n); }
-    let b = chosen(first, last, up);
-    let c = chosen(here, next, up);
-    let d = chosen(next, here, up);
-    let e = chosen(last, first, up);
-    let low = select(near - axis(n), near, up);
-    if !all_gas(low, n) { return narrow(b, c, d, e); }
-    return wide(n, gas_at(low - 2 * axis(n), n), b, c, d, e, gas_at(low + 3 * axis(n), n));
+// The row as the face below the slot sees it, or the one above: a to f, the face between c and d.
+fn row_at_face(row: Row, up: bool) -> Row {
+    return Row(nearer(row.a, row.b, up), nearer(row.b, row.c, up), nearer(row.c, row.d, up), nearer(row.d, row.e, up),
+        nearer(row.e, row.f, up), nearer(row.f, row.g, up), row.g);
+}
+
+fn nearer(low: Seen, high: Seen, up: bool) -> Seen { return Seen(select(low.word, high.word, up), chosen(high.gas, low.gas, up)); }
+
+// The cells across a face. One that is closed has the state across the face; where the outer ones hold no gas, the inner ones stand for them.
+fn stencil_at(r: Row, n: u32) -> Stencil {
+    let low = is_open(r.c.word);
+    let high = is_open(r.d.word);
+    let c = chosen(r.c.gas, r.d.gas, low);
+    let d = chosen(r.d.gas, r.c.gas, high);
+    let b = chosen(r.b.gas, c, low && is_open(r.b.word));
+    let e = chosen(r.e.gas, d, high && is_open(r.e.word));
+    var all_gas = kind_of(r.a.word | r.b.word | r.c.word | r.d.word | r.e.word | r.f.word) == GAS;
+    if CUT { all_gas = all_gas && has(r.b.word & r.c.word & r.d.word & r.e.word, NODE_INTERIOR); }
+    if !all_gas { return narrow(b, c, d, e); }
+    return wide(n, r.a.gas, b, c, d, e, r.f.gas);
 }
 
 // What passes a plane of symmetry: momentum across it, as the dissipation has it. All else is zero but for rounding.
@@ -85,49 +81,59 @@ fn reflected(n: u32, f: Fluxes) -> Fluxes {
     return Fluxes(Gas(normal * f.high.flow, 0.0), Gas(normal * f.low.flow, 0.0), 0.0, 0.0);
 }
 
-// Fluxes by the carrier through the face between `near` and `far`. Without bodies only open faces pass anything, and planes of symmetry.
-fn carried_face(near: vec3i, far: vec3i, n: u32, up: bool) -> Fluxes {
+// Carrier of the neighbour of a GAS slot inside the domain; beyond an outlet that of the nearest cell.
+fn carrier_beside(slot: u32, c: vec3i, n: u32, offset: i32, word: u32) -> vec4f {
+    let place = place_along(n, c[n] + offset);
+    let nearest = clamp(place, 0, i32(params.cells[n]) - 1);
+    var here = node[u32(i32(slot) + (nearest - c[n]) * i32(step_of(n)))];
+    if is_reflected(n, c[n] + offset) {
+        here[n] = -here[n];
+    } else if place != nearest && kind_of(word) == GHOST {
+        let opening = opening_of(word);
+        if prescribes(opening) { return vec4f(velocity_of(opening.flow), 0.0); }
+    }
+    return here;
+}
+
+// Fluxes by the carrier through a face of a GAS slot. Without bodies only open faces pass anything, and planes of symmetry.
+fn carried_face(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
     var out: Fluxes;
-    let far_word = word_at(far);
-    if !is_open(far_word) { return out; }
-    let stencil = stencil_at(near, n, up, source(slot_of(near)), open_gas(far, n), true);
-    let own = node[slot_of(near)];
-    let other = open_carrier(far, n);
+    if !is_open(r.c.word) || !is_open(r.d.word) { return out; }
+    let word = select(r.c.word, r.d.word, up);
+    let own = node[slot];
+    let other = carrier_beside(slot, c, n, select(-1, 1, up), word);
     let low = select(other, own, up);
     let high = select(own, other, up);
-    let reflects = is_image(far);
+    let stencil = stencil_at(r, n);
+    let reflects = is_reflected(n, c[n] + select(-1, 1, up));
     var carried = select(other[n], 0.0, reflects);
-    if kind_of(far_word) == GAS && !reflects {
-        if near_obstacle(slot_of(near), slot_of(far)) { carried = cut_velocity(min(near, far), n) - given_back() * (high.w - low.w); }
+    if kind_of(word) == GAS && !reflects {
+        if near_obstacle(r.c.word, r.d.word) { carried = cut_velocity(select(c - axis(n), c, up), n) - given_back() * (high.w - low.w); }
         else { carried = carried_velocity(n, low, stencil.c.flow.x, high, stencil.d.flow.x); }
     }
     out = carried_fluxes(stencil, carried, carrier_spread(low[n], high[n]));
     if reflects { return reflected(n, out); }
-    out.heat *= f32(kind_of(far_word) == GAS);
+    out.heat *= f32(kind_of(word) == GAS);
     return out;
 }
 
-// Both fluxes through the face between `near` (a GAS cell, on the low side if `up`) and its neighbour, along +axis.
-fn face_fluxes(near: vec3i, n: u32, up: bool) -> Fluxes {
-    let far = select(near - axis(n), near + axis(n), up);
-    if CONSISTENT { return carried_face(near, far, n, up); }
-    let near_slot = slot_of(near);
-    let here = source(near_slot);
-    let far_word = word_at(far);
-    let open = is_open(far_word);
-    var next = here;
-    if open { next = open_gas(far, n); }
-    var out = face_fluxes_of(n, stencil_at(near, n, up, here, next, open));
-    if is_image(far) { return reflected(n, out); }
-    out.heat *= f32(kind_of(far_word) == GAS);
-    if open { return out; }
+// Both fluxes through the face below a slot inside the domain, or the one above, along +axis; one of its cells is GAS.
+fn face_fluxes(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
+    if CONSISTENT { return carried_face(slot, c, n, up, r); }
+    var out = face_fluxes_of(n, stencil_at(r, n));
+    if is_reflected(n, c[n] + select(-1, 1, up)) { return reflected(n, out); }
+    out.heat *= f32(kind_of(r.c.word | r.d.word) == GAS);
+    if is_open(r.c.word) && is_open(r.d.word) { return out; }
     // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
+    let from_low = kind_of(r.c.word) == GAS;
+    let here = chosen(r.c.gas, r.d.gas, from_low);
+    let wall = select(r.c.word, r.d.word, from_low);
     var blocked = 1.0;
     var wall_velocity = 0.0;
-    if SOLIDS && kind_of(far_word) == SOLID {
-        blocked = blocked_of(far_word);
-        let a = node[near_slot];
-        let b = node[slot_of(far)];
+    if SOLIDS && kind_of(wall) == SOLID {
+        blocked = blocked_of(wall);
+        let a = node[slot];
+        let b = node[select(slot - step_of(n), slot + step_of(n), up)];
         wall_velocity = (a.w * a[n] + b.w * b[n]) / max(a.w + b.w, 1e-30);
     }
     let carried = blocked * wall_velocity;

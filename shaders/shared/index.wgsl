@@ -75,6 +75,20 @@ fn before_sides(c: vec3i, gap: i32) -> vec3i {
 fn mirrored(c: vec3i) -> vec3i { return before_sides(c, 1); }
 fn mirrored_vertex(v: vec3i) -> vec3i { return before_sides(v, 0); }
 
+// The same of a place along one axis; along a periodic one what it stands for.
+fn place_along(n: u32, j: i32) -> i32 {
+    let count = i32(params.cells[n]);
+    if PERIODIC != 0u && ((PERIODIC >> n) & 1u) == 1u { return (j + count) % count; }
+    if MIRRORED == 0u { return j; }
+    if j < 0 && mirrors(2u * n) == 1 { return -1 - j; }
+    if j >= count && mirrors(2u * n + 1u) == 1 { return 2 * count - 1 - j; }
+    return j;
+}
+
+fn is_reflected(n: u32, j: i32) -> bool {
+    return MIRRORED != 0u && ((j < 0 && mirrors(2u * n) == 1) || (j >= i32(params.cells[n]) && mirrors(2u * n + 1u) == 1));
+}
+
 fn is_image(c: vec3i) -> bool { return MIRRORED != 0u && any(mirrored(c) != c); }
 
 // Whether a slot lies beyond a periodic side: it stands for one at the other end and holds nothing.

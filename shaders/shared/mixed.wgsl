@@ -42,10 +42,12 @@ fn folded(entry: vec4f, images: vec2f) -> vec4f { return entry + vec4f(0.0, imag
 struct Step { mean: vec2f, slope: vec2f, face: f32 }
 
 fn step_at(entries: Split, k: i32) -> Step {
-    let i = u32(k + 1);
-    return Step(vec2f(entries.mean_below[i], entries.mean_above[i]), vec2f(entries.slope_below[i], entries.slope_above[i]),
-        entries.face[i]);
+    return Step(vec2f(entry_at(entries.mean_below, k), entry_at(entries.mean_above, k)),
+        vec2f(entry_at(entries.slope_below, k), entry_at(entries.slope_above, k)), entry_at(entries.face, k));
 }
+
+// By comparisons: software keeps what is indexed by a variable in memory.
+fn entry_at(entry: vec4f, k: i32) -> f32 { return select(select(entry.x, entry.y, k == 0), select(entry.z, entry.w, k == 2), k >= 1); }
 
 // Products of the entries along y and z in the four rows.
 struct Weights { x: vec4f, y: vec4f, z: vec4f }

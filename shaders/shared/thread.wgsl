@@ -5,3 +5,12 @@
 fn thread_index(workgroup: vec3u, groups: vec3u, local: u32) -> u32 {
     return ((workgroup.z * groups.y + workgroup.y) * groups.x + workgroup.x) * WORKGROUP + local;
 }
+
+// Neighbours that run in step on a CPU.
+const OCTET = 8u;
+
+// The same, with neighbouring octets in different workgroups: where work lies close together, no workgroup has all of it.
+fn spread_index(workgroup: vec3u, groups: vec3u, local: u32) -> u32 {
+    let first = thread_index(workgroup, groups, 0u) / WORKGROUP;
+    return OCTET * (local / OCTET * groups.x * groups.y * groups.z + first) + local % OCTET;
+}
