@@ -100,7 +100,7 @@ fn p2g_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) group
 @compute @workgroup_size(WORKGROUP)
 fn p2g_gather(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
-    let thread = spread_index(group, groups, lane);
+    let thread = octet_index(group, groups, lane);
     let across = columns_across();
     let wide = columns_of_color();
     let column = 3u * vec2u(thread % wide.x, (thread / wide.x) % wide.y) + color.xy;

@@ -153,6 +153,11 @@ const SOFTWARE_MARCH: u32 = 16;
 /// The same on a GPU, which needs the threads more (not measured on one).
 pub(super) const MARCH: u32 = 4;
 
+/// Length of the marches over `rows` slots, at most `longest`: all as long as the others, or a row less, so that no thread has little to do.
+fn even_march(rows: u32, longest: u32) -> u32 {
+    rows.div_ceil(rows.div_ceil(longest))
+}
+
 impl Params {
     /// Parameters of a scene on its grid.
     #[must_use]
@@ -189,7 +194,7 @@ impl Params {
                 .max(solids.particles)
                 .div_ceil(WORKGROUP * limits.per_thread)
                 .clamp(1, limits.groups),
-            march: limits.march,
+            march: even_march(grid.strides()[scene.domain.dimension as usize - 1], limits.march),
             wall_sides: wall_sides(scene),
             blending: u32::from(numerics.blending),
             least_entropy: 0.0,

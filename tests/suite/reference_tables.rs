@@ -6,6 +6,7 @@ use crate::reference::grid::Grid;
 use crate::reference::step::{Report, advance_to, step};
 use crate::reference::{Numerics, Pair, Problem, Side, State, Weno};
 use crate::reference_exact::{self as exact, Primitive};
+use brisance::scene::Scene;
 use std::sync::OnceLock;
 
 /// A shock-tube case: name, left, right, time.
@@ -70,6 +71,7 @@ fn shock_tubes_of_the_device() {
     ];
     let mut failures = Vec::new();
     for (case, (name, expected)) in CASES.iter().zip(TUBES) {
+        let cfl = Scene::shipped(&format!("gas/{name}.toml"), &[]).unwrap().time.cfl;
         let found = settings.map(|(pair, predictor, two_solves)| {
             let mut problem = tube(400);
             problem.numerics = Numerics {
@@ -78,6 +80,7 @@ fn shock_tubes_of_the_device() {
                 two_solves,
                 consistent: two_solves,
                 tolerance: 1e-6,
+                cfl,
                 ..Numerics::default()
             };
             error_of(case, &problem).0
