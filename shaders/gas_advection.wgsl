@@ -110,7 +110,7 @@ fn interior_fluxes(n: u32, low: u32, stencil: Stencil) -> Fluxes {
 }
 
 // The same through both faces across one axis, far from walls, bodies and open sides.
-fn axis_change(velocity: vec3f, slot: u32, n: u32, here: Gas) -> Change {
+fn axis_change(velocity: vec3f, slot: u32, word: u32, n: u32, here: Gas) -> Change {
     var change: Change;
     change.velocity = velocity;
     let s = step_of(n);
@@ -121,8 +121,10 @@ fn axis_change(velocity: vec3f, slot: u32, n: u32, here: Gas) -> Change {
     let e = source(slot + s);
     let f = source(slot + 2u * s);
     let g = source(min(slot + 3u * s, last));
-    add_face(&change, interior_fluxes(n, slot - s, stencil_above(n, slot - s, a, b, c, here, e, f)), 1.0, 1.0);
-    add_face(&change, interior_fluxes(n, slot, stencil_above(n, slot, b, c, here, e, f, g)), 1.0, -1.0);
+    let low = stencil_inside(n, is_wide(word, n, false), ends_in_image(word, n, false), false, a, b, c, here, e, f);
+    let high = stencil_inside(n, is_wide(word, n, true), false, ends_in_image(word, n, true), b, c, here, e, f, g);
+    add_face(&change, interior_fluxes(n, slot - s, low), 1.0, 1.0);
+    add_face(&change, interior_fluxes(n, slot, high), 1.0, -1.0);
     return change;
 }
 
@@ -221,21 +223,29 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     var here = source(begin);
     var e = source(min(begin + s, last));
     var f = source(min(begin + 2u * s, last));
-    var low = interior_fluxes(n, below, stencil_above(n, below, source(max(begin, 3u * s) - 3u * s), b, c, here, e, f));
+    var word = cells[begin];
+    let a = source(max(begin, 3u * s) - 3u * s);
+    var low = interior_fluxes(n, below, stencil_inside(n, is_wide(word, n, false), ends_in_image(word, n, false), false, a, b, c, here, e, f));
     for (var slot = begin; slot < end; slot += s) {
         let g = source(min(slot + 3u * s, last));
-        let high = interior_fluxes(n, slot, stencil_above(n, slot, b, c, here, e, f, g));
-        if has(cells[slot], INTERIOR) {
+        // Of a face below an INTERIOR slot that slot knows, too.
+        let next = cells[min(slot + s, last)];
+        let known = has(word, INTERIOR);
+        let all_gas = select(is_wide(next, n, false), is_wide(word, n, true), known);
+        let low_image = !known && ends_in_image(next, n, false);
+        let high = interior_fluxes(n, slot, stencil_inside(n, all_gas, low_image, known && ends_in_image(word, n, true), b, c, here, e, f, g));
+        if known {
             var change: Change;
             if LIMITER { change.velocity = velocity_of(here.flow); }
             var along = change;
             add_face(&along, low, 1.0, 1.0);
             add_face(&along, high, 1.0, -1.0);
             change = plus(change, along);
-            for (var m = 0u; m < n; m++) { change = plus(change, axis_change(change.velocity, slot, m, here)); }
+            for (var m = 0u; m < n; m++) { change = plus(change, axis_change(change.velocity, slot, word, m, here)); }
             finish(slot, here, change);
         }
         low = high;
+        word = next;
         b = c;
         c = here;
         here = e;

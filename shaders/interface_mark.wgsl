@@ -181,6 +181,22 @@ fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     wanted[slot] = u32(!is_alias(c) && is_mixed(cells[slot]));
 }
 
+// What an INTERIOR slot knows of the cells around its faces, see cell.wgsl.
+fn reach_of(slot: u32) -> u32 {
+    var found = 0u;
+    for (var n = 0u; n < DIM; n++) {
+        let s = step_of(n);
+        let ends = vec2u(cells[slot - min(slot, 3u * s)], cells[min(slot + 3u * s, params.slots - 1u)]);
+        for (var up = 0u; up < 2u; up++) {
+            let is_end = holds_image(ends[up]);
+            var wide = kind_of(ends[up]) == GAS || is_end;
+            if CUT { wide = has(cells[slot - (2u - up) * s] & cells[slot + (1u + up) * s], NODE_INTERIOR); }
+            found |= (u32(wide) << (WIDE_SHIFT + 2u * n + up)) | (u32(is_end) << (END_SHIFT + 2u * n + up));
+        }
+    }
+    return found;
+}
+
 // INTERIOR slots whose node a listed vertex rests on, B1B0: the vertices of a node lie at its own slot and above.
 fn on_frontier(slot: u32) -> bool {
     for (var k = 1u; k < corner_count(); k++) {
@@ -204,7 +220,7 @@ fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         let at = select(first + edge_place[slot] - place[slot], place[slot], wanted[slot] == 1u);
         atomicStore(&extra[params.slots + at], slot);
     }
-    if interior { cells[slot] |= INTERIOR; }
+    if interior { cells[slot] = (cells[slot] & 0xffffu) | INTERIOR | reach_of(slot); }
     if interior && !QUADRATIC && on_frontier(slot) {
         let at = atomicAdd(&extra[2u * params.slots + 1u], 1u);
         atomicStore(&extra[2u * params.slots - 1u - at], slot);

@@ -105,12 +105,16 @@ fn interior_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroup
         if !own.any { continue; }
         let slot = own.slot;
         if !own.deep {
-            if !SOLIDS { image += y[slot] * y[slot] * inverse_diagonal[slot]; }
+            if !SOLIDS {
+                let listed = y[slot];
+                image += listed * listed * inverse_diagonal[slot];
+            }
             continue;
         }
-        let value = stiffness[slot] * x[slot] + scale * scale * operator_at(slot, x[slot]);
+        let here = x[slot];
+        let value = stiffness[slot] * here + scale * scale * operator_at(slot, here);
         y[slot] = value;
-        product += x[slot] * value;
+        product += here * value;
         if !SOLIDS { image += value * value * inverse_diagonal[slot]; }
     }
     let sum = workgroup_sum4(lane, vec4f(product, image, 0.0, 0.0));

@@ -25,12 +25,15 @@ fn solve_reference(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let end = params.slots + 2u * params.extra_capacity;
     var sum = 0.0;
     for (var i = thread_index(group, groups, lane); i < end; i += groups.x * groups.y * WORKGROUP) {
-        var inverse = inverse_diagonal[i];
+        let own = stiffness[i];
+        var inverse: f32;
         if !QUADRATIC && i < params.slots && has(cells[min(i, params.slots - 1u)], INTERIOR) {
-            inverse = 1.0 / (stiffness[i] + square * mass_sum(i));
+            inverse = 1.0 / (own + square * mass_sum(i));
             inverse_diagonal[i] = inverse;
+        } else {
+            inverse = inverse_diagonal[i];
         }
-        let whole = stiffness[i] * pressure[i] + residual[i];
+        let whole = own * pressure[i] + residual[i];
         sum += inverse * whole * whole;
     }
     let part = workgroup_sum4(lane, vec4f(0.0, sum, 0.0, 0.0));

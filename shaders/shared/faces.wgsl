@@ -142,18 +142,12 @@ fn face_fluxes(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
     return out;
 }
 
-// Six cells around the face above a slot, if it or the one above is INTERIOR: only the outermost can be images, of b and of e.
-fn stencil_above(n: u32, low: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
-    let s = step_of(n);
-    let last = params.slots - 1u;
-    let below = cells[low - min(low, 2u * s)];
-    let above = cells[min(low + 3u * s, last)];
-    var is_wide = low >= 2u * s && (kind_of(below) == GAS || holds_image(below)) && (kind_of(above) == GAS || holds_image(above));
-    if CUT { is_wide = has(cells[low - min(low, s)] & cells[min(low + 2u * s, last)], NODE_INTERIOR); }
-    if !is_wide { return narrow(b, c, d, e); }
+// Six cells around a face deep inside the gas. `all_gas`: whether all hold gas or are images; only the outermost can be, of b and of e.
+fn stencil_inside(n: u32, all_gas: bool, low_image: bool, high_image: bool, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
+    if !all_gas { return narrow(b, c, d, e); }
     var first = a;
     var end = f;
-    if holds_image(below) { first = image(n, b); }
-    if holds_image(above) { end = image(n, e); }
+    if low_image { first = image(n, b); }
+    if high_image { end = image(n, e); }
     return wide(n, first, b, c, d, e, end);
 }
