@@ -41,3 +41,4 @@ mod verify;
 #[cfg(feature = "viewer")]
 mod viewer;
 mod walls;
+mod words;
