@@ -72,19 +72,17 @@ fn total_from(first: u32, lane: u32) -> vec4f {
 
 fn total(lane: u32) -> vec4f { return total_from(0u, lane); }
 
-const LANES = 8u;
-
 // First run of the octet that a thread is in, and the one after its last.
 fn runs_of(thread: u32) -> vec2u {
     if pcg.runs == 0u { return vec2u(0u); }
-    let octet = pcg.runs + thread / LANES;
+    let octet = pcg.runs + thread / OCTET;
     return vec2u(runs[octet], runs[octet + 1u]);
 }
 
 // Unknown of a lane in a run, pcg.length if it has none.
 fn unknown_in(run: u32, thread: u32) -> u32 {
-    let at = pcg.runs + pcg.groups_partial * (WORKGROUP / LANES) + 1u + 2u * run;
-    let lane = thread % LANES;
+    let at = pcg.runs + pcg.groups_partial * (WORKGROUP / OCTET) + 1u + 2u * run;
+    let lane = thread % OCTET;
     return select(pcg.length, runs[at] + lane, ((runs[at + 1u] >> (8u + lane)) & 1u) == 1u);
 }
 
