@@ -15,6 +15,7 @@ use crate::gpu::{Gpu, readback};
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::snapshot::{Snapshot, kind};
+use crate::state::cut::gas_shares;
 
 /// What must stay constant in a closed domain without gravity and driven parts: everything inside plus what has crossed the boundary.
 /// Summed on the CPU in double precision, so that the sum itself loses nothing.
@@ -46,6 +47,7 @@ impl Budget {
         let cells = readback::read(gpu, &state.interface.cells)?;
         let owed = readback::read(gpu, &state.gas.owed_flow)?;
         let owed_energy = readback::read(gpu, &state.gas.owed_energy)?;
+        let shares = gas_shares(&state.grid, &scene.cut_geometry());
         let mut books = owed.iter().zip(&owed_energy);
         let everywhere = owed.len() == cells.len();
         let mut budget = Self { energy: stored, ..Self::default() };
@@ -55,12 +57,13 @@ impl Budget {
             let share = if inside { 1.0 } else { volume };
             let book = if everywhere || !inside { books.next() } else { None };
             let (owed, owed_energy) = book.map_or(([0.0; 4], 0.0), |(flow, energy)| (*flow, *energy));
-            let mass = share * f64::from(owed[0]) + volume * f64::from(flow[slot][0]);
+            let room = volume * shares[slot];
+            let mass = share * f64::from(owed[0]) + room * f64::from(flow[slot][0]);
             budget.gas_mass += if inside { mass } else { 0.0 };
             budget.gas_mass_with_crossed += mass;
-            budget.energy += share * f64::from(owed_energy) + volume * f64::from(energy[slot]);
+            budget.energy += share * f64::from(owed_energy) + room * f64::from(energy[slot]);
             for (axis, sum) in budget.momentum.iter_mut().enumerate() {
-                *sum += share * f64::from(owed[axis + 1]) + volume * f64::from(flow[slot][axis + 1]);
+                *sum += share * f64::from(owed[axis + 1]) + room * f64::from(flow[slot][axis + 1]);
             }
         }
         let borrowed = simulation.borrowed()?;

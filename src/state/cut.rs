@@ -35,6 +35,16 @@ pub fn entries(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
     entries
 }
 
+/// The gas that fits into each slot, in cells: less than one where an obstacle cuts it.
+#[must_use]
+pub fn gas_shares(grid: &Grid, geometry: &CutGeometry) -> Vec<f64> {
+    let mut shares = vec![1.0; grid.slots()];
+    for (cut, slot) in geometry.cells.iter().zip(slots(grid, geometry)) {
+        shares[slot as usize] = cut.part.volume;
+    }
+    shares
+}
+
 /// The entries, one after the other.
 #[must_use]
 pub fn table(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {

@@ -1,6 +1,7 @@
 //! Cut cells: obstacles by their true surface.
 
 use brisance::diagnostics::StepRecord;
+use brisance::expect::Budget;
 use brisance::gpu::{Gpu, readback};
 use brisance::scene::Scene;
 use brisance::simulation::Simulation;
@@ -201,4 +202,22 @@ fn noise_beside_a_turned_square_does_not_grow() {
         eprintln!("s = {courant}: |dp|/p {found:.1e}, |u| {:.1e}", last.gas_speed);
         assert!(found < 2e-3, "{found:.1e}");
     }
+}
+
+#[test]
+fn the_budget_counts_the_gas_that_an_obstacle_leaves_in_a_cell() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let state = "density = 1.4, velocity = [2.0, 0.0], pressure = 1.0";
+    let scene = parse(&format!(
+        "title = \"disc\"\n[domain]\ndimension = 2\ncells = [24, 24]\nsize = [1.0, 1.0]\n[gas]\nambient = {{ {state} }}\n\
+         [boundary]\nx_min = {{ inlet = {{ {state} }} }}\nx_max = \"outlet\"\n\
+         [[obstacles]]\nname = \"o\"\nshape = {{ sphere = {{ center = [0.53, 0.47], radius = 0.2 }} }}\n\
+         [time]\nuntil = 0.1\n"
+    ));
+    assert!(!scene.cut_geometry().cells.is_empty());
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+    let start = Budget::read(&simulation, &scene, 0.0).unwrap();
+    simulation.advance_to(0.1).unwrap();
+    let drift = Budget::read(&simulation, &scene, 0.0).unwrap().drift_since(&start);
+    assert!(drift["gas_mass"].abs() < 1e-6 && drift["energy"].abs() < 1e-6, "{drift:?}");
 }
