@@ -22,9 +22,9 @@ override SOLVED: bool;  // the solve has moved air that was still
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
 
 fn source(slot: u32) -> vec4f {
-    if SOURCE == 1u { return work[slot]; }
-    if SOURCE == 2u { return work[params.slots + slot]; }
-    return conserved[slot];
+    if SOURCE == 1u { return in_space(work[slot]); }
+    if SOURCE == 2u { return in_space(work[params.slots + slot]); }
+    return in_space(conserved[slot]);
 }
 
 fn flow_at(slot: u32) -> vec4f { return source(slot); }

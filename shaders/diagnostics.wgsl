@@ -51,7 +51,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         place = select(place + PLACES_PER_TURN, place + PLACES_PER_TURN - threads, place + PLACES_PER_TURN >= threads);
         if slot >= params.slots { continue; }
         let kind = kind_of(cells[slot]);
-        let u = Gas(conserved[slot], energy[slot]);
+        let u = Gas(in_space(conserved[slot]), energy[slot]);
         if !RING_BOOKS && (kind == GAS || kind == SOLID) {
             owed += owed_flow[slot];
             heat.y += owed_energy[slot];
@@ -158,7 +158,7 @@ fn totals_probes(@builtin(local_invocation_index) lane: u32) {
     let base = ((control.step + params.history - 1u) % params.history) * params.probes;
     for (var k = lane; k < params.probes; k += WORKGROUP) {
         let slot = probe_cells[k];
-        let u = Gas(conserved[slot], energy[slot]);
+        let u = Gas(in_space(conserved[slot]), energy[slot]);
         probe_history[2u * (base + k)] = vec4f(u.flow.x, velocity_of(u.flow));
         probe_history[2u * (base + k) + 1u] = vec4f(pressure_of(u), f32(kind_of(cells[slot])), 0.0, 0.0);
     }

@@ -2,6 +2,7 @@
 // without energy, so a cell squeezed between faces may hold more kinetic than total energy. Its momentum is scaled until a tenth
 // of the internal energy before the pressure step is left, and the entropy of no gas that was there; the ledger takes the momentum.
 // Only if the total energy itself is below that floor is energy borrowed from the ledger. Every floored cell is counted.
+// The plain form runs only if fluid_energy has found a cell that may need it.
 // What has crossed the boundary goes from the slot where it was collected to the ledger, where all of it is.
 #include "shared/index.wgsl"
 #include "shared/listed.wgsl"
@@ -11,6 +12,7 @@
 #include "shared/ars.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/books.wgsl"
+#include "shared/floor.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -20,10 +22,6 @@
 @group(0) @binding(6) var<storage, read_write> owed_flow: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> owed_energy: array<f32>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
-
-const FLOOR_SHARE = 0.1;
-// Internal energy is a difference of two float32 numbers: below some hundred units in the last place it means nothing.
-const RESOLVED_SHARE = 2e-5;
 
 // Adds what a step brought to what crossed before, per cell volume, and leaves what float32 could not add: it comes with the next
 // step. Thousands of equal parts, as those of an inlet, would else be cut short by the same amount each. (A driver that reorders sums
@@ -74,15 +72,14 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     // Between two solves of a step the second still builds upon what the first collected.
     if (kind == GHOST || kind == WALL) && !(ARS && control.stage == 0u) { keep_crossed(slot); }
     if kind != GAS { return; }
-    let flow = conserved[slot];
+    let flow = in_space(conserved[slot]);
     let total = energy[slot];
-    if is_broken(total) || is_broken(flow.x) || flow.x <= 0.0 {
+    if is_unsound(flow.x, total) {
         atomicMin(&control.fault, (STAGE_FLUID_UPDATE << 27u) | slot);
         return;
     }
     let before = 1.0 / (params.gamma * fill[slot].y * (params.gamma - 1.0));
-    let coldest = params.least_entropy * pow(flow.x, params.gamma) / (params.gamma - 1.0);
-    let least = max(max(FLOOR_SHARE * before, coldest), RESOLVED_SHARE * total);
+    let least = least_energy(flow.x, total, before);
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
     // What the first of two solves loses counts more than once in the second [shared/ars.wgsl].

@@ -14,6 +14,7 @@
 #include "shared/cut_system.wgsl"
 #include "shared/cut_carrier.wgsl"
 #include "shared/body_power.wgsl"
+#include "shared/floor.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -147,9 +148,8 @@ fn face_velocity(n: u32, low: u32, high: u32, a: vec4f, b: vec4f) -> f32 {
 // With two solves the new face velocity also carries the internal energy: power and flux together are those of the enthalpy.
 fn carried_along() -> f32 { return select(1.0, params.gamma / (params.gamma - 1.0), ARS); }
 
-fn interior_heat(slot: u32) -> f32 {
+fn interior_heat(slot: u32, here: vec4f) -> f32 {
     var heat = 0.0;
-    let here = conserved[slot];
     var own = vec4f(0.0);
     if CONSISTENT { own = node[slot]; }
     for (var n = 0u; n < DIM; n++) {
@@ -217,7 +217,7 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
     let p = face_pressure(c, n, up, beyond);
     let far = slot_of(select(c - axis(n), c + axis(n), up));
     if beyond == GAS {
-        let there = conserved[far];
+        let there = in_space(conserved[far]);
         let velocity = face_velocity(n, select(far, slot, up), select(slot, far, up), select(there, here, up), select(here, there, up));
         return carried_along() * p * velocity;
     }
@@ -231,7 +231,7 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
 // what passes towards them.
 fn heat_of(slot: u32, own: bool, gives: bool) -> f32 {
     let c = cell_of(slot);
-    let here = conserved[slot];
+    let here = in_space(conserved[slot]);
     var heat = 0.0;
     for (var n = 0u; n < DIM; n++) {
         var along = 0.0;
@@ -252,13 +252,28 @@ fn heat_of(slot: u32, own: bool, gives: bool) -> f32 {
     return heat;
 }
 
+// Least ratio of the pressure of the predictor to that of the advected state, and a hair less [intermediate_pressure.wgsl].
+const LEAST_PREDICTED = 0.98;
+
+// Whether the floor may have to act on a cell deep inside the gas: never false where it would, for the pressure of the predictor tells
+// nearly what internal energy there was before.
+fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
+    let before = energy[params.slots + slot] / (LEAST_PREDICTED * (params.gamma - 1.0));
+    return is_unsound(flow.x, total) || total - kinetic_energy(flow) < least_energy(flow.x, total, before);
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) lane: u32) {
     let slot = listed_slot(thread_index(group, groups, lane));
     if slot >= params.slots { return; }
     if !LISTED {
-        if has(cells[slot], INTERIOR) { energy[slot] += interior_heat(slot) * control.dt / params.spacing; }
+        if has(cells[slot], INTERIOR) {
+            let flow = in_space(conserved[slot]);
+            let total = energy[slot] + interior_heat(slot, flow) * control.dt / params.spacing;
+            if may_be_cold(slot, flow, total) { atomicStore(&control.cold, 1u); }
+            energy[slot] = total;
+        }
         return;
     }
     let kind = kind_of(cells[slot]);

@@ -32,8 +32,8 @@ override SECOND: bool;  // stage of the Runge-Kutta scheme
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 
 fn source(slot: u32) -> Gas {
-    if SECOND && !ARS { return Gas(work[slot], energy[params.slots + slot]); }
-    return Gas(conserved[slot], energy[slot]);
+    if SECOND && !ARS { return Gas(in_space(work[slot]), energy[params.slots + slot]); }
+    return Gas(in_space(conserved[slot]), energy[slot]);
 }
 
 // `sign`: 1 into the cell, -1 out of it; times the open share of the face.
@@ -131,7 +131,7 @@ fn axis_change(velocity: vec3f, slot: u32, word: u32, n: u32, here: Gas) -> Chan
 // The state that the change of this stage is added to.
 fn start_of(slot: u32, here: Gas) -> Gas {
     if !ARS || !SECOND { return here; }
-    return Gas(here.flow + ARS_KEPT * (here.flow - work[2u * params.slots + slot]),
+    return Gas(here.flow + ARS_KEPT * (here.flow - in_space(work[2u * params.slots + slot])),
         here.energy + ARS_KEPT * (here.energy - energy[3u * params.slots + slot]));
 }
 
@@ -145,7 +145,7 @@ fn write_result(slot: u32, before: Gas, all: Change) {
         work[2u * params.slots + slot] = before.flow + ARS_CHANGE * change.flow;
         energy[3u * params.slots + slot] = before.energy + ARS_CHANGE * (change.energy - all.heat);
     } else if SECOND {
-        work[params.slots + slot] = 0.5 * (conserved[slot] + before.flow + change.flow);
+        work[params.slots + slot] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
         energy[2u * params.slots + slot] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
         work[slot] = before.flow + change.flow;
@@ -170,7 +170,7 @@ fn stays(slot: u32) -> bool { return !CUT && !(ARS && SECOND) && is_still(slot);
 
 fn stay(slot: u32) {
     if LIMITER { theta[slot] = 1.0; }
-    write_result(slot, Gas(conserved[slot], energy[slot]), Change());
+    write_result(slot, Gas(in_space(conserved[slot]), energy[slot]), Change());
 }
 
 // Whether a slot of the ring gets what passes through the side from the cell before it.

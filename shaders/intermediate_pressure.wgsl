@@ -20,7 +20,7 @@
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 
-fn advected(slot: u32) -> Gas { return Gas(work[params.slots + slot], energy[2u * params.slots + slot]); }
+fn advected(slot: u32) -> Gas { return Gas(in_space(work[params.slots + slot]), energy[2u * params.slots + slot]); }
 
 // Velocity beyond a face: the neighbour's, or what the boundary prescribes.
 fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
@@ -124,7 +124,7 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     var p = pressure_of(here);
     // The start of a second solve is no state of the gas: behind very strong shocks it may lack internal energy. Every such cell is counted.
     if ARS {
-        let least = LEAST_STARTED * pressure_of(Gas(conserved[slot], energy[slot]));
+        let least = LEAST_STARTED * pressure_of(Gas(in_space(conserved[slot]), energy[slot]));
         if p < least {
             p = least;
             atomicAdd(&control.raised, 1u);

@@ -53,7 +53,7 @@ fn operator_at(at: u32, own: f32) -> f32 {
 
 // What the gas of cell `at` takes away from its corner o, of two axes at once.
 fn outflow(at: u32, o: vec3u) -> f32 {
-    let v = rounded4(vec4f(velocity_of(conserved[at]) * vec3f(reach()), 0.0)).xyz;
+    let v = rounded4(vec4f(velocity_of(in_space(conserved[at])) * vec3f(reach()), 0.0)).xyz;
     return dot(v, 2.0 * vec3f(o) - 1.0);
 }
 

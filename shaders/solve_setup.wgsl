@@ -94,7 +94,7 @@ fn nearest_gas_velocity(c: vec3i) -> vec3f {
             if dot(offset, offset) != distance || !inside(c + offset) { continue; }
             let at = slot_of(c + offset);
             if kind_of(cells[at]) == GAS {
-                sum += velocity_of(conserved[at]);
+                sum += velocity_of(in_space(conserved[at]));
                 count += 1.0;
             }
         }
@@ -106,7 +106,7 @@ fn nearest_gas_velocity(c: vec3i) -> vec3f {
 fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
     if is_image(c) { return vec3f(0.0); }
     let kind = kind_of(cells[slot]);
-    if kind == GAS { return velocity_of(conserved[slot]); }
+    if kind == GAS { return velocity_of(in_space(conserved[slot])); }
     if kind != GHOST { return nearest_gas_velocity(c); }
     let opening = opening_of(cells[slot]);
     let near = slot_of(nearest_inside(c));
@@ -125,7 +125,7 @@ fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
     if !LISTED {
         if !has(word, INTERIOR) { return; }
         let gas = work[slot];
-        work[slot] = vec4f(velocity_of(conserved[slot]) - control.dt * gas.xyz, gas.w);
+        work[slot] = vec4f(velocity_of(in_space(conserved[slot])) - control.dt * gas.xyz, gas.w);
         return;
     }
     if has(word, NODE_GAS) {

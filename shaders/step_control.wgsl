@@ -41,6 +41,12 @@ fn control_limiter() {
     control.limited_before = now;
 }
 
+// After the energies: may the floor have to act deep inside the gas?
+@compute @workgroup_size(1)
+fn control_cold() {
+    open_phase(PHASE_FLOOR_EXTENTS, atomicExchange(&control.cold, 0u) == 1u);
+}
+
 // After the recorded iterations: has the solve finished?
 @compute @workgroup_size(1)
 fn control_solved() {

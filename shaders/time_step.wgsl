@@ -31,7 +31,7 @@ const IMPLICIT_COURANT = 1000.0;
 // Pressure differences below this share of p are noise of the solve, not a force.
 const PRESSURE_NOISE = 1e-6;
 
-fn gas_at(slot: u32) -> Gas { return Gas(conserved[slot], energy[slot]); }
+fn gas_at(slot: u32) -> Gas { return Gas(in_space(conserved[slot]), energy[slot]); }
 
 // Pressure difference to a neighbour as an acceleration over the cell edge.
 fn push_of(gas: Gas, p: f32, neighbour: Gas) -> f32 {

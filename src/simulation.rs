@@ -177,7 +177,7 @@ impl Simulation {
         self.record_iterations(pass); // (5) eq. 37
         self.time_step.record_solved(pass);
         self.coupled_solve.record_solution(pass, state);
-        self.fluid_update.record(pass, state, &self.carrier); // eqs. 14 and 3, local gradients
+        self.fluid_update.record(pass, state, &self.carrier, &self.time_step); // eqs. 14 and 3, local gradients
     }
 
     /// Iterations of the solve; where some slots sleep, a long one wakes them.

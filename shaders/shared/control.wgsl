@@ -14,6 +14,7 @@ struct Control {
     limited: atomic<u32>,       // cells where the flux limiter acted, this step
     limited_before: u32,        // the same when the first advection stage ended
     floored: atomic<u32>,       // cells where the energy floor acted, this step
+    cold: atomic<u32>,          // 1 if the energy floor may have to act deep inside the gas
     raised: atomic<u32>,        // cells whose pressure was raised before a solve with ARS, this step
     clamped: atomic<u32>,       // particles held back at a wall, this step
     unsorted: atomic<u32>,      // 1 if a particle may have left its cell since they were sorted

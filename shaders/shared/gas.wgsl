@@ -6,6 +6,13 @@ struct Gas {
     energy: f32,    // total energy per volume [J m^-3]
 }
 
+// The momentum along axes that the scene has not is zero. Said where a state is loaded, so that no kernel reads it or reckons with it.
+fn in_space(flow: vec4f) -> vec4f {
+    if DIM == 1u { return vec4f(flow.xy, 0.0, 0.0); }
+    if DIM == 2u { return vec4f(flow.xyz, 0.0); }
+    return flow;
+}
+
 fn velocity_of(flow: vec4f) -> vec3f { return flow.yzw / flow.x; }
 fn kinetic_energy(flow: vec4f) -> f32 { return 0.5 * dot(flow.yzw, flow.yzw) / flow.x; }
 fn internal_energy(gas: Gas) -> f32 { return gas.energy - kinetic_energy(gas.flow); }

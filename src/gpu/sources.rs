@@ -70,6 +70,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/element.wgsl",
     "shared/extents.wgsl",
     "shared/faces.wgsl",
+    "shared/floor.wgsl",
     "shared/flux.wgsl",
     "shared/gas.wgsl",
     "shared/gas_look.wgsl",

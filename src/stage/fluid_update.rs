@@ -1,9 +1,10 @@
 //! `fluid_update`: what does the solved pressure do to the gas? Local gradients, flux form. [Kwatra et al. 2009; eqs. 3, 14]
 
-use super::{Carried, CarrierVelocity, Parts, record_both, record_busy};
+use super::{Carried, CarrierVelocity, Parts, TimeStep, extent, record_both, record_busy};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
+use crate::state::constants::Entry;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -27,11 +28,14 @@ impl FluidUpdate {
     }
 
     /// Momentum, energy, floor.
-    pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity) {
+    pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, control: &TimeStep) {
         pass.stage("fluid_update");
         record_busy(pass, state, "UPDATE", &self.momentum);
         carrier.record(pass, state, Carried::Solved, "UPDATE");
         record_both(pass, state, "UPDATE", &self.energy);
-        record_busy(pass, state, "UPDATE", &self.floor);
+        control.record_cold(pass);
+        let [plain, listed] = &self.floor;
+        pass.dispatch(plain, &extent(state, "FLOOR", Entry::Awake));
+        pass.dispatch(listed, &extent(state, "UPDATE", Entry::Listed));
     }
 }

@@ -17,6 +17,7 @@ pub struct TimeStep {
     start: Bound,
     listed: Bound,
     limiter: Bound,
+    cold: Bound,
     solved: Bound,
     awake: Bound,
     wake: Bound,
@@ -48,6 +49,7 @@ impl TimeStep {
             start: control("control_start")?,
             listed: control("control_listed")?,
             limiter: control("control_limiter")?,
+            cold: control("control_cold")?,
             solved: control("control_solved")?,
             awake: control("control_awake")?,
             wake: control("control_wake")?,
@@ -86,6 +88,11 @@ impl TimeStep {
     /// Opens the correction of the advection where the limiter acted.
     pub fn record_limiter(&self, pass: &mut Pass) {
         pass.dispatch(&self.limiter, &Extent::Groups([1, 1, 1]));
+    }
+
+    /// Opens the energy floor deep inside the gas where it may have to act.
+    pub fn record_cold(&self, pass: &mut Pass) {
+        pass.dispatch(&self.cold, &Extent::Groups([1, 1, 1]));
     }
 
     /// Takes the length of the list of slots that are awake.

@@ -56,10 +56,11 @@ pub const REACHES: [u32; 2] = [4, 8];
 /// Entries of a phase in the table of extents.
 pub const PHASE_WIDTH: usize = 11 + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
-pub const PHASES: [&str; 13] = [
+pub const PHASES: [&str; 14] = [
     "BEGIN",
     "SORT",
     "LIMIT",
+    "FLOOR",
     "WAKE",
     "UPDATE",
     "SECOND",

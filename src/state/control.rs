@@ -32,6 +32,8 @@ pub struct Control {
     pub limited_before: u32,
     /// Cells where the energy floor acted, this step.
     pub floored: u32,
+    /// 1 if the energy floor may have to act deep inside the gas.
+    pub cold: u32,
     /// Cells whose pressure had to be raised before one of two solves, this step.
     pub raised: u32,
     /// Particles held back at a wall, this step.

@@ -77,7 +77,7 @@ fn noh(session: &mut Session<'_>) -> Result<()> {
             row.known(Limit::AtMost(0.08), YOUNG);
         }
         let row = session.check(&run, "asymmetry x to y over the density behind", asymmetry(&run) / NOH);
-        row.source("symmetry").pass(Limit::AtMost(1e-5)).known(Limit::AtMost(0.25), COLD);
+        row.source("symmetry").pass(Limit::AtMost(1e-5)).known(Limit::AtMost(0.1), COLD);
         let ahead = (0..=40).map(|k| radius + 0.01 * f64::from(k)).map(|r| [r, 1.0 + run.snapshot.time / r]);
         let exact = [[0.0, NOH], [radius, NOH]].into_iter().chain(ahead).collect();
         let plot = Plot::new(run.scene.title.as_str(), "radius", "density").with("exact", Style::Reference, exact);

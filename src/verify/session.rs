@@ -337,7 +337,7 @@ impl<'a> Session<'a> {
         self.push("lowest pressure of all runs", pressure).source("physics").pass(Limit::Above(0.0));
         let drift = self.health.iter().map(|(_, own)| own[3]).fold(0.0, f64::max);
         let row = self.push("gas mass, largest drift of all runs", drift).source("conservation law");
-        row.pass(Limit::AtMost(1e-6)).known(Limit::AtMost(5e-6), "sums of single precision over thousands of steps");
+        row.pass(Limit::AtMost(1e-6)).known(Limit::AtMost(2e-6), "sums of single precision over thousands of steps");
         if let Some((solver, [_, _, load, _])) = hardest.filter(|(_, own)| own[2] > 0.0) {
             let row = self.push("PCG iterations over bound, worst step", load);
             row.source("conjugate gradients, 1 + 4 d C^2").pass(Limit::AtMost(1.0)).solver = Some(solver);

@@ -144,6 +144,7 @@ fn tube(session: &mut Session<'_>, tube: &Tube) -> Result<()> {
         }
         if let Some(row) = report_order(session, &sweep, &points, tube.ratio)
             && let Some((most, reason)) = tube.known_ratio
+            && sweep.integrator == Integrator::Paper
         {
             row.known(Limit::AtMost(most), reason);
         }

@@ -99,6 +99,7 @@ fn control() {
             limited,
             limited_before,
             floored,
+            cold,
             raised,
             clamped,
             unsorted,
