@@ -77,10 +77,7 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     if slot == 0u { atomicStore(&extra[2u * params.slots + 1u], 0u); }
-    if is_alias(c) {
-        if SOLIDS { wanted[slot] = 0u; }
-        return;
-    }
+    if is_alias(c) { return; }
     var flags = 0u;
     var around = 0u;
     var gas = 0u;
