@@ -355,6 +355,20 @@ fn no_gas_is_colder_than_any_that_was_there() {
     assert!(owed < -0.1 * gas && (gas + owed - 1e-6 / 0.4).abs() < 1e-6 * gas, "{gas:e} and {owed:e}");
 }
 
+/// A cell that a step leaves less than a tenth of its internal energy, and nothing colder: `fluid_energy` has to call for the floor
+/// by that alone.
+#[test]
+fn a_tenth_of_the_internal_energy_is_left() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let text = "title = \"torn\"\n[domain]\ndimension = 1\ncells = [40]\nsize = [1.0]\n[gas]\nambient = { density = 1.0, pressure = 1e-9 }\n\
+                [time]\nuntil = 1.0\nfixed_step = 3.8e-3\n";
+    let mut simulation = disturbed(&gpu, text, |random, _| (1.0, [random.between(-3.0, 3.0), 0.0, 0.0], 0.1));
+    let records = simulation.advance_to(3.8e-3).unwrap_or_else(|error| panic!("{error}"));
+    let (floored, lowest) = (records[0].floored, records[0].pressure[0]);
+    eprintln!("{floored} floored, lowest pressure {lowest:e}");
+    assert!(floored > 0 && lowest > 5e-3, "{floored} floored, {lowest:e}");
+}
+
 /// Behind a strong shock the second of two solves may start from gas without internal energy. Its pressure is raised, and such cells are counted.
 #[test]
 fn pressures_raised_before_a_solve_are_counted() {
