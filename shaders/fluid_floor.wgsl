@@ -83,7 +83,7 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
     // What the first of two solves loses counts more than once in the second [shared/ars.wgsl].
-    let booked = select(1.0, 1.0 + ARS_KEPT, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
+    let booked = select(1.0, ARS_RETURNED, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
     atomicAdd(&control.floored, 1u);
     let left = flow.yzw * select(0.0, sqrt((total - least) / kinetic), total > least);
     if LEDGER { book_loss(slot, (flow.yzw - left) * booked, min(total - least, 0.0) * booked); }

@@ -7,6 +7,7 @@
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/control.wgsl"
+#include "shared/ars.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
 #include "shared/interior.wgsl"
@@ -145,8 +146,11 @@ fn face_velocity(n: u32, low: u32, high: u32, a: vec4f, b: vec4f) -> f32 {
     return (a[n + 1u] + b[n + 1u]) / (a.x + b.x);
 }
 
-// With two solves the new face velocity also carries the internal energy: power and flux together are those of the enthalpy.
-fn carried_along() -> f32 { return select(1.0, params.gamma / (params.gamma - 1.0), ARS); }
+// With two solves the new face velocity also carries the internal energy that was there at the start of the step [shared/ars.wgsl].
+fn carried_along(low: u32, high: u32) -> f32 {
+    if !ARS { return 0.0; }
+    return 0.5 * (energy[ARS_HEAT * params.slots + low] + energy[ARS_HEAT * params.slots + high]);
+}
 
 fn interior_heat(slot: u32, here: vec4f) -> f32 {
     var heat = 0.0;
@@ -164,9 +168,10 @@ fn interior_heat(slot: u32, here: vec4f) -> f32 {
             below = (conserved[low][n + 1u] + here[n + 1u]) / (conserved[low].x + here.x);
             above = (here[n + 1u] + conserved[high][n + 1u]) / (here.x + conserved[high].x);
         }
-        heat += rounded(interior_face(slot, n) * below - interior_face(high, n) * above);
+        heat += rounded((interior_face(slot, n) + carried_along(low, slot)) * below
+            - (interior_face(high, n) + carried_along(slot, high)) * above);
     }
-    return carried_along() * heat;
+    return heat;
 }
 
 // Calls with c in GAS; slots of other kinds see the same face from the other side.
@@ -219,7 +224,7 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
     if beyond == GAS {
         let there = in_space(conserved[far]);
         let velocity = face_velocity(n, select(far, slot, up), select(slot, far, up), select(there, here, up), select(here, there, up));
-        return carried_along() * p * velocity;
+        return (p + carried_along(slot, far)) * velocity;
     }
     // Open: the velocity that the solve saw there.
     let face = OpenFace(energy[2u * params.slots + far], energy[params.slots + far]);
@@ -253,12 +258,12 @@ fn heat_of(slot: u32, own: bool, gives: bool) -> f32 {
 }
 
 // Least ratio of the pressure of the predictor to that of the advected state, and a hair less [intermediate_pressure.wgsl].
-const LEAST_PREDICTED = 0.98;
+fn least_predicted() -> f32 { return select(0.98, LEAST_STARTED, ARS); }
 
 // Whether the floor may have to act on a cell deep inside the gas: never false where it would, for the pressure of the predictor tells
 // nearly what internal energy there was before.
 fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
-    let before = energy[params.slots + slot] / (LEAST_PREDICTED * (params.gamma - 1.0));
+    let before = energy[params.slots + slot] / (least_predicted() * (params.gamma - 1.0));
     return is_unsound(flow.x, total) || total - kinetic_energy(flow) < least_energy(flow.x, total, before);
 }
 

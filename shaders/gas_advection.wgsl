@@ -1,7 +1,7 @@
 // gas_advection: where does the gas carry itself?
 // Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
 // TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
-// ARS: one stage before each of the two solves, see shared/ars.wgsl.
+// ARS: one stage before the first of two solves, two before the second, see shared/ars.wgsl.
 // Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
 #include "shared/index.wgsl"
@@ -20,25 +20,25 @@
 #include "shared/still.wgsl"
 #include "shared/faces.wgsl"
 
-override SECOND: bool;  // stage of the Runge-Kutta scheme
+override STAGE: u32;    // of the Runge-Kutta scheme: 0, 1, and with ARS 2
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // U1, U*; with ARS a third part: the kept state
-@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // now, U1, U*; with ARS U* without the central heat in place of U1, and the kept state
+@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // U1, U*; with ARS also U0 and K
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // now, U1, U*; with ARS also U0, K, heat of U0, what the next solve starts from
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 
 fn source(slot: u32) -> Gas {
-    if SECOND && !ARS { return Gas(in_space(work[slot]), energy[params.slots + slot]); }
+    if STAGE == select(1u, 2u, ARS) { return Gas(in_space(work[slot]), energy[params.slots + slot]); }
     return Gas(in_space(conserved[slot]), energy[slot]);
 }
 
 // `sign`: 1 into the cell, -1 out of it; times the open share of the face.
 fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
-    let scale = sign * control.dt * select(1.0, ARS_SECOND, ARS && SECOND) / params.spacing;
+    let scale = sign * stage_span() / params.spacing;
     let blend = max(part, 0.0);
     let drain = 1.0 + min(part, 0.0);
     let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, part == 1.0);
@@ -47,7 +47,8 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
     if ARS {
         // The solve carries this part, over its own share of the step.
         (*change).heat += sign * control.dt / params.spacing * f.heat;
-        if SECOND { implicit = (1.0 - 1.0 / ARS_SECOND) * f.heat; }
+        if STAGE == 1u { implicit = f.heat; }
+        if STAGE == 2u { implicit = (1.0 - ARS_SHARE) * f.heat; }
     }
     let through = scale * flow;
     (*change).high.flow += vec4f(whole(through.x, f.unit), through.yzw);
@@ -103,10 +104,12 @@ fn give(slot: u32, f: Fluxes, part: f32, sign: f32) {
 
 // Fluxes deep inside the gas, through the face above slot `low`.
 fn interior_fluxes(n: u32, low: u32, stencil: Stencil) -> Fluxes {
-    if !CONSISTENT { return face_fluxes_of(n, stencil); }
+    let held = heat_between(stencil, low, low + step_of(n));
+    if !CONSISTENT { return face_fluxes_of(n, stencil, held); }
     let below = node[low];
     let above = node[low + step_of(n)];
-    return carried_fluxes(stencil, carried_velocity(n, below, stencil.c.flow.x, above, stencil.d.flow.x), carrier_spread(below[n], above[n]));
+    let carried = carried_velocity(n, below, stencil.c.flow.x, above, stencil.d.flow.x);
+    return carried_fluxes(stencil, carried, carrier_spread(below[n], above[n]), held);
 }
 
 // The same through both faces across one axis, far from walls, bodies and open sides.
@@ -130,21 +133,27 @@ fn axis_change(velocity: vec3f, slot: u32, word: u32, n: u32, here: Gas) -> Chan
 
 // The state that the change of this stage is added to.
 fn start_of(slot: u32, here: Gas) -> Gas {
-    if !ARS || !SECOND { return here; }
-    return Gas(here.flow + ARS_KEPT * (here.flow - in_space(work[2u * params.slots + slot])),
-        here.energy + ARS_KEPT * (here.energy - energy[3u * params.slots + slot]));
+    if !ARS || STAGE == 0u { return here; }
+    // Density is never the solve's: it starts from that of U0 to the last bit.
+    let factor = select(ARS_MIDDLE, ARS_RETURNED, STAGE == 2u);
+    let gained = in_space(conserved[slot]) - in_space(work[ARS_KEPT.x * params.slots + slot]);
+    return Gas(in_space(work[ARS_START.x * params.slots + slot]) + factor * gained,
+        energy[ARS_START.y * params.slots + slot] + factor * (energy[slot] - energy[ARS_KEPT.y * params.slots + slot]));
 }
 
 fn write_result(slot: u32, before: Gas, all: Change) {
     let change = all.high;
-    if ARS {
+    if ARS && STAGE != 1u {
         work[params.slots + slot] = before.flow + change.flow;
-        energy[params.slots + slot] = before.energy + change.energy - all.heat;
         energy[2u * params.slots + slot] = before.energy + change.energy;
-        if SECOND { return; }
-        work[2u * params.slots + slot] = before.flow + ARS_CHANGE * change.flow;
-        energy[3u * params.slots + slot] = before.energy + ARS_CHANGE * (change.energy - all.heat);
-    } else if SECOND {
+        energy[ARS_COLD * params.slots + slot] = before.energy + change.energy - all.heat;
+        if STAGE == 2u { return; }
+        work[ARS_START.x * params.slots + slot] = before.flow;
+        work[ARS_KEPT.x * params.slots + slot] = before.flow + change.flow;
+        energy[ARS_START.y * params.slots + slot] = before.energy;
+        energy[ARS_KEPT.y * params.slots + slot] = before.energy + change.energy - all.heat;
+        energy[ARS_HEAT * params.slots + slot] = internal_energy(before);
+    } else if !ARS && STAGE == 1u {
         work[params.slots + slot] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
         energy[2u * params.slots + slot] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
@@ -166,7 +175,7 @@ fn finish(slot: u32, here: Gas, change: Change) {
 
 // Whether nothing passes through the faces of a slot. Clusters of cut cells reach further, and the second of two solves starts from
 // what the first has moved.
-fn stays(slot: u32) -> bool { return !CUT && !(ARS && SECOND) && is_still(slot); }
+fn stays(slot: u32) -> bool { return !CUT && !(ARS && STAGE > 0u) && is_still(slot); }
 
 fn stay(slot: u32) {
     if LIMITER { theta[slot] = 1.0; }
@@ -209,7 +218,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let last = params.slots - 1u;
     if first > last { return; }
     let awake = awake_rows(thread);
-    let moving = row_span(select(moving_rows(thread), awake, ARS && SECOND));
+    let moving = row_span(select(moving_rows(thread), awake, ARS && STAGE > 0u));
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
         if slot <= last && ((awake >> k) & 1u) == 1u && (k < moving.x || k >= moving.y) { stay(slot); }

@@ -9,6 +9,7 @@
 #include "shared/boundary.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/control.wgsl"
+#include "shared/ars.wgsl"
 #include "shared/carrier.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -46,8 +47,6 @@ fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
 // Consistent predictor: conservative advection of E already compresses the gas; the solve must not do it twice. Inside shocks
 // (strong compression) the viscosity that this removes is kept.
 const COMPRESSION_SWITCH = 30.0;
-// Share of the pressure before that a solve with ARS starts from at least.
-const LEAST_STARTED = 0.1;
 
 // Difference of the divergence across the open faces of a cluster.
 fn cut_divergence(slot: u32, own: f32) -> f32 {
@@ -63,10 +62,10 @@ fn cut_divergence(slot: u32, own: f32) -> f32 {
     return sum;
 }
 
-// The same of the carrier, with the correction of shared/carrier.wgsl at the faces between GAS cells.
-fn carried_divergence(slot: u32) -> f32 {
-    let own = node[slot].w;
-    if LISTED && CUT { return own - given_back() * cut_divergence(slot, own) / cluster_share(slot); }
+// What the divergence of the carrier falls short of its mean around a cell, summed over the faces between GAS cells: as much of it as the
+// faces have back [shared/carrier.wgsl] adds to the divergence.
+fn carried_shortfall(slot: u32, own: f32) -> f32 {
+    if LISTED && CUT { return cut_divergence(slot, own) / cluster_share(slot); }
     var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
         var along = 0.0;
@@ -77,12 +76,11 @@ fn carried_divergence(slot: u32) -> f32 {
         }
         sum += along;
     }
-    return own - given_back() * sum;
+    return sum;
 }
 
 // Velocity difference of the faces of a cell, summed over the axes.
-fn divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
-    if CONSISTENT { return carried_divergence(slot); }
+fn plain_divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
     var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
         if LISTED {
@@ -103,9 +101,18 @@ fn divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
 
 fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
     if !PREDICTOR { return p; }
-    let change = divergence(c, slot, here) * control.dt / params.spacing;
+    var change: f32;
+    var unseen = 0.0;
+    if CONSISTENT {
+        let own = node[slot].w;
+        let shortfall = carried_shortfall(slot, own);
+        change = own - given_back() * shortfall;
+        if FOURTH { unseen = (seen_share() - given_back()) * shortfall; }
+    } else { change = plain_divergence(c, slot, here); }
+    change *= control.dt / params.spacing;
     let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(change)), 1.0, change >= 0.0);
-    return p * (1.0 + smooth_share * change);    // never below 0.99 p
+    // without what is unseen never below 0.99 p
+    return p * (1.0 + smooth_share * change - params.gamma * unseen * control.dt / params.spacing);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -135,7 +142,7 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     }
     fill[slot].y = 1.0 / (params.gamma * p);
     var total = here.energy;
-    if ARS { total = energy[params.slots + slot]; }     // what the solve carries anew is not in it
+    if ARS { total = energy[ARS_COLD * params.slots + slot]; }     // what the solve carries anew is not in it
     energy[params.slots + slot] = predicted(cell_of(slot), slot, here, p);
     // Gravity: the work of the mean momentum.
     let pull = control.dt * here.flow.x * params.gravity;

@@ -82,7 +82,7 @@ impl Simulation {
             interface: InterfaceStage::new(parts)?,
             still: Still::new(parts)?,
             carrier: CarrierVelocity::new(parts, scene.consistent())?,
-            gas_advection: GasAdvection::new(parts, scene.numerics.limiter)?,
+            gas_advection: GasAdvection::new(parts, scene.numerics.limiter, scene.solves())?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
             elastic_order: ElasticOrder::new(parts, scene)?,
             elastic_solve: ElasticSolve::new(parts, scene, transfer)?,
@@ -141,8 +141,9 @@ impl Simulation {
             self.record_pressure(pass, "BEGIN");
         } else {
             self.record_pressure(pass, "BEGIN");
-            self.time_step.record_second(pass); // [Ascher, Ruuth & Spiteri 1997]
+            self.time_step.record_second(pass); // [Ascher, Ruuth & Spiteri 1997; Wicker & Skamarock 2002]
             self.gas_advection.record(pass, state, &self.time_step, 1, "SECOND"); // the carrier is that of the last power
+            self.record_advection(pass, 2, Carried::Middle, "SECOND");
             self.record_pressure(pass, "SECOND");
         }
         self.coupled_solve.record_solid(pass, state); // eq. 36

@@ -1,6 +1,6 @@
 // Fluxes through the faces of gas_advection: of any slot inside the domain by the seven cells around it in a row, and what the faces deep
 // inside the gas need. Every state is read once per axis: in software a load takes as long as dozens of products.
-// Needs ARS and SECOND, source(), the bindings cells and node, and reconstruct, flux, boundary, carrier, cut and cut_carrier.
+// Needs ARS and STAGE, source(), the bindings cells and node, and reconstruct, flux, boundary, carrier, cut and cut_carrier.
 
 fn flow_at(slot: u32) -> vec4f { return source(slot).flow; }
 
@@ -111,18 +111,21 @@ fn carried_face(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
         if near_obstacle(r.c.word, r.d.word) { carried = cut_velocity(select(c - axis(n), c, up), n) - given_back() * (high.w - low.w); }
         else { carried = carried_velocity(n, low, stencil.c.flow.x, high, stencil.d.flow.x); }
     }
-    out = carried_fluxes(stencil, carried, carrier_spread(low[n], high[n]));
+    let beside = u32(i32(slot) + (place_along(n, c[n] + select(-1, 1, up)) - c[n]) * i32(step_of(n)));
+    out = carried_fluxes(stencil, carried, carrier_spread(low[n], high[n]), heat_between(stencil, slot, beside));
     if reflects { return reflected(n, out); }
-    out.heat *= f32(kind_of(word) == GAS);
+    if kind_of(word) != GAS { out.heat = 0.0; }
     return out;
 }
 
 // Both fluxes through the face below a slot inside the domain, or the one above, along +axis; one of its cells is GAS.
 fn face_fluxes(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
     if CONSISTENT { return carried_face(slot, c, n, up, r); }
-    var out = face_fluxes_of(n, stencil_at(r, n));
+    let stencil = stencil_at(r, n);
+    let beside = u32(i32(slot) + (place_along(n, c[n] + select(-1, 1, up)) - c[n]) * i32(step_of(n)));
+    var out = face_fluxes_of(n, stencil, heat_between(stencil, slot, beside));
     if is_reflected(n, c[n] + select(-1, 1, up)) { return reflected(n, out); }
-    out.heat *= f32(kind_of(r.c.word | r.d.word) == GAS);
+    if kind_of(r.c.word | r.d.word) != GAS { out.heat = 0.0; }
     if is_open(r.c.word) && is_open(r.d.word) { return out; }
     // Closed face: mirrored about the velocity of the wall, to first order its velocity times this side's state.
     let from_low = kind_of(r.c.word) == GAS;

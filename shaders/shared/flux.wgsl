@@ -5,20 +5,24 @@
 // Without a z axis the energy travels in the place of the z momentum, which is zero.
 #include "shared/whole.wgsl"
 
-// heat: internal energy by the mean of both sides, the part that two solves per step take from the solve instead [shared/ars.wgsl].
+// heat: the part of the energy's that two solves per step take from the solve instead [shared/ars.wgsl].
 // unit: density that passes in a stage is a multiple of it, see whole.wgsl.
 struct Fluxes { high: Gas, low: Gas, heat: f32, unit: f32 }
 
 // At most this part of the thinner cell, 2^-14, beside which more would count.
 const THIN_SHARE = 6.103515625e-5;
 
-// Two units of the last place, so that the mean of two stages is whole, too; with ARS a step takes parts of its stages that are not.
+// Two units of the last place, so that the mean of two stages is whole, too.
 fn unit_between(c: Gas, d: Gas) -> f32 {
-    if ARS { return 0.0; }
     return min(2.0 * LAST_PLACE * power_of_two(max(c.flow.x, d.flow.x)), THIN_SHARE * power_of_two(min(c.flow.x, d.flow.x)));
 }
 
-fn central_heat(low: Gas, high: Gas, velocity: f32) -> f32 { return 0.5 * velocity * (internal_energy(low) + internal_energy(high)); }
+// Internal energy at the face between two slots at the start of the step, by the mean of both.
+fn heat_between(s: Stencil, low: u32, high: u32) -> f32 {
+    if !ARS { return 0.0; }
+    if STAGE == 0u { return 0.5 * (internal_energy(s.c) + internal_energy(s.d)); }
+    return 0.5 * (energy[ARS_HEAT * params.slots + low] + energy[ARS_HEAT * params.slots + high]);
+}
 
 fn packed(gas: Gas) -> vec4f { return select(gas.flow, vec4f(gas.flow.xyz, gas.energy), vec4<bool>(DIM < 3u)); }
 
@@ -28,7 +32,8 @@ fn unpacked(flux: vec4f, energy: f32) -> Gas {
 }
 
 // With one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`, at least upwind.
-fn carried_fluxes(s: Stencil, carried: f32, alpha: f32) -> Fluxes {
+// `held`: see heat_between.
+fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     let spread = max(max(alpha, s.spread), abs(carried));
     let up = 0.5 * (carried + spread);
     let down = 0.5 * (carried - spread);
@@ -41,12 +46,12 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32) -> Fluxes {
     }
     out.high = unpacked(flow, energy);
     out.unit = unit_between(s.c, s.d);
-    if ARS { out.heat = central_heat(s.c, s.d, carried); }
+    out.heat = held * carried;
     if LIMITER { out.low = Gas(up * s.c.flow + down * s.d.flow, up * s.c.energy + down * s.d.energy); }
     return out;
 }
 
-fn face_fluxes_of(n: u32, s: Stencil) -> Fluxes {
+fn face_fluxes_of(n: u32, s: Stencil, held: f32) -> Fluxes {
     let behind = vec3f(velocity_along(n, s.a), velocity_along(n, s.b), velocity_along(n, s.c));
     let ahead = vec3f(velocity_along(n, s.d), velocity_along(n, s.e), velocity_along(n, s.f));
     let most = max(abs(behind), abs(ahead));
@@ -71,7 +76,7 @@ fn face_fluxes_of(n: u32, s: Stencil) -> Fluxes {
     }
     out.high = unpacked(flow, energy);
     out.unit = unit_between(s.c, s.d);
-    if ARS { out.heat = central_heat(s.c, s.d, (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x)); }
+    if ARS { out.heat = held * (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x); }
     if LIMITER { out.low = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy); }
     return out;
 }

@@ -1,7 +1,7 @@
 // Positivity limiter: every cell names the largest share of the high-order part that its faces may carry, and a face carries the least of
 // its two cells. So a cell must stand every mix of shares below its own. Density and internal energy are concave functions of the state,
 // which makes the worst mix a sum over the faces. [Zhang & Shu 2010; Hu, Adams & Shu 2013; Kuzmin 2020]
-// Needs ARS and SECOND.
+// Needs ARS and STAGE.
 
 // A cell must keep this share of what the first-order update leaves of density and internal energy.
 const KEPT = 0.1;
@@ -51,7 +51,7 @@ fn drained_share(before: Gas, change: Change) -> f32 {
 fn allowed_share(before: Gas, change: Change) -> f32 {
     let low = Gas(before.flow + change.low.flow, before.energy + change.low.energy);
     if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) {
-        if ARS && SECOND { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
+        if ARS && STAGE > 0u { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
         return drained_share(before, change);
     }
     let slip = low.flow.yzw - low.flow.x * change.velocity;

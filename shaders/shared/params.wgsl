@@ -7,7 +7,8 @@ override QUADRATIC: bool;       // gas element pair B2B1 (true) or B1B0 (false)
 override PREDICTOR: bool;       // consistent predictor of the intermediate pressure
 override CONSISTENT: bool;      // gas is carried by what the solve sees of its velocity, see carrier.wgsl; gas only
 override CUT: bool;             // obstacles cut cells; gas only, B1B0
-override ARS: bool;             // two solves per step, ARS(2,2,2)
+override ARS: bool;             // two solves per step, see ars.wgsl
+override FOURTH: bool;          // sound of fourth order in space, see carrier.wgsl
 override LIMITER: bool;         // conservative flux limiter for positivity
 override LEDGER: bool;          // gas of covered cells is kept and given back
 override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed

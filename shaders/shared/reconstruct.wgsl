@@ -4,7 +4,7 @@
 // - elsewhere (`even` 1), fifth order from a to e: three parabolas with the linear weights 0.1, 0.6 and 0.3, times
 //   1 + (tau / (beta + epsilon))^2, tau the difference of the outer two beta. It keeps waves and contacts [Borges et al. 2008].
 // All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
-// Needs ARS, SECOND and the binding control.
+// Needs ARS, STAGE and the binding control.
 
 // Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/method.md].
 const WENO_EPSILON = 7e-4;
@@ -28,11 +28,14 @@ fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
     return Stencil(a, b, c, d, e, f, 1.0 - share, min(shock_spread() * share * sound, most_spread()));
 }
 
-// A third of a cell per stage: with all three axes in a shock, the most that is stable.
-fn most_spread() -> f32 {
-    let stage = control.dt * select(1.0, ARS_SECOND, ARS && SECOND);
-    return params.spacing / (3.0 * max(stage, 1e-30));
+// [s] over which the fluxes of the stage pass.
+fn stage_span() -> f32 {
+    if !ARS || STAGE == 0u { return control.dt; }
+    return select(ARS_MIDDLE, ARS_LAST, STAGE == 2u) * control.dt;
 }
+
+// A third of a cell per stage: with all three axes in a shock, the most that is stable.
+fn most_spread() -> f32 { return params.spacing / (3.0 * max(stage_span(), 1e-30)); }
 
 fn sound_between(c: Gas, d: Gas) -> f32 {
     let energy = 0.5 * (internal_energy(c) / c.flow.x + internal_energy(d) / d.flow.x);

@@ -17,12 +17,14 @@ pub enum Carried {
     Star = 2,
     /// The state now, after the solve, which also moves still air.
     Solved = 3,
+    /// Before the second of two solves: as [`Carried::First`], in air that the first has moved.
+    Middle = 4,
 }
 
 /// Kernels of the stage, for each state, in order.
 #[derive(Debug)]
 pub struct CarrierVelocity {
-    kernels: Option<[Vec<(Bound, Entry)>; 4]>,
+    kernels: Option<Vec<Vec<(Bound, Entry)>>>,
 }
 
 impl CarrierVelocity {
@@ -33,9 +35,11 @@ impl CarrierVelocity {
     pub fn new(parts: Parts<'_>, wanted: bool) -> Result<Self> {
         let of = |source: Carried| -> Result<Vec<(Bound, Entry)>> {
             let bind = |entry: &str, listed: f64| {
-                let solved = source == Carried::Solved;
-                let state = if solved { Carried::Now } else { source };
-                let solved = f64::from(u8::from(solved));
+                let (state, solved) = match source {
+                    Carried::Solved => (Carried::Now, 1.0),
+                    Carried::Middle => (Carried::First, 1.0),
+                    unsolved => (unsolved, 0.0),
+                };
                 let switches = [("SOURCE", f64::from(state as u32)), ("LISTED", listed), ("SOLVED", solved)];
                 parts.state.bind(parts.gpu, "carrier.wgsl", entry, &[], &switches)
             };
@@ -50,8 +54,8 @@ impl CarrierVelocity {
             let kernels = [first, Some(listed("carrier_average")?), second, Some(listed("carrier_divergence")?)];
             Ok(kernels.into_iter().flatten().collect())
         };
-        let all = || Ok([of(Carried::Now)?, of(Carried::First)?, of(Carried::Star)?, of(Carried::Solved)?]);
-        Ok(Self { kernels: if wanted { Some(all()?) } else { None } })
+        let all = [Carried::Now, Carried::First, Carried::Star, Carried::Solved, Carried::Middle];
+        Ok(Self { kernels: wanted.then(|| all.into_iter().map(of).collect()).transpose()? })
     }
 
     /// Carrier of a state, in a phase.

@@ -8,10 +8,11 @@ use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
 
-/// Kernels of the stage: two Runge-Kutta stages, each with its correction by the limiter; with two solves one before each.
+/// Kernels of the stage: two Runge-Kutta stages, each with its correction by the limiter; with two solves one before the first and two
+/// before the second.
 #[derive(Debug)]
 pub struct GasAdvection {
-    stages: [RungeKuttaStage; 2],
+    stages: Vec<RungeKuttaStage>,
 }
 
 #[derive(Debug)]
@@ -22,11 +23,11 @@ struct RungeKuttaStage {
 }
 
 impl RungeKuttaStage {
-    fn new(parts: Parts<'_>, limiter: bool, second: f64) -> Result<Self> {
+    fn new(parts: Parts<'_>, limiter: bool, stage: u32) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let theta = [("theta", state.pcg.product.raw())];
         let bind = |entry: &str, listed: f64| {
-            state.bind(gpu, "gas_advection.wgsl", entry, &theta, &[("SECOND", second), ("LISTED", listed)])
+            state.bind(gpu, "gas_advection.wgsl", entry, &theta, &[("STAGE", f64::from(stage)), ("LISTED", listed)])
         };
         Ok(Self {
             interior: bind("advect_interior", 0.0)?,
@@ -41,12 +42,12 @@ impl GasAdvection {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, limiter: bool) -> Result<Self> {
-        let stage = |second: f64| RungeKuttaStage::new(parts, limiter, second);
-        Ok(Self { stages: [stage(0.0)?, stage(1.0)?] })
+    pub fn new(parts: Parts<'_>, limiter: bool, solves: u32) -> Result<Self> {
+        let stage = |stage: u32| RungeKuttaStage::new(parts, limiter, stage);
+        Ok(Self { stages: (0..=solves).map(stage).collect::<Result<_>>()? })
     }
 
-    /// One of the two stages, 0 or 1, in a phase: both belong to one advection, or with two solves one to each.
+    /// One of the stages, from 0, in a phase: two belong to one advection, or with two solves one to the first and two to the second.
     pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: &str) {
         let kernels = &self.stages[stage];
         pass.dispatch(&kernels.interior, &extent(state, phase, Entry::Marched));

@@ -236,6 +236,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("PREDICTOR", flag(scene.integrator() != Integrator::Paper)),
         ("CONSISTENT", flag(scene.consistent())),
         ("ARS", flag(scene.solves() == 2)),
+        ("FOURTH", flag(scene.sound_of_fourth_order())),
         ("LIMITER", flag(numerics.limiter)),
         ("LEDGER", flag(numerics.ledger)),
         ("RING_BOOKS", flag(ring_books(scene, solids))),

@@ -73,7 +73,7 @@ fn circular(session: &mut Session<'_>) -> Result<()> {
         for pair_of in errors.windows(2) {
             let order = (pair_of[0][1] / pair_of[1][1]).log2();
             let row = session.push(&format!("order from {} to {} cells", pair_of[0][0], pair_of[1][0]), order);
-            row.source(RADIAL).pass(Limit::AtLeast(0.75)).setting = pair_name(pair).to_owned();
+            row.source(RADIAL).pass(Limit::AtLeast(0.8)).setting = pair_name(pair).to_owned();
         }
         plot = plot.with(pair_name(pair), Style::Both, deviations);
     }

@@ -75,7 +75,7 @@ pub(super) fn sweeps(suite: Suite) -> Vec<Sweep> {
             pairs.map(|pair| Sweep { pair, integrator: Integrator::Predictor, cells: cells(pair) }).into()
         }
         Suite::Full => {
-            let all = [Integrator::Predictor, Integrator::Paper]
+            let all = [Integrator::Predictor, Integrator::Paper, Integrator::Ars222]
                 .map(|integrator| pairs.map(|pair| Sweep { pair, integrator, cells: RESOLUTIONS.to_vec() }));
             all.into_iter().flatten().collect()
         }
@@ -117,9 +117,9 @@ pub(super) fn plot_errors(session: &mut Session<'_>, title: &str, measured: Vec<
 fn tube(session: &mut Session<'_>, tube: &Tube) -> Result<()> {
     let mut measured = Vec::new();
     let mut title = String::new();
-    let cells = if session.suite == Suite::Quick { vec![GATED] } else { RESOLUTIONS.to_vec() };
-    let two_solves = Sweep { pair: Pair::B1b0, integrator: Integrator::Ars222, cells };
-    for sweep in sweeps(session.suite).into_iter().chain([two_solves]) {
+    let two_solves = Sweep { pair: Pair::B1b0, integrator: Integrator::Ars222, cells: vec![GATED] };
+    let quick = (session.suite == Suite::Quick).then_some(two_solves);
+    for sweep in sweeps(session.suite).into_iter().chain(quick) {
         let mut points: Vec<Point> = Vec::new();
         for &cells in &sweep.cells {
             let setting = Setting { pair: sweep.pair, integrator: sweep.integrator, cells };
@@ -132,7 +132,7 @@ fn tube(session: &mut Session<'_>, tube: &Tube) -> Result<()> {
             points.push((cells, error, deviation));
             if cells == GATED {
                 session.check(&run, "density deviation, eq. (38)", deviation).source("Cao et al. 2022, eq. (38)");
-                if sweep.integrator == Integrator::Predictor {
+                if sweep.integrator != Integrator::Paper {
                     report_waves(session, tube, &run, &ours, (&exact, jump));
                     (tube.extra)(session, &run, &ours);
                 }
@@ -341,6 +341,9 @@ fn vacuum_heating(session: &mut Session<'_>, run: &Run, ours: &Profile) {
     let energy = |cell: usize| ours.state[PRESSURE][cell] / (0.4 * ours.state[DENSITY][cell]);
     let row = session.check(run, "internal energy in the middle", energy(middle).max(energy(middle - 1)));
     row.reference(0.216_669, EXACT).pass(Limit::AtMost(2.0 * 0.216_669));
+    if run.scene.solves() == 2 {
+        row.known(Limit::AtMost(0.48), "less wide than with one solve, but hotter");
+    }
 }
 
 macro_rules! tubes {

@@ -8,7 +8,7 @@ use super::session::{Integrator, Run, Session, Setting};
 use super::tubes::{GATED, Point, Sweep, plot_density, plot_errors, report_order, sweeps};
 use crate::Result;
 use crate::riemann::ExactRiemann;
-use crate::scene::Pair;
+use crate::scene::{self, Pair};
 
 /// Where exact values come from.
 const EXACT: &str = "exact";
@@ -120,15 +120,30 @@ fn reflected(run: &Run) -> Profile {
     Profile::exact(&run.scene, &exact, 1.0, run.snapshot.time - 0.25)
 }
 
+/// Most errors of pressure and density behind the reflected shock where the gate is missed, and why.
+fn known_reflection(run: &Run) -> Option<([f64; 2], &'static str)> {
+    const START: &str = "what the start of the shock left of its heat in two cells, 0.9 % with b1b0";
+    const RINGS: &str = "two solves leave what one over the whole step damps behind a strong shock that hardly moves";
+    match (run.scene.numerics.pair, run.scene.integrator()) {
+        (Pair::B1b0, scene::Integrator::Ars222) => Some(([0.011, 0.013], RINGS)),
+        (Pair::B2b1, scene::Integrator::Ars222) => Some(([0.039, 0.028], RINGS)),
+        (Pair::B2b1, scene::Integrator::Paper) => Some(([0.005, 0.0107], START)),
+        (Pair::B2b1, _) => Some(([0.005, 0.0104], START)),
+        (Pair::B1b0, _) => None,
+    }
+}
+
 fn report_reflection(session: &mut Session<'_>, run: &Run, ours: &Profile) {
     let quiet = [0.7 + 8.0 * ours.spacing, 1.0 - 5.0 * ours.spacing];
     let pressure = ours.largest_deviation(PRESSURE, 15.0, quiet) / 15.0;
     let density = ours.largest_deviation(DENSITY, 8.4, quiet) / 8.4;
-    session.check(run, "pressure at the wall, error", pressure).reference(0.0, EXACT).pass(Limit::AtMost(0.005));
-    let row = session.check(run, "density at the wall, error", density).reference(0.0, EXACT).pass(Limit::AtMost(0.01));
-    if run.scene.numerics.pair == Pair::B2b1 {
-        let most = if run.scene.integrator() == crate::scene::Integrator::Paper { 0.0107 } else { 0.0104 };
-        row.known(Limit::AtMost(most), "what the start of the shock left of its heat in two cells, 0.9 % with b1b0");
+    let known = known_reflection(run);
+    for (name, error, most) in [("pressure", pressure, 0.005), ("density", density, 0.01)] {
+        let row = session.check(run, &format!("{name} at the wall, error"), error);
+        row.reference(0.0, EXACT).pass(Limit::AtMost(most));
+        if let Some(([pressure, density], why)) = known {
+            row.known(Limit::AtMost(if name == "pressure" { pressure } else { density }), why);
+        }
     }
     let deficit = 1.0 - ours.state[DENSITY][ours.cells() - 1] / 8.4;
     session.check(run, "wall heating, density missing", deficit).source(EXACT).pass(Limit::AtMost(0.1));
@@ -235,9 +250,15 @@ fn acoustic_wave(session: &mut Session<'_>) -> Result<()> {
             }
         }
         report_order(session, &sweep, &points, None);
-        let row = report_last_ratio(session, &sweep, &points, 0.5, "first order");
-        if let Some(row) = row.filter(|_| sweep.integrator == Integrator::Paper) {
-            row.known(Limit::AtMost(0.52), "on its way to first order: 0.63, 0.57, 0.53, 0.51");
+        if sweep.integrator == Integrator::Ars222 {
+            // beyond, the error is that of the exact solution, which is for small amplitudes: 0.0014
+            let resolved: Vec<Point> = points.iter().copied().filter(|point| point.0 <= 400).collect();
+            report_last_ratio(session, &sweep, &resolved, SMOOTH_RATIO, "Athena++, sound wave");
+        } else {
+            let row = report_last_ratio(session, &sweep, &points, 0.5, "first order");
+            if let Some(row) = row.filter(|_| sweep.integrator == Integrator::Paper) {
+                row.known(Limit::AtMost(0.52), "on its way to first order: 0.63, 0.57, 0.53, 0.51");
+            }
         }
         measured.push((sweep.name(), points));
     }

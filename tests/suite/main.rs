@@ -33,6 +33,7 @@ mod scenes;
 mod shaders;
 mod solids;
 mod still;
+mod stream;
 mod supports;
 mod surface;
 mod synthetic;

@@ -8,7 +8,7 @@ use crate::common::{Random, gpu_or_skip};
 use crate::reference_exact::radial_density;
 
 /// A scene whose gas has another density, velocity and pressure in every cell.
-fn disturbed(gpu: &Gpu, text: &str, state: fn(&mut Random, usize) -> (f32, [f32; 3], f32)) -> Simulation {
+pub(crate) fn disturbed(gpu: &Gpu, text: &str, state: fn(&mut Random, usize) -> (f32, [f32; 3], f32)) -> Simulation {
     let scene = Scene::parse(text, "noise.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
     let simulation = Simulation::new(gpu, &scene).unwrap();
     let mut flow = readback::read(gpu, &simulation.state.gas.conserved).unwrap();

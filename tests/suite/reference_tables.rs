@@ -59,7 +59,7 @@ fn run_case(case: &Case, n: usize, pair: Pair, predictor: bool) -> (f64, Vec<Rep
     error_of(case, &problem)
 }
 
-/// What the device is compared with: B1B0 without and with the predictor, B2B1 without and with, B1B0 with two solves.
+/// What the device is compared with: B1B0 without and with the predictor, B2B1 without and with, both with two solves.
 #[test]
 fn shock_tubes_of_the_device() {
     let settings = [
@@ -68,6 +68,7 @@ fn shock_tubes_of_the_device() {
         (Pair::B2b1, false, false),
         (Pair::B2b1, true, false),
         (Pair::B1b0, true, true),
+        (Pair::B2b1, true, true),
     ];
     let mut failures = Vec::new();
     for (case, (name, expected)) in CASES.iter().zip(TUBES) {
@@ -78,6 +79,7 @@ fn shock_tubes_of_the_device() {
                 pair,
                 predictor,
                 two_solves,
+                fourth: two_solves,
                 consistent: two_solves,
                 tolerance: 1e-6,
                 cfl,
@@ -154,6 +156,34 @@ fn shock_tubes_with_predictor() {
             print_case(case, n, Pair::B2b1, true);
         }
         print_case(case, 1600, Pair::B1b0, true);
+    }
+}
+
+/// The same with two solves, at the time steps of the scenes. B2B1 has the weights of the device.
+#[test]
+#[ignore = "minutes"]
+fn shock_tubes_with_two_solves() {
+    for (case, (name, _)) in CASES.iter().zip(TUBES) {
+        let cfl = Scene::shipped(&format!("gas/{name}.toml"), &[]).unwrap().time.cfl;
+        for pair in [Pair::B1b0, Pair::B2b1] {
+            let error = |n: usize| {
+                let mut problem = tube(n);
+                let defaults = Numerics::default();
+                let weno = if pair == Pair::B1b0 { problem.numerics.weno } else { defaults.weno };
+                problem.numerics = Numerics {
+                    pair,
+                    two_solves: true,
+                    fourth: true,
+                    consistent: true,
+                    tolerance: 1e-6,
+                    cfl,
+                    weno,
+                    ..defaults
+                };
+                error_of(case, &problem).0
+            };
+            println!("{name} {pair:?}: {:.5?}", [100, 200, 400, 800, 1600].map(error));
+        }
     }
 }
 

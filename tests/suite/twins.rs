@@ -74,6 +74,7 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
     problem.numerics.predictor = scene.integrator() != Integrator::Paper;
     problem.numerics.consistent = scene.consistent();
     problem.numerics.two_solves = scene.solves() == 2;
+    problem.numerics.fourth = scene.sound_of_fourth_order();
     problem
 }
 

@@ -1,4 +1,5 @@
-//! Two solves per step for gas alone: ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6], in the stages' own terms.
+//! Two solves per step for gas alone: the implicit half of ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6], the explicit one of
+//! Wicker and Skamarock [2002], in the stages' own terms.
 
 use super::coupled_solve::{Inputs, Solution, coupled_solve};
 use super::grid::shift;
@@ -8,9 +9,9 @@ use super::particle_sort::Bins;
 use super::step::Report;
 use super::{Gas, Problem, State, boundary, fluid_update, gas_advection, intermediate_pressure};
 
-/// What is left of the advected gas without the central heat that `carrying` has carried over the span of a solve.
-fn without_central_heat(problem: &Problem, faces: &Interface, [advected, carrying]: [&Gas; 2], dt: f64) -> Gas {
-    let heat = gas_advection::central_heat(problem, faces, carrying);
+/// What is left of the advected gas without the central heat of `held` that `carrying` has carried over the span of a solve.
+fn without_central_heat(problem: &Problem, faces: &Interface, [advected, carrying, held]: [&Gas; 3], dt: f64) -> Gas {
+    let heat = gas_advection::central_heat(problem, faces, [carrying, held]);
     let mut cold = advected.clone();
     for c in problem.grid.interior() {
         let slot = problem.grid.slot(c);
@@ -22,6 +23,16 @@ fn without_central_heat(problem: &Problem, faces: &Interface, [advected, carryin
     cold
 }
 
+/// `start` and `factor` times what the first solve added.
+fn returned(start: &Gas, [before, after]: [&Gas; 2], factor: f64) -> Gas {
+    let mut gas = start.clone();
+    for slot in 0..gas.energy.len() {
+        let (u, c, v) = (start.get(slot), before.get(slot), after.get(slot));
+        gas.set(slot, [0, 1, 2, 3, 4].map(|k| u[k] + factor * (v[k] - c[k])));
+    }
+    gas
+}
+
 /// Advances the gas by dt; returns the report of both solves and the solution of the second.
 pub(crate) fn two_solves(
     problem: &Problem,
@@ -31,19 +42,15 @@ pub(crate) fn two_solves(
     dt: f64,
 ) -> (Report, Solution) {
     let a = 1.0 - 0.5_f64.sqrt();
-    let e = 1.0 - 1.0 / (2.0 * a);
     let first = state.gas.clone();
-    let cold = |advected: &Gas, carrying: &Gas| without_central_heat(problem, faces, [advected, carrying], a * dt);
-    let solve = |[advected, cold, carrying]: [&Gas; 3],
-                 booked: f64,
-                 open: &mut boundary::Memory,
-                 ledger: &mut [[f64; 5]]| {
-        let [star, cold] = [advected, cold].map(|gas| gas_advection::with_gravity(problem, &faces.cells, gas, a * dt));
+    let solve = |[advected, carrying]: [&Gas; 2], booked: f64, open: &mut boundary::Memory, ledger: &mut [[f64; 5]]| {
+        let cold = without_central_heat(problem, faces, [advected, carrying, &first], a * dt);
+        let [star, kept] = [advected, &cold].map(|gas| gas_advection::with_gravity(problem, &faces.cells, gas, a * dt));
         let intermediate =
             intermediate_pressure::intermediate(problem, faces, (advected, &star), Some(carrying), open, a * dt);
         let solution =
             coupled_solve(&Inputs { problem, interface: faces, bins, intermediate: &intermediate, nodes, dt: a * dt });
-        let (carried, pressed) = ((&cold, &intermediate), (&solution, nodes));
+        let (carried, pressed) = ((&kept, Some(&first), &intermediate), (&solution, nodes));
         let mut gas = fluid_update::fluid_update(problem, faces, carried, pressed, a * dt, ledger);
         *open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
         let mut floored = vec![[0.0; 5]; ledger.len()];
@@ -52,31 +59,29 @@ pub(crate) fn two_solves(
             *held += booked * taken;
         }
         gas_advection::fill_ghosts(problem, &faces.cells, &mut gas);
-        (gas, solution, count)
+        (gas, cold, solution, count)
     };
-    let (mut advected, limited_one) =
-        gas_advection::stage(problem, faces, [&first, &first], a * dt, [a, 0.0], &mut state.ledger);
-    gas_advection::fill_ghosts(problem, &faces.cells, &mut advected);
-    let kept = cold(&advected, &first);
-    let (middle, solution_one, floored_one) =
-        solve([&advected, &kept, &first], (1.0 - a) / a, &mut state.open, &mut state.ledger);
-    // U0 + dt e A0 + dt (1 - a) I1, with A0 and I1 from what the first half added.
-    let mut start = first.clone();
-    for slot in 0..start.energy.len() {
-        let (u0, c, u1) = (first.get(slot), kept.get(slot), middle.get(slot));
-        start.set(slot, [0, 1, 2, 3, 4].map(|k| u0[k] + e / a * (c[k] - u0[k]) + (1.0 - a) / a * (u1[k] - c[k])));
-    }
-    let shares = [1.0 - e, 1.0 - a / (1.0 - e)];
-    let (mut advected, limited_two) =
-        gas_advection::stage(problem, faces, [&middle, &start], (1.0 - e) * dt, shares, &mut state.ledger);
-    gas_advection::fill_ghosts(problem, &faces.cells, &mut advected);
-    let rest = cold(&advected, &middle);
-    let (gas, mut solution, floored_two) = solve([&advected, &rest, &middle], 1.0, &mut state.open, &mut state.ledger);
+    let stage = |gas: &Gas, start: &Gas, span: f64, implicit: f64, ledger: &mut [[f64; 5]]| {
+        // only the last stage is part of the result
+        let share = f64::from(u8::from(span == dt));
+        let (mut next, limited) =
+            gas_advection::stage(problem, faces, [gas, start], span, (share, (implicit, &first)), ledger);
+        gas_advection::fill_ghosts(problem, &faces.cells, &mut next);
+        (next, limited)
+    };
+    let (advected, limited_one) = stage(&first, &first, a * dt, 0.0, &mut state.ledger);
+    let (one, kept, solution_one, floored_one) =
+        solve([&advected, &first], (1.0 - a) / a, &mut state.open, &mut state.ledger);
+    let (middle, limited_middle) =
+        stage(&one, &returned(&first, [&kept, &one], 0.5 / a), 0.5 * dt, 1.0, &mut state.ledger);
+    let (advected, limited_two) =
+        stage(&middle, &returned(&first, [&kept, &one], (1.0 - a) / a), dt, 1.0 - a, &mut state.ledger);
+    let (gas, _, mut solution, floored_two) = solve([&advected, &middle], 1.0, &mut state.open, &mut state.ledger);
     state.gas = gas;
     solution.iterations += solution_one.iterations;
     solution.converged &= solution_one.converged;
     state.time += dt;
-    let (limited, floored) = (limited_one + limited_two, floored_one + floored_two);
+    let (limited, floored) = (limited_one + limited_middle + limited_two, floored_one + floored_two);
     let (iterations, converged) = (solution.iterations, solution.converged);
     (Report { dt, iterations, converged, limited, floored, substeps: 1 }, solution)
 }

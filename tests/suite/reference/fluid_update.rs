@@ -124,16 +124,17 @@ fn book_heat(
     }
 }
 
-/// The stage: gas after the pressure step. `nodes` are the solid nodes that entered the solve.
+/// The stage: gas after the pressure step. `nodes` are the solid nodes that entered the solve. The new velocities of the faces carry the
+/// internal energy of `held`, too.
 pub(crate) fn fluid_update(
     problem: &Problem,
     interface: &Interface,
-    (star, intermediate): (&Gas, &Intermediate),
+    (star, held, intermediate): (&Gas, Option<&Gas>, &Intermediate),
     (solution, nodes): (&Solution, &Nodes),
     dt: f64,
     ledger: &mut [[f64; 5]],
 ) -> Gas {
-    let (grid, gamma) = (&problem.grid, problem.gamma);
+    let grid = &problem.grid;
     let gas_slots: Vec<_> = grid.interior().into_iter().filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
     let kind = |c: [i32; 3]| interface.cells[grid.slot(c)];
     let touching = |low: [i32; 3], axis: usize| kind(low) == GAS || kind(shift(low, axis, 1)) == GAS;
@@ -167,10 +168,9 @@ pub(crate) fn fluid_update(
                     }
                     _ => face_velocity(problem, interface, &next, star, axis, low),
                 };
-                // with two solves per step the new face velocity carries the internal energy too
                 let inside = interface.cells[slot] == GAS && interface.cells[high] == GAS;
-                let enthalpy = if problem.numerics.two_solves && inside { gamma / (gamma - 1.0) } else { 1.0 };
-                enthalpy * pressure[axis][slot] * velocity
+                let heat = |gas: &Gas| 0.5 * (internal_energy(gas.get(slot)) + internal_energy(gas.get(high)));
+                (pressure[axis][slot] + held.filter(|_| inside).map_or(0.0, heat)) * velocity
             };
         }
         for face in boundary::open_faces(problem, &interface.cells).into_iter().filter(|face| face.1 == axis) {

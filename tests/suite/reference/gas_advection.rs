@@ -247,8 +247,9 @@ pub(crate) fn admissible(first: [f64; 5], excess: &[[f64; 5]], velocity: [f64; 3
     0.0
 }
 
-/// Flux of internal energy between gas cells by the mean of both sides: with two solves per step it belongs to the solve.
-pub(crate) fn central_heat(problem: &Problem, interface: &Interface, gas: &Gas) -> [Vec<f64>; 3] {
+/// Flux of internal energy between gas cells that `gas` has and carries itself, by the mean of both sides: with two solves per step that
+/// of the start belongs to the solve.
+pub(crate) fn central_heat(problem: &Problem, interface: &Interface, [gas, held]: [&Gas; 2]) -> [Vec<f64>; 3] {
     let grid = &problem.grid;
     let carrier = Carrier::new(problem, &interface.cells, gas);
     let mut heat = [0; 3].map(|_| vec![0.0; grid.slots()]);
@@ -261,25 +262,25 @@ pub(crate) fn central_heat(problem: &Problem, interface: &Interface, gas: &Gas) 
             let (ua, ub) = (gas.get(a), gas.get(b));
             let mean = (ua[1 + axis] + ub[1 + axis]) / (ua[0] + ub[0]);
             let velocity = carrier.as_ref().map_or(mean, |carrier| carrier.between(gas, axis, a, b));
-            heat[axis][a] = 0.5 * velocity * (internal_energy(ua) + internal_energy(ub));
+            heat[axis][a] = 0.5 * velocity * (internal_energy(held.get(a)) + internal_energy(held.get(b)));
         }
     }
     heat
 }
 
 /// Fluxes of `gas` after the limiter, which looks at their change of `start`, and how many cells it touched. A share `implicit` of
-/// the central heat is left to the solve.
+/// the central heat that was `held` is left to the solve.
 pub(crate) fn limited(
     problem: &Problem,
     interface: &Interface,
     [gas, start]: [&Gas; 2],
     dt: f64,
-    implicit: f64,
+    (implicit, held): (f64, &Gas),
 ) -> (Fluxes, usize) {
     let grid = &problem.grid;
     let (mut weno, mut first) = fluxes(problem, interface, gas, dt);
     if implicit != 0.0 {
-        let heat = central_heat(problem, interface, gas);
+        let heat = central_heat(problem, interface, [gas, held]);
         for (axis, slot) in (0..grid.dimension).flat_map(|axis| (0..grid.slots()).map(move |slot| (axis, slot))) {
             weno[axis][slot][4] -= implicit * heat[axis][slot];
             first[axis][slot][4] -= implicit * heat[axis][slot];
@@ -318,7 +319,7 @@ pub(crate) fn stage(
     interface: &Interface,
     [gas, start]: [&Gas; 2],
     dt: f64,
-    [share, implicit]: [f64; 2],
+    (share, implicit): (f64, (f64, &Gas)),
     ledger: &mut [[f64; 5]],
 ) -> (Gas, usize) {
     let grid = &problem.grid;
@@ -358,9 +359,9 @@ pub(crate) fn advect(
     let grid = &problem.grid;
     let mut before = gas.clone();
     fill_ghosts(problem, &interface.cells, &mut before);
-    let (mut one, touched_one) = stage(problem, interface, [&before, &before], dt, [0.5, 0.0], ledger);
+    let (mut one, touched_one) = stage(problem, interface, [&before, &before], dt, (0.5, (0.0, &before)), ledger);
     fill_ghosts(problem, &interface.cells, &mut one);
-    let (two, touched_two) = stage(problem, interface, [&one, &one], dt, [0.5, 0.0], ledger);
+    let (two, touched_two) = stage(problem, interface, [&one, &one], dt, (0.5, (0.0, &one)), ledger);
     let mut after = two.clone();
     for slot in (0..grid.slots()).filter(|slot| interface.cells[*slot] == GAS) {
         let (a, b) = (before.get(slot), two.get(slot));

@@ -60,7 +60,8 @@ pub(crate) fn predicted(
     }
     let d = dt * divergence / problem.grid.spacing;
     let switch = if d >= 0.0 { 1.0 } else { (1.0 + 30.0 * d).max(0.0) };
-    (1.0 + switch * d).max(0.1)
+    let unseen = carrier.map_or(0.0, |c| c.unseen_divergence(problem, &interface.cells, cell));
+    (1.0 + switch * d - problem.gamma * dt * unseen / problem.grid.spacing).max(0.1)
 }
 
 /// Node velocity: gas cell, ghost, or the nearest gas cells by class (faces, edges, corners).

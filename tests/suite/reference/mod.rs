@@ -94,6 +94,8 @@ pub(crate) struct Numerics {
     pub(crate) predictor: bool,
     /// ARS(2,2,2): two solves per step; gas only.
     pub(crate) two_solves: bool,
+    /// Sound of fourth order in space.
+    pub(crate) fourth: bool,
     /// Gas is carried by what the solve sees of its velocity; gas only.
     pub(crate) consistent: bool,
     pub(crate) shared: Shared,
@@ -135,6 +137,7 @@ impl Default for Numerics {
             max_iterations: 500,
             predictor: true,
             two_solves: false,
+            fourth: false,
             consistent: false,
             shared: Shared::Resolved,
             solid_threshold: 0.5,

@@ -66,7 +66,7 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
         ablation::by_gradients(&inputs, &mut solution, &inertia);
     }
     let kick = differences(&solution.solid_velocity, &nodes.velocity);
-    let (gas, pressed) = ((&star, &intermediate), (&solution, &nodes));
+    let (gas, pressed) = ((&star, None, &intermediate), (&solution, &nodes));
     state.gas = fluid_update::fluid_update(problem, &faces, gas, pressed, dt, &mut state.ledger);
     state.open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
     let touched = fluid_update::energy_floor(problem, &faces.cells, &star, &mut state.gas, &mut state.ledger);
