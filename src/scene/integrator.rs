@@ -90,7 +90,7 @@ impl Scene {
     }
 
     /// Whether sound is of fourth order in space: with two solves, unless steps may be long. What that costs the rest noise grows with
-    /// the step, and with b2b1 the stability ends between 5 and 10 cells per step.
+    /// the step. (With b2b1 nearer to it than without.)
     #[must_use]
     pub fn sound_of_fourth_order(&self) -> bool {
         self.solves() == 2 && self.time.fixed_step.is_none() && self.time.max_courant <= SHORT_STEP

