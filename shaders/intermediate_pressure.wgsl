@@ -109,7 +109,7 @@ fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
         change = own - given_back() * shortfall;
         if FOURTH { unseen = (seen_share() - given_back()) * shortfall; }
     } else { change = plain_divergence(c, slot, here); }
-    change *= control.dt / params.spacing;
+    change = change * control.dt / params.spacing;
     let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(change)), 1.0, change >= 0.0);
     // without what is unseen never below 0.99 p
     return p * (1.0 + smooth_share * change - params.gamma * unseen * control.dt / params.spacing);
