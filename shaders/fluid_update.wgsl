@@ -258,7 +258,7 @@ fn heat_of(slot: u32, own: bool, gives: bool) -> f32 {
 }
 
 // Least ratio of the pressure of the predictor to that of the advected state, and a hair less [intermediate_pressure.wgsl].
-fn least_predicted() -> f32 { return select(0.98, LEAST_STARTED, ARS); }
+fn least_predicted() -> f32 { return select(0.98, 0.5, ARS); }
 
 // Whether the floor may have to act on a cell deep inside the gas: never false where it would, for the pressure of the predictor tells
 // nearly what internal energy there was before.
