@@ -257,7 +257,8 @@ fn heat_of(slot: u32, own: bool, gives: bool) -> f32 {
     return heat;
 }
 
-// Least ratio of the pressure of the predictor to that of the advected state, and a hair less [intermediate_pressure.wgsl].
+// Least ratio of the pressure of the predictor to that of the advected state, and a hair less [intermediate_pressure.wgsl]; with two solves
+// less by what the solve does not see.
 fn least_predicted() -> f32 { return select(0.98, 0.5, ARS); }
 
 // Whether the floor may have to act on a cell deep inside the gas: never false where it would, for the pressure of the predictor tells

@@ -47,6 +47,8 @@ fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
 // Consistent predictor: conservative advection of E already compresses the gas; the solve must not do it twice. Inside shocks
 // (strong compression) the viscosity that this removes is kept.
 const COMPRESSION_SWITCH = 30.0;
+// Share of the pressure before that a solve with ARS starts from at least.
+const LEAST_STARTED = 0.1;
 
 // Difference of the divergence across the open faces of a cluster.
 fn cut_divergence(slot: u32, own: f32) -> f32 {

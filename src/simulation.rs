@@ -81,7 +81,7 @@ impl Simulation {
             supports: scene.has_supports().then(|| Supports::new(parts)).transpose()?,
             interface: InterfaceStage::new(parts)?,
             still: Still::new(parts)?,
-            carrier: CarrierVelocity::new(parts, scene.consistent())?,
+            carrier: CarrierVelocity::new(parts, scene.consistent(), scene.solves())?,
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter, scene.solves())?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
             elastic_order: ElasticOrder::new(parts, scene)?,

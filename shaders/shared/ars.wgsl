@@ -12,9 +12,6 @@ const ARS_MIDDLE = 1.7071068;   // dt/2 over a dt
 const ARS_LAST = 3.4142136;     // dt over a dt
 const ARS_RETURNED = 2.4142136; // (1 - a) dt over a dt
 
-// Share of the pressure before that a solve starts from at least.
-const LEAST_STARTED = 0.1;
-
 // Parts of the work and energy arrays that hold U0 and K; further parts of the energy: internal energy of U0, and the energy that the
 // next solve starts from.
 const ARS_START = vec2u(2u, 3u);

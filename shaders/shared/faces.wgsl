@@ -81,6 +81,11 @@ fn reflected(n: u32, f: Fluxes) -> Fluxes {
     return Fluxes(Gas(normal * f.high.flow, 0.0), Gas(normal * f.low.flow, 0.0), 0.0, 0.0);
 }
 
+// Slot on the other side of a face.
+fn slot_beside(slot: u32, c: vec3i, n: u32, up: bool) -> u32 {
+    return u32(i32(slot) + (place_along(n, c[n] + select(-1, 1, up)) - c[n]) * i32(step_of(n)));
+}
+
 // Carrier of the neighbour of a GAS slot inside the domain; beyond an outlet that of the nearest cell.
 fn carrier_beside(slot: u32, c: vec3i, n: u32, offset: i32, word: u32) -> vec4f {
     let place = place_along(n, c[n] + offset);
@@ -111,8 +116,7 @@ fn carried_face(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
         if near_obstacle(r.c.word, r.d.word) { carried = cut_velocity(select(c - axis(n), c, up), n) - given_back() * (high.w - low.w); }
         else { carried = carried_velocity(n, low, stencil.c.flow.x, high, stencil.d.flow.x); }
     }
-    let beside = u32(i32(slot) + (place_along(n, c[n] + select(-1, 1, up)) - c[n]) * i32(step_of(n)));
-    out = carried_fluxes(stencil, carried, carrier_spread(low[n], high[n]), heat_between(stencil, slot, beside));
+    out = carried_fluxes(stencil, carried, carrier_spread(low[n], high[n]), heat_between(stencil, slot, slot_beside(slot, c, n, up)));
     if reflects { return reflected(n, out); }
     if kind_of(word) != GAS { out.heat = 0.0; }
     return out;
@@ -122,8 +126,7 @@ fn carried_face(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
 fn face_fluxes(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
     if CONSISTENT { return carried_face(slot, c, n, up, r); }
     let stencil = stencil_at(r, n);
-    let beside = u32(i32(slot) + (place_along(n, c[n] + select(-1, 1, up)) - c[n]) * i32(step_of(n)));
-    var out = face_fluxes_of(n, stencil, heat_between(stencil, slot, beside));
+    var out = face_fluxes_of(n, stencil, heat_between(stencil, slot, slot_beside(slot, c, n, up)));
     if is_reflected(n, c[n] + select(-1, 1, up)) { return reflected(n, out); }
     if kind_of(r.c.word | r.d.word) != GAS { out.heat = 0.0; }
     if is_open(r.c.word) && is_open(r.d.word) { return out; }

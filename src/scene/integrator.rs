@@ -40,7 +40,7 @@ impl Integrator {
     pub const ARS_CFL: f64 = 0.5;
 }
 
-/// Cells that sound may cross in a step with sound of fourth order in space.
+/// Cells that sound may cross at most in a step that keeps it of fourth order in space.
 const SHORT_STEP: f64 = 4.0;
 /// Cells that sound crosses in a step that is filtered without being asked.
 const LONG_STEP: f64 = 10.0;
@@ -89,8 +89,8 @@ impl Scene {
         }
     }
 
-    /// Whether sound is of fourth order in space: with two solves, unless steps may be long. What that costs the rest noise grows with
-    /// the step. (With b2b1 nearer to it than without.)
+    /// Whether sound is of fourth order in space (with b2b1 nearer to it than otherwise): with two solves, unless steps may be long, in
+    /// which it feeds noise at rest.
     #[must_use]
     pub fn sound_of_fourth_order(&self) -> bool {
         self.solves() == 2 && self.time.fixed_step.is_none() && self.time.max_courant <= SHORT_STEP

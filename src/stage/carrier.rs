@@ -21,21 +21,21 @@ pub enum Carried {
     Middle = 4,
 }
 
-/// Kernels of the stage, for each state, in order.
+/// Kernels of the stage in order, for each state that carries; none where the cells' own velocities do.
 #[derive(Debug)]
 pub struct CarrierVelocity {
-    kernels: Option<Vec<Vec<(Bound, Entry)>>>,
+    kernels: Vec<(Carried, Vec<(Bound, Entry)>)>,
 }
 
 impl CarrierVelocity {
-    /// Binds; if it is not `wanted`, its recordings are empty.
+    /// Binds for the states that carry in a step of so many solves; if it is not `wanted`, its recordings are empty.
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, wanted: bool) -> Result<Self> {
-        let of = |source: Carried| -> Result<Vec<(Bound, Entry)>> {
+    pub fn new(parts: Parts<'_>, wanted: bool, solves: u32) -> Result<Self> {
+        let of = |source: &Carried| {
             let bind = |entry: &str, listed: f64| {
-                let (state, solved) = match source {
+                let (state, solved) = match *source {
                     Carried::Solved => (Carried::Now, 1.0),
                     Carried::Middle => (Carried::First, 1.0),
                     unsolved => (unsolved, 0.0),
@@ -52,16 +52,19 @@ impl CarrierVelocity {
             let [first, second] = plain;
             let listed = |entry: &str| Ok::<_, Error>((bind(entry, 1.0)?, Entry::ListAwake));
             let kernels = [first, Some(listed("carrier_average")?), second, Some(listed("carrier_divergence")?)];
-            Ok(kernels.into_iter().flatten().collect())
+            Ok((*source, kernels.into_iter().flatten().collect()))
         };
-        let all = [Carried::Now, Carried::First, Carried::Star, Carried::Solved, Carried::Middle];
-        Ok(Self { kernels: wanted.then(|| all.into_iter().map(of).collect()).transpose()? })
+        let carrying: &[Carried] = match (wanted, solves) {
+            (false, _) => &[],
+            (true, 1) => &[Carried::Now, Carried::First, Carried::Star, Carried::Solved],
+            (true, _) => &[Carried::Now, Carried::Solved, Carried::Middle],
+        };
+        Ok(Self { kernels: carrying.iter().map(of).collect::<Result<_>>()? })
     }
 
     /// Carrier of a state, in a phase.
     pub fn record(&self, pass: &mut Pass, state: &State, source: Carried, phase: &str) {
-        let Some(kernels) = &self.kernels else { return };
-        for (kernel, entry) in &kernels[source as usize] {
+        for (kernel, entry) in self.kernels.iter().filter(|(carried, _)| *carried == source).flat_map(|(_, all)| all) {
             pass.dispatch(kernel, &extent(state, phase, *entry));
         }
     }

@@ -1,4 +1,4 @@
-//! `gas_advection`: where does the gas carry itself? WENO with local Lax-Friedrichs splitting, TVD-RK2, conservative limiter.
+//! `gas_advection`: where does the gas carry itself? WENO with local Lax-Friedrichs splitting, TVD-RK2 or, with two solves, three stages; conservative limiter.
 //! [Cao et al. 2022, eqs. 10-12]
 
 use super::time_step::slots;

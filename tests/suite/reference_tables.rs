@@ -159,7 +159,7 @@ fn shock_tubes_with_predictor() {
     }
 }
 
-/// The same with two solves, at the time steps of the scenes. B2B1 has the weights of the device.
+/// The same with two solves, at the time steps of the scenes and with the weights of the device.
 #[test]
 #[ignore = "minutes"]
 fn shock_tubes_with_two_solves() {
@@ -168,8 +168,6 @@ fn shock_tubes_with_two_solves() {
         for pair in [Pair::B1b0, Pair::B2b1] {
             let error = |n: usize| {
                 let mut problem = tube(n);
-                let defaults = Numerics::default();
-                let weno = if pair == Pair::B1b0 { problem.numerics.weno } else { defaults.weno };
                 problem.numerics = Numerics {
                     pair,
                     two_solves: true,
@@ -177,8 +175,7 @@ fn shock_tubes_with_two_solves() {
                     consistent: true,
                     tolerance: 1e-6,
                     cfl,
-                    weno,
-                    ..defaults
+                    ..Numerics::default()
                 };
                 error_of(case, &problem).0
             };
