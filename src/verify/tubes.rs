@@ -182,7 +182,16 @@ pub(super) fn report_double<'s>(
 ) -> &'s mut Row {
     let row = session.check(run, "L1 density error", error);
     match errors.and_then(|errors| tube_errors::expected(errors, setting)) {
-        Some(expected) => row.reference(expected, "double precision x 1.05").pass(Limit::AtMost(MARGIN * expected)),
+        Some(expected) => {
+            let row = row.reference(expected, "double precision x 1.05").pass(Limit::AtMost(MARGIN * expected));
+            if setting.integrator == Integrator::Ars222 && setting.cells == RESOLUTIONS[RESOLUTIONS.len() - 1] {
+                row.known(
+                    Limit::AtMost(1.08 * expected),
+                    "single precision: 5.6 and 6.8 % more behind the strongest shocks",
+                );
+            }
+            row
+        }
         None => row.source("reference solution"),
     }
 }
