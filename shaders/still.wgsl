@@ -23,8 +23,9 @@
 // Slots that motion gets on until the solve: three per stage of the advection (a face has three cells on each side, its carrier reaches
 // less far, and the limiter cuts fluxes there but makes none), and one in the carrier of the advected state.
 const ADVECTION_SPAN = 7;
-// And in a step: ten more for pressures, right-hand side and what the solved pressure does, and one per iteration.
-fn step_span() -> i32 { return ADVECTION_SPAN + 10 + i32(control.reach); }
+// And in a step: one each for the pressure of the predictor, that of the vertices and the right-hand side; one per iteration but the first;
+// one each for the velocity, its carrier and what that brings through a face. Test `motion_gets_as_far_as_counted`.
+fn step_span() -> i32 { return ADVECTION_SPAN + 3 + i32(control.reach) - 1 + 3; }
 
 fn blocks() -> u32 { return blocks_across() * layers(); }
 
@@ -49,11 +50,15 @@ fn still_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
         // What slept stays as it was.
         let awake = row_span(select(block_rows(block) >> 16u, 0xffffu, control.woken_before == 1u));
+        let corner = march_start(STILL_BLOCK * block);
+        let width = min(STILL_BLOCK, columns() - corner % columns());
         var rows = 0u;
         for (var k = awake.x; k < min(awake.y, params.march); k++) {
-            for (var column = 0u; column < STILL_BLOCK; column++) {
-                let slot = march_start(STILL_BLOCK * block + column) + k * columns();
-                if slot < params.slots && !rests(slot) { rows |= 1u << k; }
+            let first = corner + k * columns();
+            let end = min(first + width, params.slots);
+            // A loop, which ends for good once something moves: in software both sides of a condition are run.
+            for (var slot = first; slot < end; slot++) {
+                if !rests(slot) { rows |= 1u << k; break; }
             }
         }
         busy[block] = select(0u, busy[block] << 16u, SLEEPS) | rows;
@@ -143,19 +148,41 @@ fn runs_in_all() -> u32 {
     return params.slots / columns() * blocks_across();
 }
 
-// First slot of a run, and how many there are.
-fn run_at(run: u32) -> vec2u {
-    if DIM == 1u { return vec2u(RUN_LANES * run, min(RUN_LANES, params.slots - RUN_LANES * run)); }
-    let column = run % blocks_across() * RUN_LANES;
-    return vec2u(run / blocks_across() * columns() + column, min(RUN_LANES, columns() - column));
+// Where the runs that an octet takes in turn lie: block of columns, row in its layer, and layer; and from one to the next. In software a
+// division costs more than all else that is done for a run that sleeps.
+struct Walk { at: vec3u, step: vec3u, across: u32, columns: u32 }
+
+fn block_row_layer(run: u32, across: u32) -> vec3u {
+    let row = run / across;
+    return vec3u(run % across, row % params.march, row / params.march);
+}
+
+fn walk_from(run: u32, step: u32) -> Walk {
+    let across = blocks_across();
+    return Walk(block_row_layer(run, across), block_row_layer(step, across), across, columns());
+}
+
+fn walk_on(walk: ptr<function, Walk>) {
+    var at = (*walk).at + (*walk).step;
+    if at.x >= (*walk).across { at = vec3u(at.x - (*walk).across, at.y + 1u, at.z); }
+    if at.y >= params.march { at = vec3u(at.x, at.y - params.march, at.z + 1u); }
+    (*walk).at = at;
+}
+
+// First slot of a run.
+fn run_start(run: u32, walk: Walk) -> u32 {
+    if DIM == 1u { return RUN_LANES * run; }
+    return (walk.at.z * params.march + walk.at.y) * walk.columns + walk.at.x * RUN_LANES;
 }
 
 // Slots of a run that are awake, as bits: in 1D some, else all or none.
-fn awake_slots(run: u32) -> u32 {
-    let own = run_at(run);
-    if DIM > 1u { return select(0u, (1u << own.y) - 1u, is_awake(own.x)); }
+fn awake_slots(run: u32, walk: Walk) -> u32 {
+    if DIM > 1u {
+        let awake = (block_rows(walk.at.z * walk.across + walk.at.x) >> (16u + walk.at.y)) & 1u;
+        return awake * ((1u << min(RUN_LANES, walk.columns - walk.at.x * RUN_LANES)) - 1u);
+    }
     var bits = 0u;
-    for (var k = 0u; k < own.y; k++) { bits |= u32(is_awake(own.x + k)) << k; }
+    for (var k = 0u; k < min(RUN_LANES, params.slots - RUN_LANES * run); k++) { bits |= u32(is_awake(RUN_LANES * run + k)) << k; }
     return bits;
 }
 
@@ -176,7 +203,12 @@ fn still_count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     let octet = thread_index(group, groups, lane);
     if octet >= octets() { return; }
     var count = vec2u(0u);
-    for (var run = octet; run < runs_in_all(); run += octets()) { count.x += u32(awake_slots(run) != 0u); }
+    let all = runs_in_all();
+    var walk = walk_from(octet, octets());
+    for (var run = octet; run < all; run += octets()) {
+        count.x += u32(awake_slots(run, walk) != 0u);
+        walk_on(&walk);
+    }
     for (var run = octet; run < runs_in_list(); run += octets()) { count.y += u32(awake_listed(run) != 0u); }
     extra[params.runs_at + octet] = count.x;
     extra[params.list_runs_at + octet] = count.y;
@@ -218,10 +250,13 @@ fn still_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     let octet = thread_index(group, groups, lane);
     if octet >= octets() { return; }
     var at = params.runs_at + octets() + 1u + 2u * extra[params.runs_at + octet];
-    for (var run = octet; run < runs_in_all(); run += octets()) {
-        let awake = awake_slots(run);
+    let all = runs_in_all();
+    var walk = walk_from(octet, octets());
+    for (var run = octet; run < all; run += octets()) {
+        let awake = awake_slots(run, walk);
+        let first = run_start(run, walk);
+        walk_on(&walk);
         if awake == 0u { continue; }
-        let first = run_at(run).x;
         var deep = 0u;
         for (var k = 0u; k < RUN_LANES; k++) { deep |= u32(has(cells[min(first + k, params.slots - 1u)], INTERIOR)) << k; }
         extra[at] = first;

@@ -174,8 +174,90 @@ fn short_marches() {
     same_bits_in_marches("space", &blast(3, [40, 48, 80], OPEN), &[], 4, 4);
 }
 
+/// Slots that motion gets on in a step of so many iterations, as counted in shaders/still.wgsl: residual of the solve, momentum, energy.
+fn counted(iterations: u32) -> [u32; 3] {
+    [7 + 3 + iterations, 7 + 3 + iterations, 7 + 3 + iterations + 2]
+}
+
+/// How far from a band of moving gas in y one step has changed the same, with nothing left out; and its iterations. The gas
+/// has even pressure and another density in every cell, so that nothing hides what a face passes.
+fn reached(gpu: &Gpu, overrides: &[String]) -> ([u32; 3], u32) {
+    const BAND: [u32; 2] = [60, 68];
+    let text = blast(2, [24, 128, 1], "fixed_step = 0.02\n").replace("pressure = 10.0", "pressure = 0.1");
+    let scene = Scene::parse(&text, "band.toml", overrides).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(gpu, &scene).unwrap();
+    simulation.state.params.still = 0;
+    simulation.state.params_buffer.write(gpu, 0, &[simulation.state.params]);
+    let [stride, rows, _] = simulation.state.params.stride;
+    let mut random = 1_u32;
+    let mut share = || {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        random as f32 / u32::MAX as f32
+    };
+    let mut conserved = readback::read(gpu, &simulation.state.gas.conserved).unwrap();
+    let mut energy = readback::read(gpu, &simulation.state.gas.energy).unwrap();
+    for slot in 0..(stride * rows) as usize {
+        if conserved[slot][0] == 0.0 {
+            continue; // beyond the walls
+        }
+        conserved[slot] = [0.1 + share(), 0.0, 0.0, 0.0];
+        energy[slot] = 0.25;
+        if (BAND[0] + 1..=BAND[1]).contains(&(slot as u32 / stride)) {
+            let velocity = [0.8 * share() - 0.4, 0.8 * share() - 0.4];
+            let momentum = velocity.map(|v| v * conserved[slot][0]);
+            energy[slot] += 0.5 * (momentum[0] * velocity[0] + momentum[1] * velocity[1]);
+            conserved[slot] = [conserved[slot][0], momentum[0], momentum[1], 0.0];
+        }
+    }
+    simulation.state.gas.conserved.write(gpu, 0, &conserved);
+    simulation.state.gas.energy.write(gpu, 0, &energy);
+    simulation.set_target(1.0).unwrap();
+    let state = |simulation: &Simulation| {
+        let gas = &simulation.state.gas;
+        (readback::read(gpu, &gas.conserved).unwrap(), readback::read(gpu, &gas.energy).unwrap())
+    };
+    let before = state(&simulation);
+    let mut records = Vec::new();
+    simulation.advance_batch_of(&mut records, 1).unwrap();
+    let after = state(&simulation);
+    let residual = readback::read(gpu, &simulation.state.pcg.residual).unwrap();
+    let mut far = [0; 3];
+    for slot in 0..simulation.state.params.slots {
+        let y = slot / stride;
+        let distance = (BAND[0] + 1).saturating_sub(y).max((y + 1).saturating_sub(BAND[1] + 1));
+        let at = slot as usize;
+        let changed = [residual[at] != 0.0, before.0[at] != after.0[at], before.1[at] != after.1[at]];
+        for (far, changed) in far.iter_mut().zip(changed) {
+            *far = if changed { (*far).max(distance) } else { *far };
+        }
+    }
+    (far, records[0].iterations)
+}
+
+/// The count by which gas sleeps, and that it is not much too long.
+#[test]
+fn motion_gets_as_far_as_counted() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for overrides in [
+        &[][..],
+        &["numerics.integrator=paper"],
+        &["numerics.face_velocity=cell"],
+        &["numerics.limiter=false"],
+        &["numerics.tolerance=1e-3"],
+        &["numerics.tolerance=1e-7"],
+    ] {
+        let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let (far, iterations) = reached(&gpu, &overrides);
+        let most = counted(iterations);
+        eprintln!("{overrides:?}: {far:?} of {most:?} in {iterations} iterations");
+        assert!(far.iter().zip(most).all(|(far, most)| *far <= most), "{overrides:?}: {far:?}, counted {most:?}");
+        // By velocities, three or four slots nearer: small pressures are lost beside the large one, small velocities and residuals are not.
+        assert!(far[0] + 4 >= most[0], "{overrides:?}: {far:?}, counted {most:?}");
+    }
+}
+
 /// Gas that moves at once beside gas at rest: what goes wrong within the reach of one step shows in the first one. In y the halo
-/// is as wide as written (see SPAN in shaders/still.wgsl).
+/// is as wide as written (see step_span in shaders/still.wgsl).
 #[test]
 fn fronts() {
     let front = "[[gas.regions]]\nshape = { sphere = { center = [0.35, 0.4, 0.7], radius = 0.15 } }\ndensity = 0.5\n\
