@@ -29,6 +29,9 @@ fn step_span() -> i32 { return ADVECTION_SPAN + 3 + i32(control.reach) - 1 + 3; 
 
 fn blocks() -> u32 { return blocks_across() * layers(); }
 
+// All rows of a block, as bits; no other is ever set.
+fn all_rows() -> u32 { return (1u << params.march) - 1u; }
+
 // Whether a slot stays as it is: gas at rest whose pressure is that of the next slots.
 fn rests(slot: u32) -> bool {
     let kind = kind_of(cells[slot]);
@@ -49,11 +52,11 @@ fn still_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     let total = groups.x * groups.y * WORKGROUP;
     for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
         // What slept stays as it was.
-        let awake = row_span(select(block_rows(block) >> 16u, 0xffffu, control.woken_before == 1u));
+        let awake = row_span(select(block_rows(block) >> 16u, all_rows(), control.woken_before == 1u));
         let corner = march_start(STILL_BLOCK * block);
         let width = min(STILL_BLOCK, columns() - corner % columns());
         var rows = 0u;
-        for (var k = awake.x; k < min(awake.y, params.march); k++) {
+        for (var k = awake.x; k < awake.y; k++) {
             let first = corner + k * columns();
             let end = min(first + width, params.slots);
             // A loop, which ends for good once something moves: in software both sides of a condition are run.
@@ -72,7 +75,7 @@ fn rows_near(rows: u32, layers: i32, span: i32) -> u32 {
         let shift = layers * i32(params.march) + k;
         if abs(shift) < 32 { near |= select(rows >> u32(-shift), rows << u32(shift), shift >= 0); }
     }
-    return near & ((1u << params.march) - 1u);
+    return near & all_rows();
 }
 
 // Rows of a block within `span` of those that move in its line of blocks, here and in other layers; with `before` also of those that
@@ -101,8 +104,8 @@ fn still_along(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
                @builtin(local_invocation_index) lane: u32) {
     let total = groups.x * groups.y * WORKGROUP;
     for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
-        var moving = 0xffffu;
-        var awake = 0xffffu;
+        var moving = all_rows();
+        var awake = moving;
         if params.still != STILL_NONE { moving = rows_along(block, ADVECTION_SPAN, false); }
         if params.still == STILL_ASLEEP && control.woken_before == 0u { awake = rows_along(block, step_span(), true); }
         busy[blocks() + block] = moving | select(0u, awake << 16u, SLEEPS);
@@ -130,7 +133,7 @@ fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
         var rows = busy[blocks() + block];
         if DIM == 3u { rows = (rows_across(block, ADVECTION_SPAN) & 0xffffu) | (rows_across(block, step_span()) & 0xffff0000u); }
-        extra[params.still_at + block] = select(rows | 0xffff0000u, rows, SLEEPS);
+        extra[params.still_at + block] = select(rows | (all_rows() << 16u), rows, SLEEPS);
     }
 }
 
@@ -139,7 +142,7 @@ fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
 fn still_wake(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
               @builtin(local_invocation_index) lane: u32) {
     let total = groups.x * groups.y * WORKGROUP;
-    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) { extra[params.still_at + block] |= 0xffff0000u; }
+    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) { extra[params.still_at + block] |= all_rows() << 16u; }
 }
 
 // Runs of the whole grid.

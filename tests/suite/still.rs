@@ -63,6 +63,8 @@ fn run(gpu: &Gpu, text: &str, overrides: &[String], steps: u32, march: u32, skip
         let lines = params.stride[scene.domain.axes() - 1];
         let blocks = (params.slots / lines).div_ceil(8) * lines.div_ceil(params.march);
         let rows = &words[params.still_at as usize..][..blocks as usize];
+        let others = !(((1 << params.march) - 1) * 0x10001);
+        assert!(rows.iter().all(|word| word & others == 0), "rows that a block of {} has not", params.march);
         let control = simulation.control().unwrap();
         let runs = simulation.state.interface.runs as u32;
         let asleep = if simulation.state.sleeps() { runs - control.runs } else { 0 };
