@@ -1,6 +1,7 @@
 // odd_even: the mode of alternating cells, which pressures at vertices do not see and the solve leaves alone. Around every vertex
 // whose cells are all GAS the alternating mean of the state is found, and a share of it is taken from each cell with its sign:
-// what one cell loses its neighbours gain. Reads gas, cells. Writes gas, by way of work.
+// what one cell loses its neighbours gain. A vertex takes nothing where a cell would not stand it: in strong shocks what alternates is the
+// shock. Reads gas, cells. Writes gas, by way of work.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -8,6 +9,10 @@
 #include "shared/whole.wgsl"
 
 override FILTER: f32;   // share of the mode that one step removes
+
+// A cell keeps at least this part of density and internal energy, even if all of its vertices take as much as one does. Both are concave
+// functions of the state, so it keeps it whatever the others take.
+const KEPT = 0.5;
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;
@@ -17,22 +22,40 @@ override FILTER: f32;   // share of the mode that one step removes
 
 fn sign_of(corner: vec3i) -> f32 { return f32(1 - 2 * ((corner.x + corner.y + corner.z) & 1)); }
 
+fn gas_beside(v: vec3i, corner: u32) -> Gas {
+    let slot = slot_of(v - reach() + corner_offset(corner));
+    return Gas(conserved[slot], energy[slot]);
+}
+
+// Whether a cell with one sign can give that much at all of its vertices.
+fn stands(gas: Gas, taken: Gas, sign: f32) -> bool {
+    let all = sign * f32(corner_count());
+    let left = Gas(gas.flow - all * taken.flow, gas.energy - all * taken.energy);
+    return left.flow.x >= KEPT * gas.flow.x && internal_energy(left) >= KEPT * internal_energy(gas);
+}
+
 // What the filter takes from a cell beside a vertex, up to the sign: positive for the one below it on all axes or an even number of
 // cells away.
 fn taken_at(v: vec3i) -> Gas {
-    var sum = Gas(vec4f(0.0), 0.0);
+    let nothing = Gas(vec4f(0.0), 0.0);
+    var sum = nothing;
     var densest = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
         let c = v - reach() + corner_offset(k);
-        if !inside(c) || kind_of(cells[slot_of(c)]) != GAS || cut_entry(slot_of(c)) != 0u { return Gas(vec4f(0.0), 0.0); }
+        if !inside(c) || kind_of(cells[slot_of(c)]) != GAS || cut_entry(slot_of(c)) != 0u { return nothing; }
         let sign = sign_of(corner_offset(k));
-        sum.flow += sign * conserved[slot_of(c)];
-        densest = max(densest, conserved[slot_of(c)].x);
-        sum.energy += sign * energy[slot_of(c)];
+        let gas = gas_beside(v, k);
+        sum.flow += sign * gas.flow;
+        densest = max(densest, gas.flow.x);
+        sum.energy += sign * gas.energy;
     }
     let share = FILTER / f32(corner_count() * corner_count());
     let flow = share * sum.flow;
-    return Gas(vec4f(whole(flow.x, LAST_PLACE * power_of_two(densest)), flow.yzw), share * sum.energy);
+    let taken = Gas(vec4f(whole(flow.x, LAST_PLACE * power_of_two(densest)), flow.yzw), share * sum.energy);
+    for (var k = 0u; k < corner_count(); k++) {
+        if !stands(gas_beside(v, k), taken, sign_of(corner_offset(k))) { return nothing; }
+    }
+    return taken;
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -186,7 +186,9 @@ fn reflection(session: &mut Session<'_>) -> Result<()> {
         session.check(&run, "density behind", density).reference(goal, OBLIQUE).within(0.01);
         let place = 1.0 / incident.angle.tan();
         let met = wall.nearest_crossing(PRESSURE, 0.5 * (1.0 / AIR + exact), place);
-        session.check(&run, "half of the rise at the wall", met).reference(place, OBLIQUE);
+        let row = session.check(&run, "half of the rise at the wall", met).reference(place, OBLIQUE);
+        let late = Limit::Between(place, place + 0.8 * wall.spacing);
+        row.pass(Limit::Between(place - 0.03, place + 0.03)).known(late, "three quarters of a cell late on every grid");
         let [slope, offset] = fitted_line(&upper_crossings(&run, PRESSURE, 0.5 * (1.0 / AIR + before), [0.4, 1.4]));
         let row = session.check(&run, "incident shock, extended to the wall", -offset / slope);
         row.reference(place, OBLIQUE).pass(Limit::Between(place - 0.03, place + 0.03));
