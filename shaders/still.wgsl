@@ -32,7 +32,7 @@ fn blocks() -> u32 { return blocks_across() * layers(); }
 // All rows of a block, as bits; no other is ever set.
 fn all_rows() -> u32 { return (1u << params.march) - 1u; }
 
-// Whether a slot stays as it is: gas at rest whose pressure is that of the next slots.
+// Whether a slot stays as it is: gas at rest whose pressure is that of the slots beside it, on both sides, since one that sleeps does not look.
 fn rests(slot: u32) -> bool {
     let kind = kind_of(cells[slot]);
     if PERIODIC != 0u && is_alias(cell_of(slot)) { return false; }
@@ -40,8 +40,10 @@ fn rests(slot: u32) -> bool {
     if any(bitcast<vec3u>(conserved[slot].yzw) != vec3u(0u)) { return false; }
     let own = energy[slot];
     for (var n = 0u; n < DIM; n++) {
-        let next = min(slot + step_of(n), params.slots - 1u);
-        if energy[next] != own && kind_of(cells[next]) == GAS { return false; }
+        let below = slot - min(step_of(n), slot);
+        let above = min(slot + step_of(n), params.slots - 1u);
+        if energy[below] != own && kind_of(cells[below]) == GAS { return false; }
+        if energy[above] != own && kind_of(cells[above]) == GAS { return false; }
     }
     return true;
 }
