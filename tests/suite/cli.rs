@@ -315,6 +315,29 @@ fn a_run_leaves_its_files() {
     );
 }
 
+/// The software driver takes workgroups in turn, as the suite does elsewhere, or on threads of its own; two that write one place show.
+#[test]
+fn threads_of_the_driver_change_no_bit() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    for scene in [
+        &["bursting_diaphragm_2d", "--until", "0.01"][..],
+        &["fig16_convergence", "--resolution", "160", "--until", "0.04"],
+    ] {
+        let [alone, threads] = ["0", "2"].map(|threads| {
+            let target = folder.path().join(scene[0]).join(threads);
+            let mut run =
+                brisance(&["run", "--no-frames", "--no-expect", "--quiet", "--out", target.to_str().unwrap()]);
+            assert!(run.args(scene).env("LP_NUM_THREADS", threads).status().unwrap().success(), "{scene:?}");
+            std::fs::read_to_string(target.join("diagnostics.csv")).unwrap()
+        });
+        assert!(alone.lines().count() > 20, "{scene:?}: {alone}");
+        assert_eq!(alone, threads, "{scene:?}");
+    }
+}
+
 #[test]
 fn failed_expectations_have_their_own_exit_code() {
     if gpu_or_skip().is_none() {
