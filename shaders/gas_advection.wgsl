@@ -219,15 +219,9 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     if first > last { return; }
     let awake = awake_rows(thread);
     let moving = row_span(select(moving_rows(thread), awake, ARS && STAGE > 0u));
-    // What is awake before and behind the rows that move; each a loop of no turn where it has none.
-    let rows = row_span(awake);
-    for (var part = 0u; part < 2u; part++) {
-        let begins = select(rows.x, max(rows.x, moving.y), part == 1u);
-        let ends = select(min(rows.y, moving.x), rows.y, part == 1u);
-        for (var k = begins; k < ends; k++) {
-            let slot = first + k * s;
-            if slot <= last && ((awake >> k) & 1u) == 1u { stay(slot); }
-        }
+    for (var k = 0u; k < params.march; k++) {
+        let slot = first + k * s;
+        if slot <= last && ((awake >> k) & 1u) == 1u && (k < moving.x || k >= moving.y) { stay(slot); }
     }
     if moving.x == moving.y { return; }
     let begin = first + moving.x * s;
