@@ -15,6 +15,7 @@
 #include "shared/cut_system.wgsl"
 #include "shared/cut_carrier.wgsl"
 #include "shared/body_power.wgsl"
+#include "shared/late_flux.wgsl"
 #include "shared/floor.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -205,18 +206,23 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
                 * face_pressure(near, n, up == own, neighbour_kind(near, n, up == own));
         }
     }
+    if LATE_FLUX && kind == GAS && has(cells[slot], NODE_SOLID) {
+        let left = 1.0 - late_share_of(c);
+        conserved[slot] *= left;
+        energy[slot] *= left;
+    }
     if any(impulse != vec3f(0.0)) {
         conserved[slot] += vec4f(0.0, impulse * control.dt / params.spacing);
     }
 }
 
-// What passes a face of GAS cell c: p u, and what the advection carried too late.
+// What passes a face of GAS cell c: p u.
 fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
     let beyond = neighbour_kind(c, n, up);
     if beyond == WALL { return 0.0; }
     if SOLIDS {
         var power = 0.0;
-        for (var turn = 0u; turn < u32(beyond == SOLID); turn++) { power = interface_power(c, n, up) + late_heat(c, n, up); }
+        for (var turn = 0u; turn < u32(beyond == SOLID); turn++) { power = interface_power(c, n, up); }
         if beyond == SOLID { return power; }
     }
     let p = face_pressure(c, n, up, beyond);
@@ -283,13 +289,8 @@ fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         return;
     }
     let kind = kind_of(cells[slot]);
-    if kind == WALL { return; }
+    if kind == WALL || kind == SOLID { return; }
     var heat = 0.0;
-    if SOLIDS && kind == SOLID {
-        heat = late_heat_of(slot);
-        if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }
-        return;
-    }
     // A slot of the ring has its part from the cell before it.
     for (var turn = u32(!inside(cell_of(slot))); turn < 1u; turn++) {
         for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { heat += heat_of(at, kind == GAS, at == slot); }

@@ -1,10 +1,12 @@
 // coupled_solve, write-back to the solid: V = V* - dt M^-1 (G Q + H h) [eq. 36], and the change of the ghost pressure.
-// The whole pressure kick comes before the first elastic sub-step: spread over the sub-steps it is unstable.
+// What light nodes leave is a share of the solve's whole kick, with what of it only takes back the reaction [elastic_reaction.wgsl].
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/system.wgsl"
 #include "shared/light_node.wgsl"
+
+override ASIDE: bool;   // the reaction was set aside
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -13,6 +15,7 @@
 @group(0) @binding(5) var<storage, read_write> work: array<vec4f>;  // second half: M^-1 (G Q + H h), then what light nodes leave
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> inertia: array<f32>;
+@group(0) @binding(9) var<storage, read> elastic: array<vec4f>;     // reaction
 @group(0) @binding(7) var<storage, read_write> ghost: array<f32>;   // Q* before, Q - Q* after
 
 @compute @workgroup_size(WORKGROUP)
@@ -33,7 +36,11 @@ fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     var left = vec3f(0.0);
-    if has(cells[slot], NODE_SOLID) { left = -control.dt * share_left(slot) * work[params.slots + slot].xyz; }
+    if has(cells[slot], NODE_SOLID) {
+        var kick = work[params.slots + slot].xyz;
+        if ASIDE { kick += elastic[slot].xyz; }
+        left = -control.dt * share_left(slot) * kick;
+    }
     work[params.slots + slot] = vec4f(left, 0.0);
 }
 

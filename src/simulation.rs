@@ -11,9 +11,9 @@ use crate::gpu::{Detail, Gpu, Pass, Times, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticOrder, ElasticSolve, FluidUpdate, G2p, GasAdvection,
-    InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Still, Supports, TimeStep,
-    Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate, G2p,
+    GasAdvection, InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Still,
+    Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::{self, NO_FAULT, REACHES};
 use crate::state::params::STILL_ASLEEP;
@@ -36,7 +36,8 @@ pub struct Simulation {
     carrier: CarrierVelocity,
     gas_advection: GasAdvection,
     intermediate_pressure: IntermediatePressure,
-    elastic_order: Option<ElasticOrder>,
+    elastic_reaction: Option<ElasticReaction>,
+    elastic_first: Option<ElasticFirst>,
     elastic_solve: Option<ElasticSolve>,
     coupled_solve: CoupledSolve,
     fluid_update: FluidUpdate,
@@ -84,10 +85,11 @@ impl Simulation {
             carrier: CarrierVelocity::new(parts, scene.consistent(), scene.solves())?,
             gas_advection: GasAdvection::new(parts, scene.numerics.limiter, scene.solves())?,
             intermediate_pressure: IntermediatePressure::new(parts)?,
-            elastic_order: ElasticOrder::new(parts, scene)?,
+            elastic_reaction: ElasticReaction::new(parts, scene)?,
+            elastic_first: ElasticFirst::new(parts, scene)?,
             elastic_solve: ElasticSolve::new(parts, scene, transfer)?,
             coupled_solve,
-            fluid_update: FluidUpdate::new(parts)?,
+            fluid_update: FluidUpdate::new(parts, scene)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
             g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
             odd_even: scene.filter().map(|filter| OddEven::new(parts, filter.share)).transpose()?,
@@ -125,13 +127,10 @@ impl Simulation {
         if let (Some(particle_sort), Some(p2g)) = (&self.particle_sort, &self.p2g) {
             particle_sort.record(pass, state);
             p2g.record(pass, state); // (1) particles to grid
-            if let Some(elastic_order) = &self.elastic_order {
-                p2g.record_force(pass, state);
-                elastic_order.record_start(pass, state);
-            }
         }
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
         self.record_held(pass, "BEGIN");
+        self.record_force(pass);
         self.time_step.record_listed(pass);
         self.still.record(pass, state);
         self.time_step.record_awake(pass);
@@ -147,8 +146,8 @@ impl Simulation {
             self.record_pressure(pass, "SECOND");
         }
         self.coupled_solve.record_solid(pass, state); // eq. 36
-        if let Some(elastic_order) = &self.elastic_order {
-            elastic_order.record_after(pass, state);
+        if let Some(elastic_reaction) = &self.elastic_reaction {
+            elastic_reaction.record_after(pass, state);
         }
         self.record_elastic(pass); // (6) elasticity, walls; (7) grid to particles
         self.time_step.record_finish(pass);
@@ -171,13 +170,20 @@ impl Simulation {
             self.carrier.record(pass, state, Carried::Star, phase);
         }
         self.intermediate_pressure.record(pass, state, phase); // (4) eqs. 9 and 17
-        if let Some(elastic_order) = &self.elastic_order {
-            elastic_order.record_before(pass, state, phase);
+        if let Some(elastic_first) = &self.elastic_first {
+            elastic_first.record_before(pass, state, phase);
+        }
+        self.coupled_solve.record_loads(pass, state, phase);
+        if let Some(elastic_reaction) = &self.elastic_reaction {
+            elastic_reaction.record_before(pass, state, phase);
         }
         self.coupled_solve.record_setup(pass, state, phase);
         self.record_iterations(pass); // (5) eq. 37
         self.time_step.record_solved(pass);
         self.coupled_solve.record_solution(pass, state);
+        if let Some(elastic_reaction) = &self.elastic_reaction {
+            elastic_reaction.record_aside(pass, state);
+        }
         self.fluid_update.record(pass, state, &self.carrier, &self.time_step); // eqs. 14 and 3, local gradients
     }
 
@@ -196,6 +202,18 @@ impl Simulation {
             }
         }
         self.coupled_solve.record_iterations(pass, self.recorded.iterations - done);
+    }
+
+    /// Elastic force of the present stress, for what the pressure solve knows of it.
+    fn record_force(&self, pass: &mut Pass) {
+        let Some(p2g) = &self.p2g else { return };
+        p2g.record_force(pass, &self.state);
+        if let Some(elastic_reaction) = &self.elastic_reaction {
+            elastic_reaction.record_start(pass, &self.state);
+        }
+        if let Some(elastic_first) = &self.elastic_first {
+            elastic_first.record_start(pass, &self.state);
+        }
     }
 
     /// Clamped and driven nodes, friction at walls.
@@ -228,21 +246,21 @@ impl Simulation {
         self.time_step.record_substep(pass);
         let stages = (&self.particle_sort, &self.p2g, &self.mpm_grid_update, &self.g2p);
         let (Some(particle_sort), Some(p2g), Some(mpm_grid_update), Some(g2p)) = stages else { return };
-        let elastic_order = self.elastic_order.as_ref();
-        if elastic_order.is_none_or(ElasticOrder::has_substeps) {
-            if recorded == 0 {
-                p2g.record_substep(pass, state, true);
-            }
-            particle_sort.record(pass, state);
-            p2g.record_substep(pass, state, false);
-            self.record_held(pass, "AGAIN");
+        if let Some(elastic_first) = &self.elastic_first {
+            elastic_first.record_substep(pass, state);
+            g2p.record(pass, state);
+            return;
         }
-        if let Some(elastic_order) = elastic_order {
-            elastic_order.record_substep(pass, state);
+        if recorded == 0 {
+            p2g.record_substep(pass, state, true);
         }
-        if elastic_order.is_none_or(ElasticOrder::has_substeps) {
-            mpm_grid_update.record(pass, state);
+        particle_sort.record(pass, state);
+        p2g.record_substep(pass, state, false);
+        self.record_held(pass, "AGAIN");
+        if let Some(elastic_reaction) = &self.elastic_reaction {
+            elastic_reaction.record_substep(pass, state);
         }
+        mpm_grid_update.record(pass, state);
         g2p.record(pass, state);
     }
 

@@ -1,5 +1,5 @@
-// Power between gas and body through the faces of the interface, and the internal energy that goes with it.
-// Needs element and system, interface_indices(), face_vertices(), face_pressure(), and the bindings control, cells, pressure, node and work.
+// Power between gas and body through the faces of the interface.
+// Needs element and system, interface_indices(), face_vertices(), and the bindings control, cells, pressure, node and work.
 
 // Means of the low and the high vertex of an axis on the node of a body at an offset from the cell between them.
 fn means_of(a: u32, offset: i32) -> vec2f {
@@ -7,7 +7,8 @@ fn means_of(a: u32, offset: i32) -> vec2f {
     return vec2f(mean_entry(true, offset, false), mean_entry(true, offset, true));
 }
 
-// Velocity of a node of a body after the solve; with MIDPOINT_POWER the mean of the old and the new one.
+// Velocity of a node of a body after the solve; with MIDPOINT_POWER the mean of that and of the one that it came with, without its reaction
+// to the load [elastic_reaction.wgsl].
 fn body_velocity(at: u32, n: u32) -> f32 {
     return node[at][n] - select(1.0, 0.5, MIDPOINT_POWER) * control.dt * work[params.slots + at][n];
 }
@@ -31,31 +32,4 @@ fn interface_power(c: vec3i, n: u32, up: bool) -> f32 {
         }
     }
     return power;
-}
-
-// The advection has carried internal energy through a face between gas and body with the velocity of before the solve. Gas that follows
-// a body half a step late drives its vibrations, so half of what the body gains in the solve carries internal energy, too: from the slot
-// of the body to the gas, or back. [docs/method.md, step 8]
-fn late_heat(near: vec3i, n: u32, up: bool) -> f32 {
-    if !LATE_HEAT { return 0.0; }
-    let a = slot_of(near);
-    let b = slot_of(select(near - axis(n), near + axis(n), up));
-    let mass = vec2f(node[a].w, node[b].w);
-    let gain = -control.dt * dot(mass, vec2f(work[params.slots + a][n], work[params.slots + b][n])) / max(mass.x + mass.y, 1e-30);
-    return 0.5 * gain * blocked_of(cells[b]) * face_pressure(near, n, up, SOLID) / (params.gamma - 1.0);
-}
-
-// What the gas around a SOLID cell takes from its slot.
-fn late_heat_of(slot: u32) -> f32 {
-    let c = cell_of(slot);
-    var heat = 0.0;
-    let faces = select(0u, 2u * DIM, LATE_HEAT && has(cells[slot], NODE_GAS));
-    for (var face = 0u; face < faces; face++) {
-        let n = face / 2u;
-        let up = (face & 1u) == 1u;
-        let other = select(c - axis(n), c + axis(n), up);
-        if !inside(other) || kind_of(cells[slot_of(other)]) != GAS { continue; }
-        heat += select(1.0, -1.0, up) * late_heat(other, n, !up);
-    }
-    return heat;
 }

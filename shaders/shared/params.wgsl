@@ -14,7 +14,7 @@ override LEDGER: bool;          // gas of covered cells is kept and given back
 override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed
 override FRICTION: bool;        // some body does not slip
 override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity
-override LATE_HEAT: bool;       // what bodies gain in the solve carries internal energy, half of it
+override LATE_FLUX: bool;       // half of what bodies gain in the solve carries gas, see late_flux.wgsl
 override IMPLICIT: bool;        // one elastic step by backward Euler instead of explicit sub-steps
 override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's volumetric part, which the law then lacks
 override RULES_USED: u32;        // rules of open sides in the scene, as bits

@@ -50,7 +50,8 @@ pub enum SolidUpdate {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Coupling {
-    /// The solve first, then elastic sub-steps.
+    /// The solve first, from a velocity with the elastic reaction to the load of the body in it; then elastic sub-steps, which share what
+    /// else the solve gives.
     #[default]
     First,
     /// One explicit elastic step first, then the solve, whose velocities move the particles: an ablation. Steps are as short as
@@ -103,22 +104,17 @@ impl Scene {
         }
     }
 
-    /// Whether what the solve adds to the velocity of a body carries internal energy of the gas, too, half of it: where a step is a kick by
-    /// the pressures and then elastic sub-steps. Other orders start the solve from a predicted velocity, or damp what this would mend.
+    /// Whether half of what the solve adds to the velocity of a body carries gas: the advection has carried it with the velocity of before
+    /// the solve. The paper's other forms go without.
     #[must_use]
-    pub fn late_heat(&self) -> bool {
-        let kicks = self.numerics.ghost == Ghost::Absorbs && self.numerics.coupling == Coupling::First;
-        kicks && self.numerics.elasticity == Elasticity::Explicit
+    pub fn late_flux(&self) -> bool {
+        self.numerics.ghost == Ghost::Absorbs && self.numerics.coupling == Coupling::First
     }
 
     /// Vectors per slot that the order of the elastic step has to keep.
     #[must_use]
     pub fn elastic_vectors(&self) -> usize {
-        match (self.numerics.ghost, self.numerics.coupling) {
-            (Ghost::SharedVolume, _) => 2,
-            (_, Coupling::Last) => 1,
-            _ => usize::from(self.numerics.elasticity == Elasticity::Implicit),
-        }
+        if self.numerics.coupling == Coupling::Last { 1 } else { 2 }
     }
 
     /// Elastic sub-steps per step at most.

@@ -125,16 +125,22 @@ impl CoupledSolve {
                 SolidUpdate::Forces => Vec::new(),
                 SolidUpdate::Gradients => solid("solid_gradient.wgsl", &["solid_gradient"])?,
             },
-            kick: solid(
-                "solid_kick.wgsl",
-                &["solid_kick", "solid_kick_left", "solid_kick_share", "solid_kick_spread"],
-            )?,
+            kick: Self::kick(parts, scene)?,
             pcg,
         })
     }
 
-    /// Masses, right-hand side and diagonal; opens the iteration. In a phase.
-    pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str) {
+    fn kick(Parts { gpu, state }: Parts<'_>, scene: &Scene) -> Result<Vec<Bound>> {
+        if !state.has_solids() {
+            return Ok(Vec::new());
+        }
+        let aside = f64::from(u8::from(scene.late_flux()));
+        let entries = ["solid_kick", "solid_kick_left", "solid_kick_share", "solid_kick_spread"];
+        entries.iter().map(|entry| state.bind(gpu, "solid_kick.wgsl", entry, &[], &[("ASIDE", aside)])).collect()
+    }
+
+    /// What the nodes bear before the solve: films, gravity, forces of the pressure so far. In a phase.
+    pub fn record_loads(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage("coupled_solve");
         for kernel in &self.film {
             pass.dispatch(kernel, &slots(state, phase));
@@ -144,10 +150,13 @@ impl CoupledSolve {
         }
         pass.dispatch(&self.open, &extent(state, phase, Entry::ListAwake));
         record_both(pass, state, phase, &self.masses);
-        for [plain, listed] in [&self.forces_of_pressure, &self.velocities] {
-            pass.dispatch(plain, &extent(state, phase, self.vertices.nodes.0));
-            pass.dispatch(listed, &extent(state, phase, Entry::ListAwake));
-        }
+        self.record_nodes(pass, state, phase, &self.forces_of_pressure);
+    }
+
+    /// Velocities, right-hand side and diagonal; opens the iteration. In a phase.
+    pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str) {
+        pass.stage("coupled_solve");
+        self.record_nodes(pass, state, phase, &self.velocities);
         for (kernel, entry) in &self.vertices.setup {
             pass.dispatch(kernel, &extent(state, phase, *entry));
         }
@@ -160,6 +169,11 @@ impl CoupledSolve {
         }
         let extents = [Entry::Reduce, Entry::Single, Entry::Surface].map(|entry| extent(state, phase, entry));
         self.pcg.begin(pass, &extents, &self.block(), &self.levels());
+    }
+
+    fn record_nodes(&self, pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
+        pass.dispatch(plain, &extent(state, phase, self.vertices.nodes.0));
+        pass.dispatch(listed, &extent(state, phase, Entry::ListAwake));
     }
 
     fn block(&self) -> Block<'_> {

@@ -3,12 +3,15 @@
 use super::{Carried, CarrierVelocity, Parts, TimeStep, extent, record_both, record_busy};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
+use crate::scene::Scene;
 use crate::state::State;
 use crate::state::constants::Entry;
 
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct FluidUpdate {
+    /// Gas that follows the bodies, as their slots get it.
+    late_flux: Option<Bound>,
     momentum: [Bound; 2],
     energy: [Bound; 2],
     floor: [Bound; 2],
@@ -19,17 +22,24 @@ impl FluidUpdate {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
+    pub fn new(parts: Parts<'_>, scene: &Scene) -> Result<Self> {
+        let Parts { gpu, state } = parts;
+        let follows = state.has_solids() && scene.late_flux();
+        let late_flux = || state.bind(gpu, "late_flux.wgsl", "late_flux", &[], &[("LISTED", 1.0)]);
         Ok(Self {
+            late_flux: follows.then(late_flux).transpose()?,
             momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
             energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
             floor: parts.both("fluid_floor.wgsl", "fluid_floor", &[], &[])?,
         })
     }
 
-    /// Momentum, energy, floor.
+    /// Gas that follows bodies, momentum, energy, floor.
     pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, control: &TimeStep) {
         pass.stage("fluid_update");
+        if let Some(late_flux) = &self.late_flux {
+            pass.dispatch(late_flux, &extent(state, "UPDATE", Entry::ListAwake));
+        }
         record_busy(pass, state, "UPDATE", &self.momentum);
         carrier.record(pass, state, Carried::Solved, "UPDATE");
         record_both(pass, state, "UPDATE", &self.energy);

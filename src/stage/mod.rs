@@ -11,7 +11,7 @@
 //! | `carrier` | which velocity carries the gas through its faces? |
 //! | `gas_advection` | where does the gas carry itself? |
 //! | `intermediate_pressure` | which pressure does the advected gas have? |
-//! | `elastic_order` | what does the solve know of elasticity? |
+//! | `elastic_reaction` | which part of the elastic force bears the load of a node? |
 //! | `coupled_solve` | which pressure and velocity satisfy both sides? |
 //! | `fluid_update` | what does that pressure do to the gas? |
 //! | `elastic_solve` | which node velocities balance the elastic force at the end of the step? |
@@ -24,7 +24,8 @@
 mod carrier;
 mod coupled_solve;
 mod detonate;
-mod elastic_order;
+mod elastic_first;
+mod elastic_reaction;
 mod elastic_solve;
 mod fluid_update;
 mod g2p;
@@ -44,7 +45,8 @@ pub mod traffic;
 pub use carrier::{Carried, CarrierVelocity};
 pub use coupled_solve::CoupledSolve;
 pub use detonate::Detonate;
-pub use elastic_order::ElasticOrder;
+pub use elastic_first::ElasticFirst;
+pub use elastic_reaction::ElasticReaction;
 pub use elastic_solve::{ElasticSolve, MAX_ITERATIONS as MAX_ELASTIC_ITERATIONS};
 pub use fluid_update::FluidUpdate;
 pub use g2p::G2p;

@@ -241,7 +241,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("LEDGER", flag(numerics.ledger)),
         ("RING_BOOKS", flag(ring_books(scene, solids))),
         ("MIDPOINT_POWER", flag(scene.midpoint_power())),
-        ("LATE_HEAT", flag(scene.late_heat())),
+        ("LATE_FLUX", flag(scene.late_flux())),
         ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
         ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),

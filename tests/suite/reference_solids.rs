@@ -95,7 +95,7 @@ fn old_rules(problem: &mut Problem) {
     problem.numerics.shared = Shared::H;
     problem.numerics.solid_threshold = 0.0;
     problem.numerics.power_midpoint = false;
-    problem.numerics.late_heat = false;
+    problem.numerics.late_flux = false;
     problem.numerics.predictor = false;
 }
 

@@ -64,7 +64,7 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
     problem.numerics.tolerance = 1e-9;
     problem.numerics.film_nearest = scene.numerics.film == Film::Nearest;
     problem.numerics.power_midpoint = scene.midpoint_power();
-    problem.numerics.late_heat = scene.late_heat();
+    problem.numerics.late_flux = scene.late_flux();
     problem.numerics.gradients = scene.numerics.solid_update == SolidUpdate::Gradients;
     problem.numerics.coupling_last = scene.numerics.coupling == Coupling::Last;
     problem.numerics.shared_volume = scene.numerics.ghost == Ghost::SharedVolume;

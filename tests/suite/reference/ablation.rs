@@ -53,40 +53,11 @@ pub(crate) fn by_gradients(inputs: &Inputs, solution: &mut Solution, inertia: &[
     }
 }
 
-/// Velocity of the particles, and what the elastic force does to nodes of these masses per time.
-pub(crate) struct Predicted {
-    before: Vec<[f64; 3]>,
-    elastic: Vec<[f64; 3]>,
-}
-
-/// Elasticity before the solve: the whole step of it, or a prediction that [`spread`] takes back.
-pub(crate) fn elastic_first(
-    problem: &Problem,
-    cells: &[u32],
-    nodes: &mut Nodes,
-    floored: &[f64],
-    dt: f64,
-) -> Option<Predicted> {
+/// The whole elastic step before the solve.
+pub(crate) fn elastic_first(problem: &Problem, cells: &[u32], nodes: &mut Nodes, dt: f64) {
     if problem.numerics.coupling_last {
         add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, dt);
         walls(problem, cells, &mut nodes.velocity);
-    }
-    if !problem.numerics.shared_volume {
-        return None;
-    }
-    let before = nodes.velocity.clone();
-    add_forces(&mut nodes.velocity, floored, &nodes.force, dt);
-    let mut elastic = vec![[0.0; 3]; floored.len()];
-    add_forces(&mut elastic, floored, &nodes.force, 1.0);
-    Some(Predicted { before, elastic })
-}
-
-impl Predicted {
-    /// Node velocities before the step, and the acceleration that is not elastic.
-    pub(crate) fn spread(&self, solved: &[[f64; 3]], dt: f64) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
-        let slots = 0..solved.len();
-        let push = slots.map(|i| [0, 1, 2].map(|d| (solved[i][d] - self.before[i][d]) / dt - self.elastic[i][d]));
-        (self.before.clone(), push.collect())
     }
 }
 

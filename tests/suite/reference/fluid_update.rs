@@ -87,40 +87,57 @@ fn working_velocity(problem: &Problem, solution: &Solution, before: &[[f64; 3]])
     before.iter().zip(&solution.solid_velocity).map(midpoint).collect()
 }
 
-/// Internal energy per area and time that half of what a body gains in the solve carries through the face above `low`.
-fn late_heat(
+/// Share of the gas cell at a face above `low` that half of what a body gains in the solve carries upwards.
+fn late_share(
     problem: &Problem,
     interface: &Interface,
-    solution: &Solution,
-    nodes: &Nodes,
+    (solution, nodes): (&Solution, &Nodes),
     (axis, low): (usize, [i32; 3]),
+    dt: f64,
 ) -> f64 {
     let at = [low, shift(low, axis, 1)].map(|c| problem.grid.slot(c));
-    let kinds = at.map(|slot| interface.cells[slot]);
     let mass = at.map(|slot| nodes.mass[slot]);
-    if !problem.numerics.late_heat || !matches!(kinds, [GAS, SOLID] | [SOLID, GAS]) || mass[0] + mass[1] == 0.0 {
+    if mass[0] + mass[1] == 0.0 {
         return 0.0;
     }
     let gain = at.map(|slot| solution.solid_velocity[slot][axis] - nodes.velocity[slot][axis]);
     let gain = (mass[0] * gain[0] + mass[1] * gain[1]) / (mass[0] + mass[1]);
-    let blocked = interface.blocked[at[usize::from(kinds[1] == SOLID)]];
-    let pressure = face_pressure(problem, interface, solution, axis, low);
-    0.5 * gain * blocked * pressure / (problem.gamma - 1.0)
+    let blocked = interface.blocked[at[usize::from(interface.cells[at[1]] == SOLID)]];
+    (0.5 * gain * blocked * dt / problem.grid.spacing).clamp(-0.1, 0.1)
 }
 
-/// What passes the face above `low` leaves the slot of the solid, or comes to it.
-fn book_heat(
+/// Gas that follows the bodies, between cells and the ledger. `nodes` as in [`fluid_update`].
+pub(crate) fn late_flux(
     problem: &Problem,
     interface: &Interface,
-    (axis, low): (usize, [i32; 3]),
-    heat: f64,
+    gas: &mut Gas,
+    pressed: (&Solution, &Nodes),
+    dt: f64,
     ledger: &mut [[f64; 5]],
 ) {
-    let [below, above] = [low, shift(low, axis, 1)].map(|c| problem.grid.slot(c));
-    if interface.cells[below] == SOLID {
-        ledger[below][4] -= heat;
-    } else {
-        ledger[above][4] += heat;
+    if !problem.numerics.late_flux {
+        return;
+    }
+    let grid = &problem.grid;
+    let mut left = vec![0.0; grid.slots()];
+    for axis in 0..grid.dimension {
+        for low in grid.faces(axis) {
+            let [below, above] = [low, shift(low, axis, 1)].map(|c| grid.slot(c));
+            let both = grid.contains(low) && grid.contains(shift(low, axis, 1));
+            let (cell, body, sign) = match (interface.cells[below], interface.cells[above]) {
+                (GAS, SOLID) if both => (below, above, 1.0),
+                (SOLID, GAS) if both => (above, below, -1.0),
+                _ => continue,
+            };
+            let share = sign * late_share(problem, interface, pressed, (axis, low), dt);
+            left[cell] += share;
+            for (owed, u) in ledger[body].iter_mut().zip(gas.get(cell)) {
+                *owed += share * u * grid.volume();
+            }
+        }
+    }
+    for (slot, left) in left.into_iter().enumerate().filter(|(_, left)| *left != 0.0) {
+        gas.set(slot, gas.get(slot).map(|u| (1.0 - left) * u));
     }
 }
 
@@ -132,7 +149,6 @@ pub(crate) fn fluid_update(
     (star, held, intermediate): (&Gas, Option<&Gas>, &Intermediate),
     (solution, nodes): (&Solution, &Nodes),
     dt: f64,
-    ledger: &mut [[f64; 5]],
 ) -> Gas {
     let grid = &problem.grid;
     let gas_slots: Vec<_> = grid.interior().into_iter().filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
@@ -157,9 +173,7 @@ pub(crate) fn fluid_update(
             let slot = grid.slot(low);
             let closed = kind(low) == SOLID || kind(shift(low, axis, 1)) == SOLID;
             work[axis][slot] = if closed {
-                let late = late_heat(problem, interface, solution, nodes, (axis, low));
-                book_heat(problem, interface, (axis, low), late * dt * grid.area(), ledger);
-                late + solid_power(problem, solution, &solid, axis, low) / grid.area()
+                solid_power(problem, solution, &solid, axis, low) / grid.area()
             } else {
                 let high = grid.slot(shift(low, axis, 1));
                 let velocity = match &carrier {

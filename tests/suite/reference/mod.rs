@@ -5,6 +5,7 @@ pub(crate) mod ars222;
 pub(crate) mod boundary;
 pub(crate) mod carrier;
 pub(crate) mod coupled_solve;
+pub(crate) mod elastic_reaction;
 pub(crate) mod elastic_solve;
 pub(crate) mod element;
 pub(crate) mod fluid_update;
@@ -104,8 +105,8 @@ pub(crate) struct Numerics {
     pub(crate) film_nearest: bool,
     /// Power at the interface with the mean of the old and new solid velocity; otherwise the new one.
     pub(crate) power_midpoint: bool,
-    /// Half of what bodies gain in the solve carries internal energy of the gas.
-    pub(crate) late_heat: bool,
+    /// Half of what bodies gain in the solve carries gas.
+    pub(crate) late_flux: bool,
     /// Solid nodes follow the local pressure gradient.
     pub(crate) gradients: bool,
     /// The elastic step comes before the solve.
@@ -143,7 +144,7 @@ impl Default for Numerics {
             solid_threshold: 0.5,
             film_nearest: true,
             power_midpoint: true,
-            late_heat: true,
+            late_flux: true,
             gradients: false,
             coupling_last: false,
             shared_volume: false,

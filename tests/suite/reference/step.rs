@@ -1,11 +1,12 @@
 //! One step in the order of the method.
 
 use super::coupled_solve::{Inputs, Solution, coupled_solve};
+use super::elastic_reaction::Spread;
 use super::p2g::Nodes;
 use super::{Problem, State};
 use super::{
-    ablation, ars222, boundary, elastic_solve, fluid_update, g2p, gas_advection, interface, intermediate_pressure,
-    ledger, mpm_grid_update, p2g, particle_sort, time_step,
+    ablation, ars222, boundary, elastic_reaction, elastic_solve, fluid_update, g2p, gas_advection, interface,
+    intermediate_pressure, ledger, mpm_grid_update, p2g, particle_sort, time_step,
 };
 
 /// What a step did.
@@ -53,38 +54,40 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let inertia = particle_sort::inertia(problem, &bins, &nodes.mass);
     let some = |(mass, inertia): (&f64, &f64)| if *mass > 0.0 { *inertia } else { 0.0 };
     let floored: Vec<f64> = nodes.mass.iter().zip(&inertia).map(some).collect();
-    let predicted = ablation::elastic_first(problem, &faces.cells, &mut nodes, &floored, dt);
+    let start = nodes.velocity.clone();
+    ablation::elastic_first(problem, &faces.cells, &mut nodes, dt);
     mpm_grid_update::add_gravity(problem, &mut nodes, dt);
     mpm_grid_update::add_forces(&mut nodes.velocity, &floored, &film, dt);
     let kick: Vec<_> = film.iter().zip(&inertia).map(|(f, m)| f.map(|f| dt * f / m)).collect();
     mpm_grid_update::share_left(problem, &nodes.mass, &inertia, &kick, &mut nodes.velocity);
 
     let (interface, inner) = (&faces, &intermediate);
+    let before = nodes.velocity.clone();
+    let loaded = Inputs { problem, interface, bins: &bins, intermediate: inner, nodes: &nodes, dt };
+    let reaction = match problem.numerics.coupling_last {
+        true => vec![[0.0; 3]; before.len()],
+        false => elastic_reaction::reaction(&loaded, &start, &inertia),
+    };
+    add_scaled(&mut nodes.velocity, &reaction, dt);
     let inputs = Inputs { problem, interface, bins: &bins, intermediate: inner, nodes: &nodes, dt };
     let mut solution = coupled_solve(&inputs);
     if problem.numerics.gradients {
         ablation::by_gradients(&inputs, &mut solution, &inertia);
     }
     let kick = differences(&solution.solid_velocity, &nodes.velocity);
-    let (gas, pressed) = ((&star, None, &intermediate), (&solution, &nodes));
-    state.gas = fluid_update::fluid_update(problem, &faces, gas, pressed, dt, &mut state.ledger);
+    nodes.velocity = before;
+    let mut followed = star.clone();
+    fluid_update::late_flux(problem, &faces, &mut followed, (&solution, &nodes), dt, &mut state.ledger);
+    let (gas, pressed) = ((&followed, None, &intermediate), (&solution, &nodes));
+    state.gas = fluid_update::fluid_update(problem, &faces, gas, pressed, dt);
     state.open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
     let touched = fluid_update::energy_floor(problem, &faces.cells, &star, &mut state.gas, &mut state.ledger);
 
     mpm_grid_update::share_left(problem, &nodes.mass, &inertia, &kick, &mut solution.solid_velocity);
     let change = g2p::ghost_change(problem, &faces, &bins, &solution.pressure[2]);
-    let push = match predicted {
-        None => {
-            nodes.velocity.clone_from(&solution.solid_velocity);
-            None
-        }
-        Some(predicted) => {
-            let (before, push) = predicted.spread(&solution.solid_velocity, dt);
-            nodes.velocity = before;
-            Some(push)
-        }
-    };
-    let substeps = elastic_substeps(problem, &faces.cells, (&change, push.as_deref()), &mut nodes, state, dt);
+    nodes.velocity.clone_from(&solution.solid_velocity);
+    let spread = spread(problem, &mut nodes, (start, reaction), dt);
+    let substeps = elastic_substeps(problem, &faces.cells, (&change, spread.as_ref()), &mut nodes, state, dt);
     gas_advection::fill_ghosts(problem, &faces.cells, &mut state.gas);
     state.time += dt;
     let (iterations, converged) = (solution.iterations, solution.converged);
@@ -96,14 +99,33 @@ fn differences(after: &[[f64; 3]], before: &[[f64; 3]]) -> Vec<[f64; 3]> {
     after.iter().zip(before).map(|(a, b)| [0, 1, 2].map(|d| a[d] - b[d])).collect()
 }
 
-/// Most that a node takes of the acceleration that is spread over the sub-steps, as its mass moves on to others.
-const MOST_SPREAD: f64 = 2.0;
+fn add_scaled(velocity: &mut [[f64; 3]], change: &[[f64; 3]], factor: f64) {
+    for (v, change) in velocity.iter_mut().zip(change) {
+        *v = [0, 1, 2].map(|d| v[d] + factor * change[d]);
+    }
+}
 
-/// Moves the particles; `push`: acceleration of the nodes as they are now, whose impulse is spread over the sub-steps. Returns their number.
+/// What of the solved velocities the sub-steps share, and the velocities that they start from; the reaction comes with the elastic force.
+fn spread(
+    problem: &Problem,
+    nodes: &mut Nodes,
+    (start, reaction): (Vec<[f64; 3]>, Vec<[f64; 3]>),
+    dt: f64,
+) -> Option<Spread> {
+    add_scaled(&mut nodes.velocity, &reaction, -dt);
+    if problem.numerics.coupling_last || problem.numerics.implicit {
+        return None;
+    }
+    let solved = std::mem::replace(&mut nodes.velocity, start);
+    let push = solved.iter().zip(&nodes.velocity).map(|(v, start)| [0, 1, 2].map(|d| (v[d] - start[d]) / dt));
+    Some(Spread { push: push.collect(), mass: nodes.mass.clone() })
+}
+
+/// Moves the particles; `spread`: what the sub-steps share. Returns their number.
 fn elastic_substeps(
     problem: &Problem,
     cells: &[u32],
-    (change, push): (&[f64], Option<&[[f64; 3]]>),
+    (change, spread): (&[f64], Option<&Spread>),
     nodes: &mut Nodes,
     state: &mut State,
     dt: f64,
@@ -115,14 +137,12 @@ fn elastic_substeps(
     }
     let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);
     let (share, sub_dt) = (1.0 / substeps as f64, dt / substeps as f64);
-    let start = nodes.mass.clone();
     for index in 0..if state.particles.is_empty() { 0 } else { substeps } {
         if index > 0 {
             *nodes = p2g::p2g(problem, &state.particles);
         }
-        for (i, push) in push.into_iter().flatten().enumerate().filter(|(i, _)| nodes.mass[*i] > 0.0) {
-            let time = sub_dt * (start[i] / nodes.mass[i]).min(MOST_SPREAD);
-            nodes.velocity[i] = [0, 1, 2].map(|d| nodes.velocity[i][d] + time * push[d]);
+        if let Some(spread) = spread {
+            spread.kick(problem, nodes, sub_dt);
         }
         if !problem.numerics.coupling_last {
             mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, sub_dt);

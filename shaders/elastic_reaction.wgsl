@@ -1,0 +1,140 @@
+// elastic_reaction: which part of the elastic force bears the load of a node?
+// The load L of a node is the acceleration by the pressures before the solve, by films and by gravity. The reaction e = -alpha L is what the
+// elastic force has against it, alpha = -(r . L) / (L . L), where r = f0 / M - (V . grad) V is the elastic acceleration as a fixed grid sees
+// it. The solve starts from V + dt e, so a body that bears its load is at rest in it, whatever its mass and the step. The elastic force
+// that turns or shakes a body is none of the solve's business: on a fixed grid it would look like a compression.
+// After the solve the acceleration but for e is given as an impulse, evenly over the elastic sub-steps, which bring the elastic force itself.
+// With a shared volume e is the whole elastic acceleration: there the solve must know the law's volumetric part.
+// Reads the elastic force of the present stress, the forces of X*, node. Writes node: what enters the solve, then the velocity of the
+// particles again; elastic: see below.
+#include "shared/index.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/control.wgsl"
+#include "shared/grid_wall.wgsl"
+#include "shared/spread_impulse.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+// Second half: elastic force at the start of the step [N], M^-1 C X* before the solve [m s^-2], M^-1 C X after it.
+@group(0) @binding(3) var<storage, read_write> work: array<vec4f>;
+@group(0) @binding(4) var<storage, read_write> node: array<vec4f>;
+// Elastic force, then the reaction e, then the acceleration to spread and the mass that it was for. Second half: velocity of the particles,
+// then the velocity that lighter nodes pass on in a sub-step.
+@group(0) @binding(5) var<storage, read_write> elastic: array<vec4f>;
+@group(0) @binding(6) var<storage, read> inertia: array<f32>;
+
+// More than this times the load is never taken for the reaction to it.
+const MOST_REACTION = 2.0;
+
+// Nodes without mass, and those that are driven, have no forces.
+fn is_free(slot: u32) -> bool { return node[slot].w > 0.0 && !(DRIVEN && has(cells[slot], NODE_DRIVEN)); }
+
+@compute @workgroup_size(WORKGROUP)
+fn reaction_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    elastic[slot] = vec4f(work[params.slots + slot].xyz, 0.0);
+    elastic[params.slots + slot] = node[slot];
+}
+
+// Velocity of the particles at a node of the ring, and its mass.
+fn start_of(c: vec3i) -> vec4f {
+    if !in_ring(c) { return vec4f(0.0); }
+    return elastic[params.slots + slot_of(c)];
+}
+
+// (V . grad) V from nodes with mass: central differences, one-sided at the edge of a body.
+fn carried_away(c: vec3i, own: vec3f) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var n = 0u; n < DIM; n++) {
+        let above = start_of(c + axis(n));
+        let below = start_of(c - axis(n));
+        let has_mass = select(vec2f(0.0), vec2f(1.0), vec2f(above.w, below.w) > vec2f(0.0));
+        let change = has_mass.x * (above.xyz - own) + has_mass.y * (own - below.xyz);
+        sum += own[n] * change / (max(has_mass.x + has_mass.y, 1.0) * params.spacing);
+    }
+    return sum;
+}
+
+// Reaction of a free node of a body, before walls.
+fn reaction_of(slot: u32, here: vec3f) -> vec3f {
+    let force = elastic[slot].xyz / inertia[slot];
+    if SHARED_VOLUME { return force; }
+    let start = elastic[params.slots + slot].xyz;
+    let load = (here - start) / control.dt - work[params.slots + slot].xyz;
+    let size = dot(load, load);
+    if size == 0.0 { return vec3f(0.0); }
+    return -clamp(-dot(force - carried_away(cell_of(slot), start), load) / size, 0.0, MOST_REACTION) * load;
+}
+
+// Between the forces of X* and the velocities that enter the solve.
+@compute @workgroup_size(WORKGROUP)
+fn reaction_before(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let here = node[slot];
+    if !is_free(slot) || !(SHARED_VOLUME || has(cells[slot], NODE_SOLID)) || control.dt <= 0.0 {
+        elastic[slot] = vec4f(0.0);
+        return;
+    }
+    let v = here.xyz + control.dt * reaction_of(slot, here.xyz);
+    // What a wall stops is borne by the wall.
+    let stopped = select(velocity_at_wall(cell_of(slot), v), v, SHARED_VOLUME);
+    elastic[slot] = vec4f((stopped - here.xyz) / control.dt, 0.0);
+    node[slot] = vec4f(stopped, here.w);
+}
+
+// After the solve: the power of the pressures counts no reaction, so node and the kick of the solve go without it; their sum is the same.
+@compute @workgroup_size(WORKGROUP)
+fn reaction_aside(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots || !has(cells[slot], NODE_SOLID) || node[slot].w <= 0.0 { return; }
+    let e = elastic[slot].xyz;
+    node[slot] = vec4f(node[slot].xyz - control.dt * e, node[slot].w);
+    work[params.slots + slot] -= vec4f(e, 0.0);
+}
+
+// After the kick of the solve: what is not elastic of the acceleration. Explicit sub-steps start from the velocity of the particles; an
+// implicit step is one sub-step.
+@compute @workgroup_size(WORKGROUP)
+fn reaction_after(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                  @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let start = elastic[params.slots + slot];
+    elastic[params.slots + slot] = vec4f(0.0);
+    if !is_free(slot) || control.dt <= 0.0 {
+        elastic[slot] = vec4f(0.0);
+        return;
+    }
+    let here = node[slot];
+    let e = elastic[slot].xyz;
+    if IMPLICIT {
+        node[slot] = vec4f(here.xyz - control.dt * e, here.w);
+        return;
+    }
+    elastic[slot] = vec4f((here.xyz - start.xyz) / control.dt - e, here.w);
+    node[slot] = vec4f(start.xyz, here.w);
+}
+
+// As a body moves, nodes at its surface lose mass from sub-step to sub-step: what one can no longer take of its impulse goes to the free
+// nodes around it, as a velocity.
+@compute @workgroup_size(WORKGROUP)
+fn reaction_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    let push = elastic[slot];
+    let left = push.w - MOST_SPREAD * select(0.0, node[slot].w, is_free(slot));
+    let c = cell_of(slot);
+    var around = 0.0;
+    for (var k = 0u; k < select(0u, block_size(), left > 0.0); k++) {
+        let near = c + block_offset(k);
+        if in_ring(near) && is_free(slot_of(near)) { around += node[slot_of(near)].w; }
+    }
+    let share = select(0.0, left / around, around > 0.0);
+    elastic[params.slots + slot] = vec4f(share * substep_time() * push.xyz, 0.0);
+}
