@@ -84,16 +84,17 @@ fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let trial = trial_deformation(p, motion_at(place_at(x, vec3f(cell) + 0.5)).gradient, control.dt);
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
     let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
-    let tau = kirchhoff_stress(material.kind, returned.deformation, material);
+    let part = elastic_part(material);
+    let tau = kirchhoff_stress(material.kind, returned.deformation, part);
     var stiffness = stretch_of(returned.deformation);
     if returned.plastic_strain > 0.0 {
-        let before = deviator_size(kirchhoff_stress(material.kind, trial, material));
+        let before = deviator_size(kirchhoff_stress(material.kind, trial, part));
         stiffness *= clamp(deviator_size(tau) / max(before, 1e-30), SOFTEST, 1.0);
     }
     let volume = velocity[p].w;
     stress[2u * p] = vec4f(volume * vec3f(tau[0].x, tau[1].y, tau[2].z), stress[2u * p].w);
     stress[2u * p + 1u] = vec4f(volume * vec3f(tau[0].y, tau[1].z, tau[0].z), 0.0);
-    change[2u * p].w = volume * material.lambda;
+    change[2u * p].w = volume * part.lambda;
     change[2u * p + 1u].w = volume * material.mu * stiffness;
 }
 

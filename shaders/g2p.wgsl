@@ -120,11 +120,12 @@ fn strain(p: u32, f: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
         atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
         return false;
     }
-    let tau = kirchhoff_stress(material.kind, *f, elastic_part(material, SHARED_VOLUME)) * velocity[p].w;
+    let tau = kirchhoff_stress(material.kind, *f, elastic_part(material)) * velocity[p].w;
     var heat = stress[2u * p].w;
     if returned.plastic_strain > 0.0 {
         affine[3u * p + 1u].w += returned.plastic_strain;
-        let lost = elastic_energy(material.kind, trial, material) - elastic_energy(material.kind, *f, material);
+        let part = elastic_part(material);
+        let lost = elastic_energy(material.kind, trial, part) - elastic_energy(material.kind, *f, part);
         heat += velocity[p].w * lost;
     }
     if !stored || returned.plastic_strain > 0.0 { store_deformation(p, *f); }

@@ -86,11 +86,10 @@ impl Budget {
             let mass = f64::from(particle.mass);
             let ghost = f64::from(particle.ghost_pressure);
             let start = scene.gas.ambient.pressure;
-            let stiffness =
-                materials.get(particle.material as usize).map_or(f64::INFINITY, |m| m.ghost_stiffness(start));
+            let material = materials.get(particle.material as usize);
+            let energy = material.map_or(0.0, |material| material.ghost_energy(ghost, start));
             self.solid_mass += mass;
-            self.energy +=
-                f64::from(particle.kinetic_energy) + f64::from(particle.volume0) * 0.5 * ghost * ghost / stiffness;
+            self.energy += f64::from(particle.kinetic_energy) + f64::from(particle.volume0) * energy;
             for (sum, v) in self.momentum.iter_mut().zip(particle.velocity) {
                 *sum += mass * f64::from(v);
             }

@@ -2,27 +2,41 @@
 
 struct MaterialParams {
     mu: f32,            // shear modulus [Pa]
-    lambda: f32,        // first Lame constant [Pa]
+    lambda: f32,        // first Lame constant of the body [Pa]
     yield_stress: f32,  // [Pa]; the largest f32 for laws that do not yield
     kind: u32,          // position in the registry
-    ghost_modulus: f32, // of the ghost pressure, q = -ghost_modulus (J - 1) [Pa]
+    ghost_modulus: f32, // of the ghost pressure, at the pressure that bodies start with [Pa]
     hardening: f32,     // growth of the yield stress per equivalent plastic strain [Pa]
-    @size(8) friction: f32, // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
+    friction: f32,      // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
+    elastic_lambda: f32, // what the ghost pressure leaves of lambda to the elastic stress [Pa]
 }
 
-// A law, or what is left of it where the ghost pressure has its volumetric part.
-fn elastic_part(m: MaterialParams, without_volume: bool) -> MaterialParams {
+// What the ghost pressure leaves of a law.
+fn elastic_part(m: MaterialParams) -> MaterialParams {
     var part = m;
-    if without_volume { part.lambda = 0.0; }
+    part.lambda = m.elastic_lambda;
     return part;
 }
 
-// Ghost volume J^g = 1 - q / lambda is kept above this.
-const SMALLEST_GHOST_VOLUME = 0.05;
+// Growth of the ghost pressure's stiffness with its pressure. [Murnaghan 1944]
+const GHOST_STIFFENING = 7.0;
 
-// Stiffness lambda J^g against small changes of the volume at the ghost pressure q. [eq. 17]
+// Stiffness K against small changes of the volume at the ghost pressure q, dq = -K dJ / J. Bodies start with the ambient pressure. [eq. 17]
 fn ghost_stiffness(m: MaterialParams, q: f32) -> f32 {
-    return m.ghost_modulus * max(1.0 - q / m.ghost_modulus, SMALLEST_GHOST_VOLUME);
+    return m.ghost_modulus + GHOST_STIFFENING * max(q - params.ambient_pressure, 0.0);
+}
+
+// Energy of the ghost pressure per volume at rest: the integral of q dq / K.
+fn ghost_energy(m: MaterialParams, q: f32) -> f32 {
+    let modulus = m.ghost_modulus;
+    let start = params.ambient_pressure;
+    let over = q - start;
+    if over <= 0.0 { return 0.5 * q * q / modulus; }
+    let growth = GHOST_STIFFENING * over / modulus;
+    let first = 0.5 * start * start / modulus;
+    // The first terms of the series where the logarithm would lose its digits.
+    if growth < 0.03 { return first + over / modulus * (0.5 * over * (1.0 - growth * (2.0 / 3.0)) + start * (1.0 - 0.5 * growth)); }
+    return first + over / GHOST_STIFFENING + (start - modulus / GHOST_STIFFENING) / GHOST_STIFFENING * log(1.0 + growth);
 }
 
 // What plastic flow leaves of a deformation gradient.

@@ -104,7 +104,7 @@ const GHOST_MODULUS: Parameter = Parameter {
     default: Some(0.0),
     low: Bound::Included(0.0),
     high: Bound::Unbounded,
-    summary: "Stiffness of the ghost pressure, which couples the body to the gas; 0 stands for the first Lame constant.",
+    summary: "Part of the first Lame constant that the ghost pressure bears, which couples the body to the gas; 0 leaves it open.",
 };
 
 /// Parameters of metals, in the order of [`Constants::metal`].
@@ -123,9 +123,25 @@ pub struct Constants {
     pub hardening: f64,
     /// Growth of the yield stress with the pressure: over minus the trace of the Kirchhoff stress `[1]`.
     pub friction: f64,
-    /// Modulus of the ghost pressure `[Pa]`.
+    /// Modulus of the ghost pressure that is asked for, 0 where it is left open `[Pa]`.
     pub ghost_modulus: f64,
 }
+
+/// How the elastic law and the ghost pressure share the volumetric stiffness of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum VolumeShare {
+    /// The ghost pressure bears a part of lambda, the law what is left of it. Left open, the part is [`GHOST_SHARE`] or this pressure of the
+    /// gas `[Pa]`, whichever is larger: less could not hold it.
+    Split(f64),
+    /// The ghost pressure bears all of lambda, the law shear alone.
+    Ghost,
+}
+
+/// Part of lambda that the ghost pressure bears in gas of low pressure: the less, the less it damps waves, but the pressure solve divides
+/// by it.
+pub const GHOST_SHARE: f64 = 0.02;
+/// Growth of the ghost pressure's stiffness with its pressure. [Murnaghan 1944]
+pub const GHOST_STIFFENING: f64 = 7.0;
 
 impl Constants {
     /// A metal from the values of [`METAL`].
@@ -138,11 +154,9 @@ impl Constants {
     }
 
     /// Lame constants of an isotropic elastic law: mu = E / (2 (1 + nu)), lambda = E nu / ((1 + nu) (1 - 2 nu)).
-    /// A ghost modulus of 0 stands for lambda.
     fn elastic(young_modulus: f64, poisson_ratio: f64, ghost_modulus: f64) -> Self {
         let mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
         let lambda = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio));
-        let ghost_modulus = if ghost_modulus > 0.0 { ghost_modulus } else { lambda };
         Constants { mu, lambda, yield_stress: f64::INFINITY, hardening: 0.0, friction: 0.0, ghost_modulus }
     }
 }
@@ -163,29 +177,33 @@ pub struct Material {
 pub struct MaterialParams {
     /// Shear modulus `[Pa]`.
     pub mu: f32,
-    /// First Lame constant of the elastic stress `[Pa]`.
+    /// First Lame constant of the body `[Pa]`.
     pub lambda: f32,
     /// Yield stress `[Pa]`; `f32::MAX` for laws that do not yield.
     pub yield_stress: f32,
     /// Position in [`KINDS`].
     pub kind: u32,
-    /// Modulus of the ghost pressure, q = -ghost_modulus (J - 1) `[Pa]`.
+    /// Modulus of the ghost pressure at the pressure that bodies start with `[Pa]`.
     pub ghost_modulus: f32,
     /// Growth of the yield stress per equivalent plastic strain `[Pa]`.
     pub hardening: f32,
     /// Growth of the yield stress over minus the trace of the Kirchhoff stress `[1]`.
     pub friction: f32,
-    /// Fills the last 16 bytes.
-    pub unused: u32,
+    /// What the ghost pressure leaves of lambda to the elastic stress `[Pa]`.
+    pub elastic_lambda: f32,
 }
 
 impl MaterialParams {
-    /// Stiffness against small changes of the volume at a ghost pressure, lambda J^g `[Pa]`, which is lambda - q. At the pressure that bodies
-    /// start with it gives the energy of the ghost pressure, q^2 / 2 over it: what q does on the volume of the body. [eq. 17]
+    /// Energy of the ghost pressure q per volume at rest, what q does on the volume `[J m^-3]`, in a body that starts with the pressure
+    /// `start`: the integral of q dq / (K J) with K = ghost_modulus + 7 (q - start) above that pressure, and ghost_modulus below it.
     #[must_use]
-    pub fn ghost_stiffness(&self, ghost_pressure: f64) -> f64 {
-        let modulus = f64::from(self.ghost_modulus);
-        modulus * (1.0 - ghost_pressure / modulus).max(0.05)
+    pub fn ghost_energy(&self, q: f64, start: f64) -> f64 {
+        let (modulus, over) = (f64::from(self.ghost_modulus), q - start);
+        if over <= 0.0 {
+            return 0.5 * q * q / modulus;
+        }
+        let n = GHOST_STIFFENING;
+        0.5 * start * start / modulus + over / n + (start - modulus / n) / n * (n * over / modulus).ln_1p()
     }
 }
 
@@ -285,8 +303,13 @@ impl Material {
 
     /// The material as the device sees it.
     #[must_use]
-    pub fn params(&self) -> MaterialParams {
+    pub fn params(&self, share: VolumeShare) -> MaterialParams {
         let Constants { mu, lambda, yield_stress, hardening, friction, ghost_modulus } = self.constants();
+        let (least, left) = match share {
+            VolumeShare::Split(pressure) => ((GHOST_SHARE * lambda).max(pressure), lambda),
+            VolumeShare::Ghost => (lambda, 0.0),
+        };
+        let ghost_modulus = if ghost_modulus > 0.0 { ghost_modulus } else { least };
         MaterialParams {
             mu: mu as f32,
             lambda: lambda as f32,
@@ -295,7 +318,7 @@ impl Material {
             ghost_modulus: ghost_modulus as f32,
             hardening: hardening as f32,
             friction: friction as f32,
-            unused: 0,
+            elastic_lambda: (left - ghost_modulus).max(0.0) as f32,
         }
     }
 

@@ -36,8 +36,13 @@ fn lame_constants() {
     let material = metal([1.0e3, 0.25, 30.0]);
     assert!((material.mu() - 400.0).abs() < 1e-9 && (material.lambda() - 400.0).abs() < 1e-9);
     assert!((material.wave_speed(12.0) - 10.0).abs() < 1e-12);
-    let params = material.params();
-    assert_eq!((params.kind, params.ghost_modulus, params.yield_stress), (1, params.lambda, 30.0));
+    let params = material.params(VolumeShare::Split(10.0));
+    assert_eq!((params.kind, params.ghost_modulus, params.yield_stress), (1, 10.0, 30.0));
+    assert_eq!(params.elastic_lambda, 390.0);
+    let stiff = material.params(VolumeShare::Split(1.0));
+    assert_eq!((stiff.ghost_modulus, stiff.elastic_lambda), (8.0, 392.0));
+    let shared = material.params(VolumeShare::Ghost);
+    assert_eq!((shared.ghost_modulus, shared.elastic_lambda), (400.0, 0.0));
 }
 
 #[test]
@@ -45,7 +50,7 @@ fn elastic_laws_do_not_yield() {
     let given = [("young_modulus".to_owned(), 1.0), ("poisson_ratio".to_owned(), 0.3)];
     let rubber = Material::new("neo_hookean", &given).expect("all parameters are given");
     assert_eq!(rubber.yield_stress(), f64::INFINITY);
-    assert_eq!(rubber.params().yield_stress, f32::MAX);
+    assert_eq!(rubber.params(VolumeShare::Ghost).yield_stress, f32::MAX);
 }
 
 #[test]

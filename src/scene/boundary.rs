@@ -161,6 +161,23 @@ impl Boundary {
         }
     }
 
+    /// Pressures that a rule prescribes \[Pa\].
+    #[must_use]
+    pub fn pressures(&self) -> Vec<f64> {
+        match self {
+            Boundary::Inlet(state) | Boundary::FarField(state) => vec![state.pressure],
+            Boundary::TotalInlet(reservoir) => vec![reservoir.pressure],
+            Boundary::TimedInlet(inlet) => inlet.table.iter().map(|state| state.pressure).collect(),
+            Boundary::PressureOutlet(outlet) => vec![outlet.pressure],
+            Boundary::AttenuatedOutlet(outlet) => vec![outlet.pressure],
+            Boundary::Wall
+            | Boundary::Periodic
+            | Boundary::SubsonicInlet(_)
+            | Boundary::Outlet
+            | Boundary::Patched(_) => Vec::new(),
+        }
+    }
+
     /// Position among [`Boundary::rules`] of the rule that holds at a point of the side \[m\].
     #[must_use]
     pub fn rule_at(&self, point: [f64; 3]) -> usize {

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Scene;
 use super::source::Finding;
+use super::{Boundary, Scene};
+use crate::material::VolumeShare;
 
 /// Pressure unknowns where gas and solid meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -63,7 +64,7 @@ pub enum Coupling {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ghost {
-    /// The law keeps its volumetric part, and the ghost pressure takes up what the gas does: a steady pressure strains nothing.
+    /// The ghost pressure bears a part of the law's volumetric stiffness, and the law the rest.
     #[default]
     Absorbs,
     /// The law bears shear alone, and the ghost pressure follows the law's volumetric part: a steady pressure strains the
@@ -109,6 +110,22 @@ impl Scene {
     #[must_use]
     pub fn late_flux(&self) -> bool {
         self.numerics.ghost == Ghost::Absorbs && self.numerics.coupling == Coupling::First
+    }
+
+    /// How the laws of this scene and the ghost pressure share the volume of bodies.
+    #[must_use]
+    pub fn volume_share(&self) -> VolumeShare {
+        match self.numerics.ghost {
+            Ghost::Absorbs => VolumeShare::Split(self.largest_gas_pressure()),
+            Ghost::SharedVolume => VolumeShare::Ghost,
+        }
+    }
+
+    /// Largest pressure of the gas at the start and at the sides \[Pa\].
+    fn largest_gas_pressure(&self) -> f64 {
+        let regions = self.gas.regions.iter().map(|region| region.state.pressure);
+        let sides = self.boundary.sides().into_iter().flat_map(Boundary::rules).flat_map(Boundary::pressures);
+        regions.chain(sides).fold(self.gas.ambient.pressure, f64::max)
     }
 
     /// Vectors per slot that the order of the elastic step has to keep.

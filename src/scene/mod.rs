@@ -338,7 +338,7 @@ impl Scene {
     /// The parameters of all materials in the order of [`Scene::material_index`], as the device sees them.
     #[must_use]
     pub fn material_parameters(&self) -> Vec<crate::material::MaterialParams> {
-        self.materials.values().map(Material::params).collect()
+        self.materials.values().map(|material| material.params(self.volume_share())).collect()
     }
 
     /// The exact solution of a shock tube and the place of its jump: a scene of dimension 1 with no bodies, obstacles or gravity

@@ -134,7 +134,7 @@ fn material() {
         "g2p.wgsl",
         "MaterialParams",
         MaterialParams,
-        [mu, lambda, yield_stress, kind, ghost_modulus, hardening, friction,]
+        [mu, lambda, yield_stress, kind, ghost_modulus, hardening, friction, elastic_lambda]
     );
 }
 

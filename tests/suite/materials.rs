@@ -1,7 +1,7 @@
 //! Laws of the solids on the device against their energies in double precision: stress, objectivity, plastic flow.
 
 use brisance::gpu::{Buffer, Constants, Extent, Gpu, Kernel, Pass, readback};
-use brisance::material::{KINDS, Material, wgsl_includes, wgsl_switch};
+use brisance::material::{KINDS, Material, VolumeShare, wgsl_includes, wgsl_switch};
 use glam::{DMat3, DVec3};
 
 use crate::common::{Random, with_shaders};
@@ -68,7 +68,7 @@ fn ask(gpu: &Gpu, material: &Material, given: &[DMat3]) -> Vec<Answer> {
     let params = Buffer::<brisance::material::MaterialParams>::new(gpu, "material", 1).expect("memory");
     let matrices = Buffer::<f32>::new(gpu, "given", 12 * given.len()).expect("memory");
     let answers = Buffer::<f32>::new(gpu, "answers", 28 * given.len()).expect("memory");
-    params.write(gpu, 0, &[material.params()]);
+    params.write(gpu, 0, &[material.params(VolumeShare::Split(0.0))]);
     matrices.write(gpu, 0, &given.iter().flat_map(|f| columns(*f)).collect::<Vec<_>>());
     let names = [("material", params.raw()), ("given", matrices.raw()), ("answers", answers.raw())];
     let mut pass = Pass::new(gpu, "ask");

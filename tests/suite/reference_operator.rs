@@ -112,7 +112,7 @@ fn stress_is_the_derivative_of_the_energy() {
     let energy = |f: DMat3| {
         let j = f.determinant();
         let square: f64 = f.to_cols_array().iter().map(|x| x * x).sum();
-        0.5 * material.mu * (square - 3.0 - 2.0 * j.ln()) + 0.5 * material.lambda * j.ln().powi(2)
+        0.5 * material.mu * (square - 3.0 - 2.0 * j.ln()) + 0.5 * material.elastic_lambda * j.ln().powi(2)
     };
     let mut noise = Noise(3);
     for _ in 0..20 {

@@ -83,8 +83,9 @@ fn total_energy(problem: &Problem, state: &State) -> f64 {
         let material = problem.materials[p.material];
         let (f, j) = (p.deformation, p.deformation.determinant());
         let trace = (f.transpose() * f).x_axis.x + (f.transpose() * f).y_axis.y + (f.transpose() * f).z_axis.z;
-        let elastic = 0.5 * material.mu * (trace - 3.0 - 2.0 * j.ln()) + 0.5 * material.lambda * j.ln() * j.ln();
-        let ghost = 0.5 * p.ghost_pressure * p.ghost_pressure / material.lambda;
+        let elastic =
+            0.5 * material.mu * (trace - 3.0 - 2.0 * j.ln()) + 0.5 * material.elastic_lambda * j.ln() * j.ln();
+        let ghost = material.ghost_energy(p.ghost_pressure);
         0.5 * p.mass * p.velocity.length_squared() + p.volume0 * (elastic + ghost)
     };
     state.gas_totals(problem)[4] + state.particles.iter().map(solid).sum::<f64>()

@@ -49,8 +49,17 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
     problem.gamma = scene.gas.gamma;
     problem.gravity = scene.gravity;
     problem.ambient = (scene.gas.ambient.density, scene.gas.ambient.pressure);
-    let material =
-        |m: &brisance::scene::Material| Material { mu: m.mu(), lambda: m.lambda(), yield_stress: m.yield_stress() };
+    let material = |m: &brisance::scene::Material| {
+        let params = m.params(scene.volume_share());
+        Material {
+            mu: m.mu(),
+            lambda: m.lambda(),
+            ghost: params.ghost_modulus.into(),
+            elastic_lambda: params.elastic_lambda.into(),
+            start: scene.gas.ambient.pressure,
+            yield_stress: m.yield_stress(),
+        }
+    };
     problem.materials = scene.materials.values().map(material).collect();
     problem.numerics.pair = match scene.numerics.pair {
         Pair::B2b1 => twin::Pair::B2b1,

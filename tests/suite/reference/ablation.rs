@@ -70,13 +70,3 @@ pub(crate) fn relax(problem: &Problem, particle: &mut Particle, dt: f64) {
     let share = -(-dt * speed / (10.0 * problem.grid.spacing)).exp_m1();
     particle.ghost_pressure += share * (swollen - particle.ghost_pressure);
 }
-
-/// Kirchhoff stress of a particle: with a shared volume without its volumetric part.
-pub(crate) fn stress(problem: &Problem, particle: &Particle) -> DMat3 {
-    let material = &problem.materials[particle.material];
-    let whole = material.stress(particle.deformation);
-    if !problem.numerics.shared_volume {
-        return whole;
-    }
-    whole - DMat3::IDENTITY * (material.lambda * particle.deformation.determinant().ln())
-}

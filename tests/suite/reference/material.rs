@@ -7,8 +7,14 @@ use glam::{DMat3, DVec3};
 pub(crate) struct Material {
     /// Shear modulus.
     pub(crate) mu: f64,
-    /// First Lame parameter, of the solid and of the ghost volume alike.
+    /// First Lame parameter of the body.
     pub(crate) lambda: f64,
+    /// Modulus of the ghost pressure.
+    pub(crate) ghost: f64,
+    /// What that leaves of lambda to the stress.
+    pub(crate) elastic_lambda: f64,
+    /// Ghost pressure that bodies start with.
+    pub(crate) start: f64,
     /// Infinite for a purely elastic one.
     pub(crate) yield_stress: f64,
 }
@@ -17,17 +23,33 @@ impl Material {
     /// From Young's modulus and Poisson's ratio.
     pub(crate) fn new(young: f64, poisson: f64, yield_stress: f64) -> Self {
         let mu = young / (2.0 * (1.0 + poisson));
-        Self { mu, lambda: young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), yield_stress }
+        let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+        Self { mu, lambda, ghost: 0.02 * lambda, elastic_lambda: 0.98 * lambda, start: 1.0, yield_stress }
     }
 
-    /// Compliance of the ghost volume at ghost pressure q: 1/(lambda J^g).
+    /// The same in gas whose largest pressure is `most`.
+    pub(crate) fn in_gas(self, most: f64) -> Self {
+        let ghost = self.ghost.max(most);
+        Self { ghost, elastic_lambda: (self.lambda - ghost).max(0.0), ..self }
+    }
+
+    /// Compliance of the ghost volume at a ghost pressure.
     pub(crate) fn compliance(&self, ghost_pressure: f64) -> f64 {
-        1.0 / (self.lambda * (1.0 - ghost_pressure / self.lambda).max(0.05))
+        1.0 / (self.ghost + 7.0 * (ghost_pressure - self.start).max(0.0))
+    }
+
+    /// Energy of the ghost pressure per volume at rest.
+    pub(crate) fn ghost_energy(&self, q: f64) -> f64 {
+        let (k, start, over) = (self.ghost, self.start, q - self.start);
+        if over <= 0.0 {
+            return 0.5 * q * q / k;
+        }
+        0.5 * start * start / k + over / 7.0 + (start - k / 7.0) / 7.0 * (7.0 * over / k).ln_1p()
     }
 
     /// Kirchhoff stress.
     pub(crate) fn stress(&self, f: DMat3) -> DMat3 {
-        (f * f.transpose() - DMat3::IDENTITY) * self.mu + DMat3::IDENTITY * (self.lambda * f.determinant().ln())
+        (f * f.transpose() - DMat3::IDENTITY) * self.mu + DMat3::IDENTITY * (self.elastic_lambda * f.determinant().ln())
     }
 
     /// Longitudinal wave speed in a deformed body, `density` that at rest.
