@@ -82,12 +82,19 @@ fn strain(run: &Run) -> [f64; 2] {
     [sum / particles.len() as f64, exact]
 }
 
+/// Why a load strains a body of few cells too little.
+const SURFACE: &str = "in the layer of half a cell at each surface of the body the ghost pressure is that of the gas";
+
 fn static_load(session: &mut Session<'_>) -> Result<()> {
-    let mut settings = vec![("shared_volume", 100.0, 0.25, 2.0)];
+    let mut settings = vec![("shared_volume", 100.0, 0.25, 2.0), ("absorbs", 100.0, 0.25, 2.0)];
     let mut cells = 25;
     if session.suite == Suite::Full {
         cells = 50;
-        settings.extend([("shared_volume", 1e4, 0.25, 0.5), ("absorbs", 100.0, 0.25, 4.0)]);
+        settings.extend([
+            ("shared_volume", 1e4, 0.25, 0.5),
+            ("absorbs", 100.0, 0.25, 4.0),
+            ("absorbs", 1e4, 0.25, 0.5),
+        ]);
         settings.extend([("shared_volume", 100.0, 2.0, 2.0), ("shared_volume", 1e4, 2.0, 0.5)]);
     }
     for (ghost, young, courant, until) in settings {
@@ -100,6 +107,8 @@ fn static_load(session: &mut Session<'_>) -> Result<()> {
         let row = session.check(&run, &name, found / exact).reference(1.0, "exact");
         if ghost == "shared_volume" && courant < 1.0 {
             row.within(0.02);
+        } else if ghost == "absorbs" {
+            row.within(0.03).known(Limit::Between(0.9, 1.0), SURFACE);
         }
         let speed = run.records.last().map_or(f64::NAN, |record| f64::from(record.solid_speed));
         session.check(&run, &format!("speed of the slab at the end, {ghost}, E {young}"), speed).source("rest");

@@ -55,7 +55,7 @@ fn slab(
     configure: impl Fn(&mut Problem),
 ) -> (f64, f64, f64, f64) {
     let mut problem = Problem::new(Grid::new(&[n as i32], [0.0; 3], 1.0 / n as f64), [Side::Wall; 6]);
-    problem.materials = vec![Material::new(young, 0.3, f64::INFINITY)];
+    problem.materials = vec![Material::new(young, 0.3, f64::INFINITY).in_gas(6.0)];
     configure(&mut problem);
     let particles = lattice(&problem, 4, density, |x| x[0] > 0.5 && x[0] < 0.6);
     let gas = |x: [f64; 3]| if x[0] < 0.25 { (4.0, [0.0; 3], 6.0) } else { (1.0, [0.0; 3], 1.0) };

@@ -163,11 +163,12 @@ fn momentum_closes(overrides: &[&str]) {
     assert!(gap < 1e-4 * body.mass * body.velocity[0], "{gap:e} of {:e}", body.mass * body.velocity[0]);
 }
 
-/// Prestressed at pressure 1 and held between gas of pressure 2: the exact strain of the law is 0.00738.
+/// Prestressed at pressure 1 and held between gas of pressure 2: the exact strain of the law is 0.00738. The layer of half a cell at each of
+/// its surfaces bears the gas by the ghost pressure: of 15 cells, 4 to 8 %.
 #[test]
-fn a_steady_load_strains_a_slab_that_shares_its_volume() {
+fn a_steady_load_strains_a_slab() {
     let Some(gpu) = gpu_or_skip() else { return };
-    for (ghost, low, high) in [("shared_volume", 0.00723, 0.00753), ("absorbs", 0.0, 0.003)] {
+    for (ghost, low, high) in [("shared_volume", 0.00723, 0.00753), ("absorbs", 0.0066, 0.00753)] {
         let overrides = [format!("numerics.ghost={ghost}")];
         let scene =
             Scene::shipped("validation/static_load.toml", &overrides).and_then(|scene| scene.with_resolution(25));

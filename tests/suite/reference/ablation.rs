@@ -7,7 +7,6 @@ use super::interface::elements_of;
 use super::mpm_grid_update::{add_forces, walls};
 use super::p2g::Nodes;
 use super::{GAS, GHOST, Pair, Particle, Problem, SOLID, WALL};
-use glam::DMat3;
 
 /// Acceleration of a node by the gradient of its own cell; None at walls, which keep the forces of the solve.
 pub(crate) fn local_gradient(inputs: &Inputs, pressure: &[Vec<f64>; 3], c: [i32; 3], mass: f64) -> Option<[f64; 3]> {
