@@ -201,7 +201,8 @@ impl Scene {
                 if outer && (depth < 0.0 || !claim.hidden(point)) {
                     sampled.layer += 0.5 - depth / fine;
                 }
-                if depth < 0.0 {
+                // a point on the surface stands for half of its volume, else a wall between two rows of points would lose both
+                if depth < EXACT * fine && (depth < -EXACT * fine || !claim.hidden(point)) {
                     sampled.inside.push((point, outer));
                 }
             }

@@ -18,10 +18,53 @@ pub(crate) struct Interface {
     pub(crate) shared: Vec<bool>,
 }
 
-/// Kind of every cell and ring cell.
-pub(crate) fn kinds(problem: &Problem, bins: &Bins) -> Vec<u32> {
+/// A thin wall, in volumes at which a cell is full: what two cells side by side hold together, how much more than the two beyond
+/// them, and how little lies beside the edge of a body.
+const WALL_HOLDS: f64 = 1.4;
+const WALL_STANDS_OUT: f64 = 0.8;
+const WALL_ENDS: f64 = 0.7;
+/// Shares of a cell that differ by less are equal.
+const WALL_TIES: f64 = 0.1;
+
+/// Volume of the thin wall that a cell, not full, is the solid part of: itself and a cell beside it; 0: of none.
+fn thin_wall(problem: &Problem, bins: &Bins, before: &[u32], c: [i32; 3]) -> f64 {
     let grid = &problem.grid;
-    let full = |slot: usize| bins.volume[slot] > problem.numerics.solid_threshold * grid.volume();
+    let full = problem.numerics.solid_threshold * grid.volume();
+    let fill = |at: [i32; 3]| if grid.contains(at) { bins.volume[grid.slot(at)] } else { 0.0 };
+    let free = |at: [i32; 3]| grid.contains(at) && !problem.obstacles[grid.slot(at)];
+    let was = |at: [i32; 3]| grid.contains(at) && before[grid.slot(at)] == SOLID;
+    let is_edge = |n: [i32; 3], along: usize| {
+        (0..grid.dimension).filter(|axis| *axis != along).any(|axis| {
+            [-1, 1].into_iter().any(|side| {
+                let [a, b] = [c, n].map(|at| fill(shift(at, axis, side)));
+                let other: f64 = [c, n].map(|at| fill(shift(at, axis, -side))).iter().sum();
+                a.min(b) > full && other < WALL_ENDS * full && free(shift(c, axis, -side))
+            })
+        })
+    };
+    let pairs = (0..grid.dimension).flat_map(|axis| [(axis, -1), (axis, 1)]);
+    pairs.fold(0.0, |found, (axis, side)| {
+        let n = shift(c, axis, side);
+        let (own, next) = (fill(c), fill(n));
+        let beyond = fill(shift(c, axis, -side)) + fill(shift(n, axis, side));
+        let least = WALL_TIES * grid.volume();
+        let stands = own + next >= WALL_HOLDS * full && own + next - beyond >= WALL_STANDS_OUT * full;
+        let holds = stands && next <= full + least;
+        let ties = (own - next).abs() <= least && (was(c) || !was(n));
+        let solid = holds && (ties || own > next + least) && !is_edge(n, axis);
+        if solid { f64::max(found, own + next) } else { found }
+    })
+}
+
+/// Kind of every cell and ring cell, and in the bins the volume of what closes cells; `before`: kinds of the step before.
+pub(crate) fn kinds(problem: &Problem, bins: &mut Bins, before: &[u32]) -> Vec<u32> {
+    let grid = &problem.grid;
+    let mut closed = vec![0.0; grid.slots()];
+    for c in grid.interior() {
+        let slot = grid.slot(c);
+        let full = bins.volume[slot] > problem.numerics.solid_threshold * grid.volume();
+        closed[slot] = if full { bins.volume[slot] } else { thin_wall(problem, bins, before, c) };
+    }
     let mut cells = vec![GAS; grid.slots()];
     for c in grid.all() {
         let slot = grid.slot(c);
@@ -33,12 +76,13 @@ pub(crate) fn kinds(problem: &Problem, bins: &Bins) -> Vec<u32> {
             WALL
         } else if bins.count[slot] == 0 {
             GAS
-        } else if full(slot) || !grid.offsets(-1, 1).into_iter().any(|o| full(grid.slot(add(c, o)))) {
+        } else if closed[slot] > 0.0 || !grid.offsets(-1, 1).into_iter().any(|o| closed[grid.slot(add(c, o))] > 0.0) {
             SOLID
         } else {
             GAS
         };
     }
+    bins.closed = closed;
     cells
 }
 
@@ -66,7 +110,7 @@ pub(crate) fn interface(problem: &Problem, cells: Vec<u32>, bins: &Bins, nodes: 
             }
         }
     }
-    let blocked = (0..grid.slots()).map(|slot| blocked_fraction(problem, bins.volume[slot])).collect();
+    let blocked = (0..grid.slots()).map(|slot| blocked_fraction(problem, bins.volume[slot].max(bins.closed[slot]))).collect();
     let mut shared = vec![false; grid.slots()];
     for vertex in grid.vertices() {
         let both = touches(problem, &cells, vertex, GAS) && touches(problem, &cells, vertex, SOLID);
