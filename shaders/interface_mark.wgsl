@@ -3,6 +3,7 @@
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
+#include "shared/thin_walls.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> fill: array<vec2f>;
@@ -14,56 +15,11 @@
 @group(0) @binding(8) var<storage, read_write> edge: array<u32>;    // 1 where a slot is not INTERIOR
 @group(0) @binding(9) var<storage, read> edge_place: array<u32>;    // scan of edge
 
-// What makes two cells side by side a thin wall, in volumes at which a cell is full: what they hold together, and how much more than the two
-// cells beyond them. A wall of one cell may lie in two rows and fill neither; a heap of fragments has no empty cells beside it.
-const WALL_HOLDS = 1.4;
-const WALL_STANDS_OUT = 0.8;
-// Beside the wall's row, along the surface of a body, there is this little.
-const WALL_ENDS = 0.7;
-// The fuller of the two is solid, both where they differ by less than this share of a cell; but then one that was solid alone stays so.
-const WALL_TIES = 0.1;
-
 fn full_volume() -> f32 { return params.solid_threshold * cell_volume(); }
 fn is_full(slot: u32) -> bool { return fill[slot].x > full_volume(); }
 fn fill_at(c: vec3i) -> f32 {
     if !inside(c) { return 0.0; }
     return fill[slot_of(c)].x;
-}
-
-// Whether a body may end there: nothing does at the sides of the domain or at obstacles.
-fn is_free(c: vec3i) -> bool { return inside(c) && kind_of(cells[slot_of(c)]) != WALL; }
-
-// Whether the pair is the edge of a body's surface, not a wall: beside both, along any other axis, are full cells, and nothing on the other side.
-fn is_edge_of_body(c: vec3i, n: vec3i, along: u32) -> bool {
-    for (var a = 0u; a < DIM; a++) {
-        if a == along { continue; }
-        for (var side = -1; side <= 1; side += 2) {
-            let least = min(fill_at(c + side * axis(a)), fill_at(n + side * axis(a)));
-            let other = fill_at(c - side * axis(a)) + fill_at(n - side * axis(a));
-            if least > full_volume() && other < WALL_ENDS * full_volume() && is_free(c - side * axis(a)) { return true; }
-        }
-    }
-    return false;
-}
-
-// Volume of the thinnest wall that the cell, not full, is the solid part of: the cell and one beside it; 0: of none.
-fn thin_wall(c: vec3i, slot: u32) -> f32 {
-    var found = 0.0;
-    let own = fill[slot].x;
-    let was = kind_of(cells[slot]) == SOLID;
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = -1; side <= 1; side += 2) {
-            let n = c + side * axis(a);
-            let next = fill_at(n);
-            let volume = own + next;
-            let beyond = fill_at(c - side * axis(a)) + fill_at(n + side * axis(a));
-            let stands = volume >= WALL_HOLDS * full_volume() && volume - beyond >= WALL_STANDS_OUT * full_volume();
-            if !stands || next > full_volume() + WALL_TIES * cell_volume() { continue; }
-            let ties = abs(own - next) <= WALL_TIES * cell_volume() && (was || kind_of(cells[slot_of(n)]) != SOLID);
-            if (ties || own > next + WALL_TIES * cell_volume()) && !is_edge_of_body(c, n, a) { found = max(found, volume); }
-        }
-    }
-    return found;
 }
 
 // Volume of what closes the cell: its own where it is full, that of a thin wall; else 0.
@@ -100,7 +56,8 @@ fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         cells[slot] = (cells[slot] & 0xffff0000u) | before | (before << 2u);
         return;
     }
-    let wall = bitcast<f32>(wanted[slot]);
+    var wall = bitcast<f32>(wanted[slot]);
+    if wall == 0.0 && fill[slot].x > WALL_CORNER * full_volume() { wall = corner_of_wall(c, slot); }
     var solid = wall > 0.0;
     if !solid && cell_start[slot + 1u] > cell_start[slot] {
         solid = true;

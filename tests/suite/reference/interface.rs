@@ -23,6 +23,8 @@ pub(crate) struct Interface {
 const WALL_HOLDS: f64 = 1.4;
 const WALL_STANDS_OUT: f64 = 0.8;
 const WALL_ENDS: f64 = 0.7;
+/// A cell that closes the corner of a wall holds more than this.
+const WALL_CORNER: f64 = 0.2;
 /// Shares of a cell that differ by less are equal.
 const WALL_TIES: f64 = 0.1;
 
@@ -56,6 +58,29 @@ fn thin_wall(problem: &Problem, bins: &Bins, before: &[u32], c: [i32; 3]) -> f64
     })
 }
 
+/// Volume of a wall that goes on from one cell beside this one to another across a corner that this one closes; 0: none.
+fn corner_of_wall(problem: &Problem, bins: &Bins, closed: &[f64], c: [i32; 3]) -> f64 {
+    let grid = &problem.grid;
+    let own = bins.volume[grid.slot(c)];
+    let ignored = closed[grid.slot(c)] > 0.0 || own <= WALL_CORNER * problem.numerics.solid_threshold * grid.volume();
+    if ignored {
+        return 0.0;
+    }
+    let volume = |at: [i32; 3]| if grid.contains(at) { closed[grid.slot(at)] } else { 0.0 };
+    let mut found = 0.0;
+    for offset in grid.offsets(-1, 1).into_iter().filter(|o| o.iter().map(|x| x.abs()).sum::<i32>() == 2) {
+        let across = add(c, offset);
+        if !grid.contains(across) || problem.obstacles[grid.slot(across)] || volume(across) > 0.0 {
+            continue;
+        }
+        if own >= bins.volume[grid.slot(across)] - WALL_TIES * grid.volume() {
+            let beside = (0..3).filter(|axis| offset[*axis] != 0).map(|axis| volume(shift(c, axis, offset[axis])));
+            found = f64::max(found, beside.fold(f64::INFINITY, f64::min));
+        }
+    }
+    found
+}
+
 /// Kind of every cell and ring cell, and in the bins the volume of what closes cells; `before`: kinds of the step before.
 pub(crate) fn kinds(problem: &Problem, bins: &mut Bins, before: &[u32]) -> Vec<u32> {
     let grid = &problem.grid;
@@ -66,6 +91,8 @@ pub(crate) fn kinds(problem: &Problem, bins: &mut Bins, before: &[u32]) -> Vec<u
         closed[slot] = if full { bins.volume[slot] } else { thin_wall(problem, bins, before, c) };
     }
     let mut cells = vec![GAS; grid.slots()];
+    let corners: Vec<([i32; 3], f64)> =
+        grid.interior().into_iter().map(|c| (c, corner_of_wall(problem, bins, &closed, c))).collect();
     for c in grid.all() {
         let slot = grid.slot(c);
         cells[slot] = if !grid.contains(c) {
@@ -81,6 +108,10 @@ pub(crate) fn kinds(problem: &Problem, bins: &mut Bins, before: &[u32]) -> Vec<u
         } else {
             GAS
         };
+    }
+    for (c, volume) in corners.into_iter().filter(|(_, volume)| *volume > 0.0) {
+        cells[grid.slot(c)] = SOLID;
+        closed[grid.slot(c)] = volume;
     }
     bins.closed = closed;
     cells
@@ -110,7 +141,8 @@ pub(crate) fn interface(problem: &Problem, cells: Vec<u32>, bins: &Bins, nodes: 
             }
         }
     }
-    let blocked = (0..grid.slots()).map(|slot| blocked_fraction(problem, bins.volume[slot].max(bins.closed[slot]))).collect();
+    let blocked =
+        (0..grid.slots()).map(|slot| blocked_fraction(problem, bins.volume[slot].max(bins.closed[slot]))).collect();
     let mut shared = vec![false; grid.slots()];
     for vertex in grid.vertices() {
         let both = touches(problem, &cells, vertex, GAS) && touches(problem, &cells, vertex, SOLID);
