@@ -9,7 +9,7 @@ const WALL_ENDS = 0.7;
 // The fuller of the two is solid, both where they differ by less than this share of a cell; but then one that was solid alone stays so.
 const WALL_TIES = 0.1;
 // A cell that closes the corner of a wall holds more than this.
-const WALL_CORNER = 0.2;
+const WALL_CORNER = 0.1;
 
 // Whether a body may end there: nothing does at the sides of the domain or at obstacles.
 fn is_free(c: vec3i) -> bool { return inside(c) && kind_of(cells[slot_of(c)]) != WALL; }
@@ -52,18 +52,26 @@ fn closed_volume(c: vec3i) -> f32 {
     return bitcast<f32>(wanted[slot_of(c)]);
 }
 
-// Volume of a wall that goes on from one cell beside this one to another, across a corner where gas of both sides would meet at a vertex and have
-// one pressure; 0: none. The fuller of the two cells at the corner closes it, both where they are about as full.
+// Least closed volume of the cells beside c towards an offset.
+fn closed_beside(c: vec3i, o: vec3i) -> f32 {
+    var least = 1e30;
+    for (var a = 0u; a < DIM; a++) {
+        if o[a] != 0 { least = min(least, closed_volume(c + o * axis(a))); }
+    }
+    return least;
+}
+
+// Volume of a wall that parts this cell from one across a corner, where gas of both sides would meet at a vertex and have one pressure;
+// 0: none. The fuller of the two closes the corner, both where they are about as full.
 fn corner_of_wall(c: vec3i, slot: u32) -> f32 {
     var found = 0.0;
     for (var k = 0u; k < block_size(); k++) {
         let o = block_offset(k);
-        if abs(o.x) + abs(o.y) + abs(o.z) != 2 { continue; }
         let across = c + o;
-        if closed_volume(across) > 0.0 || !is_free(across) || fill[slot].x < fill_at(across) - WALL_TIES * cell_volume() { continue; }
-        // the two cells beside both: one step each along the two axes of the diagonal
-        let first = select(vec3i(0, o.y, 0), vec3i(o.x, 0, 0), o.x != 0);
-        found = max(found, min(closed_volume(c + first), closed_volume(c + o - first)));
+        if abs(o.x) + abs(o.y) + abs(o.z) < 2 || closed_volume(across) > 0.0 || !is_free(across) { continue; }
+        if fill[slot].x >= fill_at(across) - WALL_TIES * cell_volume() {
+            found = max(found, max(closed_beside(c, o), closed_beside(across, -o)));
+        }
     }
     return found;
 }

@@ -138,7 +138,10 @@ fn a_wall_of_one_cell_is_tight_on_its_way() {
             simulation.advance_to(f64::from(step)).unwrap_or_else(|error| panic!("{wall:?}: {error}"));
             let (snapshot, moved) = (simulation.snapshot().expect("a device"), [0.0, 0.13 * f64::from(step)]);
             assert_eq!(wall.leaks(&snapshot, moved), 0, "step {step}, {wall:?}");
-            eprintln!("MOVE {step} {:?} {wall:?}", wall.sides(&snapshot, moved));
+            let [(_, behind), (_, ahead)] = wall.sides(&snapshot, moved);
+            // a piston of this speed makes 0.85 and 1.17, and twice as much once the waves are back from the sides
+            assert!(behind[0] > 0.55 && behind[1] < 1.001, "{behind:?} behind, step {step}, {wall:?}");
+            assert!(ahead[0] > 0.999 && ahead[1] < 1.6, "{ahead:?} ahead, step {step}, {wall:?}");
         }
     }
 }
@@ -159,7 +162,7 @@ fn walls_of_one_cell_hold_pressure_in_space() {
              [materials.rubber]\nneo_hookean = {{ young_modulus = 100.0, poisson_ratio = 0.3 }}\n\
              [[bodies]]\nname = \"wall\"\nmaterial = \"rubber\"\ndensity = 2.0\nmotion = {{ velocity = [0, 0, 0] }}\n\
              shape = {{ intersection = [{{ half_space = {{ point = {:?}, normal = {normal:?} }} }}, \
-             {{ half_space = {{ point = {:?}, normal = {:?} }} }}] }}\n[time]\nuntil = 10.0\n",
+             {{ half_space = {{ point = {:?}, normal = {:?} }} }}] }}\n[time]\nuntil = 4.0\n",
             point(offset),
             point(offset + 0.5),
             point(offset - 0.5),
@@ -167,7 +170,7 @@ fn walls_of_one_cell_hold_pressure_in_space() {
         );
         let scene = Scene::parse(&text, "wall.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
         let mut simulation = started(&gpu, &scene);
-        simulation.advance_to(10.0).unwrap_or_else(|error| panic!("{normal:?}: {error}"));
+        simulation.advance_to(4.0).unwrap_or_else(|error| panic!("{normal:?}: {error}"));
         let snapshot = simulation.snapshot().expect("a device");
         for i in (0..12 * 12 * 12).filter(|i| snapshot.kind[*i] == kind::GAS) {
             let at = [i % 12, i / 12 % 12, i / 144].map(|n| n as f64 - 5.5);

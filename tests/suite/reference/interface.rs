@@ -24,7 +24,7 @@ const WALL_HOLDS: f64 = 1.4;
 const WALL_STANDS_OUT: f64 = 0.8;
 const WALL_ENDS: f64 = 0.7;
 /// A cell that closes the corner of a wall holds more than this.
-const WALL_CORNER: f64 = 0.2;
+const WALL_CORNER: f64 = 0.1;
 /// Shares of a cell that differ by less are equal.
 const WALL_TIES: f64 = 0.1;
 
@@ -67,15 +67,18 @@ fn corner_of_wall(problem: &Problem, bins: &Bins, closed: &[f64], c: [i32; 3]) -
         return 0.0;
     }
     let volume = |at: [i32; 3]| if grid.contains(at) { closed[grid.slot(at)] } else { 0.0 };
+    let beside = |at: [i32; 3], o: [i32; 3], sign: i32| {
+        let steps = (0..3).filter(|axis| o[*axis] != 0).map(|axis| volume(shift(at, axis, sign * o[axis])));
+        steps.fold(f64::INFINITY, f64::min)
+    };
     let mut found = 0.0;
-    for offset in grid.offsets(-1, 1).into_iter().filter(|o| o.iter().map(|x| x.abs()).sum::<i32>() == 2) {
+    for offset in grid.offsets(-1, 1).into_iter().filter(|o| o.iter().map(|x| x.abs()).sum::<i32>() >= 2) {
         let across = add(c, offset);
         if !grid.contains(across) || problem.obstacles[grid.slot(across)] || volume(across) > 0.0 {
             continue;
         }
         if own >= bins.volume[grid.slot(across)] - WALL_TIES * grid.volume() {
-            let beside = (0..3).filter(|axis| offset[*axis] != 0).map(|axis| volume(shift(c, axis, offset[axis])));
-            found = f64::max(found, beside.fold(f64::INFINITY, f64::min));
+            found = f64::max(found, beside(c, offset, 1).max(beside(across, offset, -1)));
         }
     }
     found
