@@ -1,8 +1,8 @@
 // interface: where do gas and solid meet?
 // Reads sorted particles. Writes the word of every slot (kind, blocked fraction, flags), the solid volume and mean compliance
 // of cells, the ghost pressure of vertices, and marks the vertices that carry P, h and Q apart.
-// [Cao et al. 2022, section 2.3; a cell is solid when the bodies fill more than `solid_threshold` of it, or when it holds a
-// particle and nothing around it is that full: fragments]
+// [Cao et al. 2022, section 2.3; a cell is solid when the bodies fill more than `solid_threshold` of it, when it and one beside it hold a
+// thin wall, or when it holds a particle and nothing around it is that full or a wall: fragments]
 #include "shared/index.wgsl"
 #include "shared/material.wgsl"
 #include "shared/trial.wgsl"

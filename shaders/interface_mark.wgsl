@@ -3,18 +3,38 @@
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
+#include "shared/thin_walls.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> fill: array<vec2f>;
 @group(0) @binding(3) var<storage, read> cell_start: array<u32>;
-@group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // 1 where a vertex wants P, h, Q apart; then where a slot is mixed
+@group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // volume of a wall; 1 where a vertex wants P, h, Q apart; then where a slot is mixed
 @group(0) @binding(5) var<storage, read> place: array<u32>;         // scan of wanted
 @group(0) @binding(6) var<storage, read_write> extra: array<atomic<u32>>;   // place in the extra block, or NO_EXTRA; then the lists
 @group(0) @binding(7) var<storage, read_write> control: Control;
 @group(0) @binding(8) var<storage, read_write> edge: array<u32>;    // 1 where a slot is not INTERIOR
 @group(0) @binding(9) var<storage, read> edge_place: array<u32>;    // scan of edge
 
-fn is_full(slot: u32) -> bool { return fill[slot].x > params.solid_threshold * cell_volume(); }
+fn full_volume() -> f32 { return params.solid_threshold * cell_volume(); }
+fn is_full(slot: u32) -> bool { return fill[slot].x > full_volume(); }
+fn fill_at(c: vec3i) -> f32 {
+    if !inside(c) { return 0.0; }
+    return fill[slot_of(c)].x;
+}
+
+// Volume of what closes the cell: its own where it is full, that of a thin wall; else 0.
+@compute @workgroup_size(WORKGROUP)
+fn interface_walls(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                   @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots { return; }
+    var volume = 0.0;
+    let own = fill[slot].x;
+    if own > 0.0 && inside(cell_of(slot)) {
+        if is_full(slot) { volume = own; } else { volume = thin_wall(cell_of(slot), slot); }
+    }
+    wanted[slot] = bitcast<u32>(volume);
+}
 
 // Share of a face that the solid of a cell blocks, its volume taken as a ball. [eqs. after section 2.3]
 fn blocked_fraction(volume: f32) -> f32 {
@@ -24,6 +44,7 @@ fn blocked_fraction(volume: f32) -> f32 {
     return min(pi * pow(3.0 * volume / (4.0 * pi), 2.0 / 3.0) / (params.spacing * params.spacing), 1.0);
 }
 
+// After `interface_walls`.
 @compute @workgroup_size(WORKGROUP)
 fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
@@ -35,16 +56,18 @@ fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         cells[slot] = (cells[slot] & 0xffff0000u) | before | (before << 2u);
         return;
     }
-    var solid = is_full(slot);
+    var wall = bitcast<f32>(wanted[slot]);
+    if wall == 0.0 && fill[slot].x > WALL_CORNER * full_volume() { wall = corner_of_wall(c, slot); }
+    var solid = wall > 0.0;
     if !solid && cell_start[slot + 1u] > cell_start[slot] {
         solid = true;
         for (var k = 0u; k < block_size(); k++) {
             let near = c + block_offset(k);
-            if inside(near) && is_full(slot_of(near)) { solid = false; }
+            if inside(near) && wanted[slot_of(near)] != 0u { solid = false; }
         }
     }
     let kind = select(GAS, SOLID, solid);
-    cells[slot] = word_with_blocked(kind | (before << 2u), blocked_fraction(fill[slot].x));
+    cells[slot] = word_with_blocked(kind | (before << 2u), blocked_fraction(max(fill[slot].x, wall)));
 }
 
 // Gas alone in the cell, and its state is its own.

@@ -9,7 +9,7 @@ use super::{open_device, scenes};
 use crate::export::png;
 use crate::gpu::Gpu;
 use crate::render::{Renderer, SceneBuffers};
-use crate::scene::{Overlap, Scene};
+use crate::scene::{Overlap, Scene, ThinBody};
 use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -29,14 +29,14 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
             draw_start(&gpu, &scene, path)?;
         }
     }
-    let overlaps = scene.overlaps();
+    let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
     if cli.json {
         let groups: serde_json::Map<_, _> =
             plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes.into())).collect();
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "overlaps": overlaps, "scene": scene });
+            "memory": memory, "overlaps": overlaps, "thin": thin, "scene": scene });
         say!("{object}");
         return Ok(());
     }
@@ -49,6 +49,9 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     say!("# particles  {}", plan.particles);
     for overlap in &overlaps {
         say!("# overlap    {}", overlap_text(overlap));
+    }
+    for body in &thin {
+        say!("# thin       {}", thin_text(body));
     }
     if !scene.variants.is_empty() {
         say!("# variants   {}", scene.variants.keys().cloned().collect::<Vec<_>>().join(", "));
@@ -69,6 +72,16 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
 pub(super) fn overlap_text(overlap: &Overlap) -> String {
     let Overlap { body, by, share } = overlap;
     format!("`{body}` gives {:.2} % of its shape to `{by}`, which comes first", 100.0 * share)
+}
+
+/// A body that is too thin for people.
+fn thin_text(thin: &ThinBody) -> String {
+    let ThinBody { body, cells, share } = thin;
+    let part = if *share > 0.95 { String::new() } else { format!(" in {:.0} % of it", 100.0 * share) };
+    format!(
+        "`{body}` is {cells:.1} cells thick{part}: its weight and the gas on either side are right from 1 cell on, but below 2 cells \
+         how it bends and breaks is not to be trusted; more cells help (--resolution), or a thicker body"
+    )
 }
 
 /// Writes the picture that a run would begin with.

@@ -108,6 +108,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/support.wgsl",
     "shared/surface.wgsl",
     "shared/system.wgsl",
+    "shared/thin_walls.wgsl",
     "shared/thread.wgsl",
     "shared/trial.wgsl",
     "shared/view.wgsl",

@@ -69,7 +69,7 @@ pub use render::{
     Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice, Surface,
     ToneMap,
 };
-pub use sample::{Overlap, Seed};
+pub use sample::{Overlap, Seed, ThinBody};
 pub use settings::{Film, Numerics, Obstacles, Output, Pair, Preconditioner, Time, Transfer};
 pub use shape::Shape;
 pub use shipped::{Shipped, shipped, stem};

@@ -1,11 +1,14 @@
 //! From bodies to particles: lattice points inside, with volumes that add up to the body's.
 
+mod thickness;
+
 use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::fill::lattice;
 use super::{Body, Sampling, Scene, Shape};
+pub use thickness::ThinBody;
 
 /// Particles that leave their lattice point go this far at most along each axis, in units of the lattice's spacing. In 3D that is
 /// less than half a spacing, so that only particles of the outermost layer can leave the body.
@@ -201,7 +204,8 @@ impl Scene {
                 if outer && (depth < 0.0 || !claim.hidden(point)) {
                     sampled.layer += 0.5 - depth / fine;
                 }
-                if depth < 0.0 {
+                // a point on the surface stands for half of its volume, else a wall between two rows of points would lose both
+                if depth < EXACT * fine && (depth < -EXACT * fine || !claim.hidden(point)) {
                     sampled.inside.push((point, outer));
                 }
             }

@@ -25,6 +25,7 @@ pub struct InterfaceStage {
 struct Solids {
     fill: Bound,
     ghost: Bound,
+    walls: Bound,
     kind: Bound,
     extra: Bound,
     start: Bound,
@@ -48,6 +49,7 @@ impl InterfaceStage {
             Some(Solids {
                 fill: fill("interface_fill")?,
                 ghost: fill("interface_ghost")?,
+                walls: mark("interface_walls")?,
                 kind: mark("interface_kind")?,
                 extra: mark("interface_extra")?,
                 start: ledger("ledger_start")?,
@@ -69,7 +71,7 @@ impl InterfaceStage {
     /// Marks the start: without bodies these marks stay; with bodies the cells they cover lose their gas.
     pub fn record_start(&self, pass: &mut Pass, state: &State) {
         if let Some(solids) = &self.solids {
-            for kernel in [&solids.fill, &solids.kind, &solids.start] {
+            for kernel in [&solids.fill, &solids.walls, &solids.kind, &solids.start] {
                 pass.dispatch(kernel, &slots(state, "BEGIN"));
             }
         }
@@ -92,6 +94,7 @@ impl InterfaceStage {
         pass.stage("interface");
         pass.dispatch(&solids.fill, &slots(state, "BEGIN"));
         pass.dispatch(&solids.ghost, &extent(state, "BEGIN", Entry::Marched));
+        pass.dispatch(&solids.walls, &slots(state, "BEGIN"));
         pass.dispatch(&solids.kind, &slots(state, "BEGIN"));
         pass.dispatch(&self.flags, &slots(state, "BEGIN"));
         self.scan.record_with(pass, &super::scan_extents(state, "BEGIN"));

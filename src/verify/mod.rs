@@ -51,6 +51,7 @@ mod shells;
 mod solids;
 mod steady;
 mod table;
+mod thin_walls;
 mod tube_errors;
 mod tubes;
 mod waves;
@@ -101,6 +102,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         shells::CASES,
         cylinders::CASES,
         fragments::CASES,
+        thin_walls::CASES,
     ];
     let gas = lines.into_iter().chain(blasts).chain(streams).chain([
         duct::CASES,

@@ -37,6 +37,7 @@ mod stream;
 mod supports;
 mod surface;
 mod synthetic;
+mod thin_walls;
 mod twins;
 mod verify;
 #[cfg(feature = "viewer")]

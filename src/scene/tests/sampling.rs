@@ -85,3 +85,34 @@ fn names_that_are_wrong() {
     let report = report(&space(circle), &[]);
     assert!(report.contains("made of itself: a -> b -> a"), "{report}");
 }
+
+#[test]
+fn bodies_below_two_cells_are_thin() {
+    let cells = |n: f64| n / 24.0;
+    let plate = |n: f64| body("b", &format!("box = {{ center = [0.51, 0.5, 0.5], size = [{}, 0.7, 0.6] }}", cells(n)));
+    let ball = |n: f64| format!("sphere = {{ center = [0.5, 0.51, 0.5], radius = {} }}", cells(n));
+    let shell = |n: f64| body("b", &format!("shell = {{ thickness = {}, shape = {{ {} }} }}", cells(n), ball(8.0)));
+    let tilted = |n: f64| {
+        let shape = format!("box = {{ center = [0.5, 0.5, 0.5], size = [{}, 0.5, 0.5] }}", cells(n));
+        body(
+            "b",
+            &format!("rotate = {{ axis = [1, 2, 3], degrees = 37, about = [0.5, 0.5, 0.5], shape = {{ {shape} }} }}"),
+        )
+    };
+    let thick = |text: String| parse(&space(&text), &[]).thin_bodies();
+    for n in [1.0, 1.2, 1.5, 1.9] {
+        for text in [plate(n), shell(n), tilted(n)] {
+            let found = thick(text);
+            assert_eq!((found.len(), found[0].body.as_str()), (1, "b"), "{n}");
+            assert!((found[0].cells - n).abs() < 0.05 && found[0].share > 0.8, "{n}: {found:?}");
+        }
+    }
+    for text in [plate(2.0), shell(2.0), tilted(2.1), plate(4.0), body("b", &ball(1.1)), body("b", &ball(5.0))] {
+        assert_eq!(thick(text.clone()), [], "{text}");
+    }
+    // a ball with a long fin
+    let fin = format!("box = {{ center = [0.5, 0.5, 0.5], size = [0.9, 0.7, {}] }}", cells(1.3));
+    let both = body("b", &format!("union = [{{ {} }}, {{ {fin} }}]", ball(2.5)));
+    let found = thick(both);
+    assert!(found.len() == 1 && (found[0].cells - 1.3).abs() < 0.05 && found[0].share < 0.95, "{found:?}");
+}

@@ -18,11 +18,84 @@ pub(crate) struct Interface {
     pub(crate) shared: Vec<bool>,
 }
 
-/// Kind of every cell and ring cell.
-pub(crate) fn kinds(problem: &Problem, bins: &Bins) -> Vec<u32> {
+/// A thin wall, in volumes at which a cell is full: what two cells side by side hold together, how much more than the two beyond
+/// them, and how little lies beside the edge of a body.
+const WALL_HOLDS: f64 = 1.4;
+const WALL_STANDS_OUT: f64 = 0.8;
+const WALL_ENDS: f64 = 0.7;
+/// A cell that closes the corner of a wall holds more than this.
+const WALL_CORNER: f64 = 0.1;
+/// Shares of a cell that differ by less are equal.
+const WALL_TIES: f64 = 0.1;
+
+/// Volume of the thin wall that a cell, not full, is the solid part of: itself and a cell beside it; 0: of none.
+fn thin_wall(problem: &Problem, bins: &Bins, before: &[u32], c: [i32; 3]) -> f64 {
     let grid = &problem.grid;
-    let full = |slot: usize| bins.volume[slot] > problem.numerics.solid_threshold * grid.volume();
+    let full = problem.numerics.solid_threshold * grid.volume();
+    let fill = |at: [i32; 3]| if grid.contains(at) { bins.volume[grid.slot(at)] } else { 0.0 };
+    let free = |at: [i32; 3]| grid.contains(at) && !problem.obstacles[grid.slot(at)];
+    let was = |at: [i32; 3]| grid.contains(at) && before[grid.slot(at)] == SOLID;
+    let is_edge = |n: [i32; 3], along: usize| {
+        (0..grid.dimension).filter(|axis| *axis != along).any(|axis| {
+            [-1, 1].into_iter().any(|side| {
+                let [a, b] = [c, n].map(|at| fill(shift(at, axis, side)));
+                let other: f64 = [c, n].map(|at| fill(shift(at, axis, -side))).iter().sum();
+                a.min(b) > full && other < WALL_ENDS * full && free(shift(c, axis, -side))
+            })
+        })
+    };
+    let pairs = (0..grid.dimension).flat_map(|axis| [(axis, -1), (axis, 1)]);
+    pairs.fold(0.0, |found, (axis, side)| {
+        let n = shift(c, axis, side);
+        let (own, next) = (fill(c), fill(n));
+        let beyond = fill(shift(c, axis, -side)) + fill(shift(n, axis, side));
+        let least = WALL_TIES * grid.volume();
+        let stands = own + next >= WALL_HOLDS * full && own + next - beyond >= WALL_STANDS_OUT * full;
+        let holds = stands && next <= full + least;
+        let ties = (own - next).abs() <= least && (was(c) || !was(n));
+        let solid = holds && (ties || own > next + least) && !is_edge(n, axis);
+        if solid { f64::max(found, own + next) } else { found }
+    })
+}
+
+/// Volume of a wall that goes on from one cell beside this one to another across a corner that this one closes; 0: none.
+fn corner_of_wall(problem: &Problem, bins: &Bins, closed: &[f64], c: [i32; 3]) -> f64 {
+    let grid = &problem.grid;
+    let own = bins.volume[grid.slot(c)];
+    let ignored = closed[grid.slot(c)] > 0.0 || own <= WALL_CORNER * problem.numerics.solid_threshold * grid.volume();
+    if ignored {
+        return 0.0;
+    }
+    let volume = |at: [i32; 3]| if grid.contains(at) { closed[grid.slot(at)] } else { 0.0 };
+    let beside = |at: [i32; 3], o: [i32; 3], sign: i32| {
+        let steps = (0..3).filter(|axis| o[*axis] != 0).map(|axis| volume(shift(at, axis, sign * o[axis])));
+        steps.fold(f64::INFINITY, f64::min)
+    };
+    let mut found = 0.0;
+    for offset in grid.offsets(-1, 1).into_iter().filter(|o| o.iter().map(|x| x.abs()).sum::<i32>() >= 2) {
+        let across = add(c, offset);
+        if !grid.contains(across) || problem.obstacles[grid.slot(across)] || volume(across) > 0.0 {
+            continue;
+        }
+        if own >= bins.volume[grid.slot(across)] - WALL_TIES * grid.volume() {
+            found = f64::max(found, beside(c, offset, 1).max(beside(across, offset, -1)));
+        }
+    }
+    found
+}
+
+/// Kind of every cell and ring cell, and in the bins the volume of what closes cells; `before`: kinds of the step before.
+pub(crate) fn kinds(problem: &Problem, bins: &mut Bins, before: &[u32]) -> Vec<u32> {
+    let grid = &problem.grid;
+    let mut closed = vec![0.0; grid.slots()];
+    for c in grid.interior() {
+        let slot = grid.slot(c);
+        let full = bins.volume[slot] > problem.numerics.solid_threshold * grid.volume();
+        closed[slot] = if full { bins.volume[slot] } else { thin_wall(problem, bins, before, c) };
+    }
     let mut cells = vec![GAS; grid.slots()];
+    let corners: Vec<([i32; 3], f64)> =
+        grid.interior().into_iter().map(|c| (c, corner_of_wall(problem, bins, &closed, c))).collect();
     for c in grid.all() {
         let slot = grid.slot(c);
         cells[slot] = if !grid.contains(c) {
@@ -33,12 +106,17 @@ pub(crate) fn kinds(problem: &Problem, bins: &Bins) -> Vec<u32> {
             WALL
         } else if bins.count[slot] == 0 {
             GAS
-        } else if full(slot) || !grid.offsets(-1, 1).into_iter().any(|o| full(grid.slot(add(c, o)))) {
+        } else if closed[slot] > 0.0 || !grid.offsets(-1, 1).into_iter().any(|o| closed[grid.slot(add(c, o))] > 0.0) {
             SOLID
         } else {
             GAS
         };
     }
+    for (c, volume) in corners.into_iter().filter(|(_, volume)| *volume > 0.0) {
+        cells[grid.slot(c)] = SOLID;
+        closed[grid.slot(c)] = volume;
+    }
+    bins.closed = closed;
     cells
 }
 
@@ -66,7 +144,8 @@ pub(crate) fn interface(problem: &Problem, cells: Vec<u32>, bins: &Bins, nodes: 
             }
         }
     }
-    let blocked = (0..grid.slots()).map(|slot| blocked_fraction(problem, bins.volume[slot])).collect();
+    let blocked =
+        (0..grid.slots()).map(|slot| blocked_fraction(problem, bins.volume[slot].max(bins.closed[slot]))).collect();
     let mut shared = vec![false; grid.slots()];
     for vertex in grid.vertices() {
         let both = touches(problem, &cells, vertex, GAS) && touches(problem, &cells, vertex, SOLID);

@@ -318,8 +318,8 @@ impl State {
             let (density, velocity, pressure) = gas(grid.centre(c));
             cells_gas.set(grid.slot(c), Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma));
         }
-        let bins = particle_sort::bin(problem, &particles);
-        let cells = interface::kinds(problem, &bins);
+        let mut bins = particle_sort::bin(problem, &particles);
+        let cells = interface::kinds(problem, &mut bins, &vec![GAS; grid.slots()]);
         gas_advection::fill_ghosts(problem, &cells, &mut cells_gas);
         Self {
             gas: cells_gas,

@@ -10,6 +10,8 @@ pub(crate) struct Bins {
     pub(crate) count: Vec<u32>,
     /// Sum of vol0 J per cell.
     pub(crate) volume: Vec<f64>,
+    /// Volume of what closes the cell: of its own where it is full, of a thin wall; 0 before the interface knows.
+    pub(crate) closed: Vec<f64>,
     /// Mean of 1/(lambda_g J^g) per cell.
     pub(crate) compliance: Vec<f64>,
     /// Mean ghost pressure per vertex, 0 without particles.
@@ -65,6 +67,7 @@ pub(crate) fn bin(problem: &Problem, particles: &[Particle]) -> Bins {
     let mut bins = Bins {
         count: vec![0; grid.slots()],
         volume: zeros(),
+        closed: zeros(),
         compliance: zeros(),
         ghost_pressure: zeros(),
         ghost_weight: zeros(),

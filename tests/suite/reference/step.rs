@@ -36,9 +36,9 @@ pub(crate) fn step(problem: &Problem, state: &mut State, dt: f64) -> Report {
 
 /// Advances the state by dt and keeps what the stages made on the way.
 pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Report, Trace) {
-    let bins = particle_sort::bin(problem, &state.particles);
+    let mut bins = particle_sort::bin(problem, &state.particles);
     let mut nodes = p2g::p2g(problem, &state.particles);
-    let kinds = interface::kinds(problem, &bins);
+    let kinds = interface::kinds(problem, &mut bins, &state.cells);
     ledger::change_kinds(problem, state, &kinds, &bins);
     let faces = interface::interface(problem, kinds, &bins, &nodes);
 
