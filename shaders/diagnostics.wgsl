@@ -5,7 +5,7 @@
 #include "shared/gas.wgsl"
 #include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
-#include "shared/material.wgsl"
+#include "shared/ghost.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/books.wgsl"
 

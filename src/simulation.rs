@@ -1,5 +1,6 @@
 //! The step: the whole method on one page, and the run around it.
 
+mod elastic;
 mod fault;
 mod live;
 mod recorded;
@@ -204,64 +205,11 @@ impl Simulation {
         self.coupled_solve.record_iterations(pass, self.recorded.iterations - done);
     }
 
-    /// Elastic force of the present stress, for what the pressure solve knows of it.
-    fn record_force(&self, pass: &mut Pass) {
-        let Some(p2g) = &self.p2g else { return };
-        p2g.record_force(pass, &self.state);
-        if let Some(elastic_reaction) = &self.elastic_reaction {
-            elastic_reaction.record_start(pass, &self.state);
-        }
-        if let Some(elastic_first) = &self.elastic_first {
-            elastic_first.record_start(pass, &self.state);
-        }
-    }
-
     /// Clamped and driven nodes, friction at walls.
     fn record_held(&self, pass: &mut Pass, phase: &str) {
         if let Some(supports) = &self.supports {
             supports.record_nodes(pass, &self.state, phase);
         }
-    }
-
-    /// Elasticity: one implicit step, or explicit sub-steps.
-    fn record_elastic(&self, pass: &mut Pass) {
-        if let (Some(elastic_solve), Some(g2p)) = (&self.elastic_solve, &self.g2p) {
-            for _ in 0..self.recorded.rounds {
-                elastic_solve.record_round(pass, &self.state, self.recorded.round_iterations);
-            }
-            self.time_step.record_substep(pass);
-            elastic_solve.record_finish(pass, &self.state);
-            g2p.record(pass, &self.state);
-            elastic_solve.record_balance(pass, &self.state);
-            return;
-        }
-        for substep in 0..self.recorded.substeps {
-            self.record_substep(pass, substep);
-        }
-    }
-
-    /// One elastic sub-step. The first recorded one may be the first of a step or the continuation of a long one.
-    fn record_substep(&self, pass: &mut Pass, recorded: u32) {
-        let state = &self.state;
-        self.time_step.record_substep(pass);
-        let stages = (&self.particle_sort, &self.p2g, &self.mpm_grid_update, &self.g2p);
-        let (Some(particle_sort), Some(p2g), Some(mpm_grid_update), Some(g2p)) = stages else { return };
-        if let Some(elastic_first) = &self.elastic_first {
-            elastic_first.record_substep(pass, state);
-            g2p.record(pass, state);
-            return;
-        }
-        if recorded == 0 {
-            p2g.record_substep(pass, state, true);
-        }
-        particle_sort.record(pass, state);
-        p2g.record_substep(pass, state, false);
-        self.record_held(pass, "AGAIN");
-        if let Some(elastic_reaction) = &self.elastic_reaction {
-            elastic_reaction.record_substep(pass, state);
-        }
-        mpm_grid_update.record(pass, state);
-        g2p.record(pass, state);
     }
 
     /// Advances to a time and returns the records of all steps on the way.

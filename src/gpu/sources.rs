@@ -78,6 +78,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/gas.wgsl",
     "shared/gas_look.wgsl",
     "shared/gather.wgsl",
+    "shared/ghost.wgsl",
     "shared/given.wgsl",
     "shared/grid_wall.wgsl",
     "shared/in_light.wgsl",

@@ -139,7 +139,7 @@ pub enum VolumeShare {
 
 /// Part of lambda that the ghost pressure bears in gas of low pressure: the less, the less it damps waves, but the pressure solve divides
 /// by it.
-pub const GHOST_SHARE: f64 = 0.05;
+pub const GHOST_SHARE: f64 = 0.02;
 /// Growth of the ghost pressure's stiffness with its pressure. [Murnaghan 1944]
 pub const GHOST_STIFFENING: f64 = 7.0;
 

@@ -40,7 +40,7 @@ fn lame_constants() {
     assert_eq!((params.kind, params.ghost_modulus, params.yield_stress), (1, 10.0, 30.0));
     assert_eq!(params.elastic_lambda, 390.0);
     let stiff = material.params(VolumeShare::Split(1.0));
-    assert_eq!((stiff.ghost_modulus, stiff.elastic_lambda), (20.0, 380.0));
+    assert_eq!((stiff.ghost_modulus, stiff.elastic_lambda), (8.0, 392.0));
     let shared = material.params(VolumeShare::Ghost);
     assert_eq!((shared.ghost_modulus, shared.elastic_lambda), (400.0, 0.0));
 }
@@ -99,6 +99,7 @@ fn the_host_struct_mirrors_the_shader() {
         ("ghost_modulus", std::mem::offset_of!(MaterialParams, ghost_modulus)),
         ("hardening", std::mem::offset_of!(MaterialParams, hardening)),
         ("friction", std::mem::offset_of!(MaterialParams, friction)),
+        ("elastic_lambda", std::mem::offset_of!(MaterialParams, elastic_lambda)),
     ];
     assert_eq!((offsets.as_slice(), *span as usize), (expected.as_slice(), size_of::<MaterialParams>()));
 }

@@ -50,6 +50,18 @@ pub(super) fn report(session: &mut Session<'_>, journey: &Journey, energy: Optio
     report_against(session, journey, energy, journey.exchanged());
 }
 
+/// As [`report`], with a limit of the energy's drift and one that is known to be missed, with the reason.
+pub(super) fn report_energy(
+    session: &mut Session<'_>,
+    journey: &Journey,
+    most: f64,
+    (known, why): (f64, &'static str),
+) {
+    report(session, journey, None);
+    let row = session.check(&journey.run, "energy, drift, goal", journey.energy_drift());
+    row.source(LAW).pass(Limit::Between(-most, most)).known(Limit::Between(-known, known), why);
+}
+
 /// As [`report`], with the momentum compared with an impulse \[kg m/s\].
 pub(super) fn report_against(session: &mut Session<'_>, journey: &Journey, energy: Option<f64>, impulse: f64) {
     let run = &journey.run;

@@ -24,7 +24,7 @@ impl Material {
     pub(crate) fn new(young: f64, poisson: f64, yield_stress: f64) -> Self {
         let mu = young / (2.0 * (1.0 + poisson));
         let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
-        Self { mu, lambda, ghost: 0.05 * lambda, elastic_lambda: 0.95 * lambda, start: 1.0, yield_stress }
+        Self { mu, lambda, ghost: 0.02 * lambda, elastic_lambda: 0.98 * lambda, start: 1.0, yield_stress }
     }
 
     /// The same in gas whose largest pressure is `most`.
