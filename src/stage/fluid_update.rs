@@ -10,6 +10,7 @@ use crate::state::constants::Entry;
 #[derive(Debug)]
 pub struct FluidUpdate {
     momentum: [Bound; 2],
+    parting: [Bound; 2],
     energy: [Bound; 2],
     floor: [Bound; 2],
 }
@@ -22,16 +23,18 @@ impl FluidUpdate {
     pub fn new(parts: Parts<'_>) -> Result<Self> {
         Ok(Self {
             momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
+            parting: parts.both("parting.wgsl", "parting_surplus", &[], &[])?,
             energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
             floor: parts.both("fluid_floor.wgsl", "fluid_floor", &[], &[])?,
         })
     }
 
-    /// Momentum, energy, floor.
+    /// Momentum; who pays where velocities part; energy; floor.
     pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, control: &TimeStep) {
         pass.stage("fluid_update");
         record_busy(pass, state, "UPDATE", &self.momentum);
         carrier.record(pass, state, Carried::Solved, "UPDATE");
+        record_both(pass, state, "UPDATE", &self.parting);
         record_both(pass, state, "UPDATE", &self.energy);
         control.record_cold(pass);
         let [plain, listed] = &self.floor;
