@@ -52,7 +52,7 @@ pub(super) fn ring_books(scene: &Scene, solids: bool) -> bool {
 
 /// Share of the least entropy of the start and of what flows in that gas must keep: no process lowers p / rho^gamma
 /// [minimum entropy principle: Tadmor 1986], but a scheme of high order may, by a little, at jumps.
-const ENTROPY_SHARE: f64 = 0.1;
+const ENTROPY_SHARE: f64 = 0.9;
 
 /// p / rho^gamma that no gas falls below, from the gas of the start `[density, momentum, energy]` and the sides.
 pub(super) fn least_entropy(gamma: f64, start: &[[f64; 5]], openings: &Openings) -> f32 {
