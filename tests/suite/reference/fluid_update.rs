@@ -8,6 +8,7 @@ use super::grid::{add, shift};
 use super::interface::{self, Interface};
 use super::intermediate_pressure::{Intermediate, face_velocity};
 use super::p2g::Nodes;
+use super::parting::Parting;
 use super::{GAS, Gas, Pair, Problem, SOLID, internal_energy, kinetic_energy};
 
 /// Pressure of the face above `low`.
@@ -152,6 +153,9 @@ pub(crate) fn fluid_update(
     let solid = working_velocity(problem, solution, &nodes.velocity);
     let mut work = pressure.clone();
     let carrier = Carrier::new(problem, &interface.cells, &next);
+    let gas = &next.clone();
+    let (before, solid, carrier) = (&intermediate.predicted_pressure, &solid, carrier.as_ref());
+    let parting = Parting { problem, interface, gas, pressure: before, solution, solid, carrier };
     for axis in 0..grid.dimension {
         for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
             let slot = grid.slot(low);
@@ -159,10 +163,10 @@ pub(crate) fn fluid_update(
             work[axis][slot] = if closed {
                 let late = late_heat(problem, interface, solution, nodes, (axis, low));
                 book_heat(problem, interface, (axis, low), late * dt * grid.area(), ledger);
-                late + solid_power(problem, solution, &solid, axis, low) / grid.area()
+                late + solid_power(problem, solution, solid, axis, low) / grid.area()
             } else {
                 let high = grid.slot(shift(low, axis, 1));
-                let velocity = match &carrier {
+                let velocity = match carrier {
                     Some(carrier) if interface.cells[slot] == GAS && interface.cells[high] == GAS => {
                         carrier.between(&next, axis, slot, high)
                     }
@@ -170,7 +174,9 @@ pub(crate) fn fluid_update(
                 };
                 let inside = interface.cells[slot] == GAS && interface.cells[high] == GAS;
                 let heat = |gas: &Gas| 0.5 * (internal_energy(gas.get(slot)) + internal_energy(gas.get(high)));
-                (pressure[axis][slot] + held.filter(|_| inside).map_or(0.0, heat)) * velocity
+                let p = pressure[axis][slot];
+                let shift = if inside { parting.shift_between(p, axis, slot, high) } else { 0.0 };
+                (p + held.filter(|_| inside).map_or(0.0, heat)) * velocity + shift
             };
         }
         for face in boundary::open_faces(problem, &interface.cells).into_iter().filter(|face| face.1 == axis) {
@@ -183,10 +189,13 @@ pub(crate) fn fluid_update(
             next.energy[above] -= dt / grid.spacing * (work[axis][above] - work[axis][below]);
         }
     }
+    for (energy, heat) in next.energy.iter_mut().zip(parting.heat_at_vertices()) {
+        *energy += dt / grid.spacing * heat;
+    }
     next
 }
 
-/// Keeps the internal energy above a tenth of its value after advection; returns how many cells it touched.
+/// Keeps the internal energy above a tenth of its value after advection and the entropy above the least; returns how many cells it touched.
 pub(crate) fn energy_floor(
     problem: &Problem,
     cells: &[u32],
@@ -200,7 +209,8 @@ pub(crate) fn energy_floor(
         (0..cells.len()).filter(|slot| cells[*slot] == GAS && problem.grid.contains(problem.grid.coordinates(*slot)))
     {
         let mut u = gas.get(slot);
-        let floor = 0.1 * internal_energy(star.get(slot));
+        let coldest = problem.least_entropy * u[0].powf(problem.gamma) / (problem.gamma - 1.0);
+        let floor = coldest.max(0.1 * internal_energy(star.get(slot)));
         if internal_energy(u) >= floor {
             continue;
         }
