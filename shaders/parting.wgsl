@@ -9,7 +9,7 @@
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
 #include "shared/interior.wgsl"
-#include "shared/cut_system.wgsl"
+#include "shared/cut.wgsl"
 #include "shared/face_pressure.wgsl"
 #include "shared/body_power.wgsl"
 #include "shared/parting.wgsl"

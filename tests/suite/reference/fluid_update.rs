@@ -125,6 +125,25 @@ fn book_heat(
     }
 }
 
+/// The face pressures per axis, and the gas with the momentum that they give it.
+fn push(problem: &Problem, interface: &Interface, star: &Gas, solution: &Solution, dt: f64) -> ([Vec<f64>; 3], Gas) {
+    let grid = &problem.grid;
+    let kind = |c: [i32; 3]| interface.cells[grid.slot(c)];
+    let touching = |low: [i32; 3], axis: usize| kind(low) == GAS || kind(shift(low, axis, 1)) == GAS;
+    let mut pressure = [vec![0.0; grid.slots()], vec![0.0; grid.slots()], vec![0.0; grid.slots()]];
+    let mut next = star.clone();
+    for (axis, pressure) in pressure.iter_mut().enumerate().take(grid.dimension) {
+        for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
+            pressure[grid.slot(low)] = face_pressure(problem, interface, solution, axis, low);
+        }
+        for c in grid.interior().into_iter().filter(|c| kind(*c) == GAS) {
+            let (below, above) = (grid.slot(shift(c, axis, -1)), grid.slot(c));
+            next.conserved[above][1 + axis] -= dt / grid.spacing * (pressure[above] - pressure[below]);
+        }
+    }
+    (pressure, next)
+}
+
 /// The stage: gas after the pressure step. `nodes` are the solid nodes that entered the solve. The new velocities of the faces carry the
 /// internal energy of `held`, too.
 pub(crate) fn fluid_update(
@@ -139,17 +158,7 @@ pub(crate) fn fluid_update(
     let gas_slots: Vec<_> = grid.interior().into_iter().filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
     let kind = |c: [i32; 3]| interface.cells[grid.slot(c)];
     let touching = |low: [i32; 3], axis: usize| kind(low) == GAS || kind(shift(low, axis, 1)) == GAS;
-    let mut pressure = [vec![0.0; grid.slots()], vec![0.0; grid.slots()], vec![0.0; grid.slots()]];
-    let mut next = star.clone();
-    for (axis, pressure) in pressure.iter_mut().enumerate().take(grid.dimension) {
-        for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
-            pressure[grid.slot(low)] = face_pressure(problem, interface, solution, axis, low);
-        }
-        for c in &gas_slots {
-            let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));
-            next.conserved[above][1 + axis] -= dt / grid.spacing * (pressure[above] - pressure[below]);
-        }
-    }
+    let (pressure, mut next) = push(problem, interface, star, solution, dt);
     let solid = working_velocity(problem, solution, &nodes.velocity);
     let mut work = pressure.clone();
     let carrier = Carrier::new(problem, &interface.cells, &next);
