@@ -4,7 +4,6 @@
 #include "shared/index.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
