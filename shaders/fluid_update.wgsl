@@ -14,8 +14,10 @@
 #include "shared/carrier.wgsl"
 #include "shared/cut_system.wgsl"
 #include "shared/cut_carrier.wgsl"
+#include "shared/face_pressure.wgsl"
 #include "shared/body_power.wgsl"
 #include "shared/late_flux.wgsl"
+#include "shared/parting.wgsl"
 #include "shared/floor.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -27,42 +29,6 @@
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> work: array<vec4f>;    // second half: M^-1 (G Q + H h) of solid nodes
 
-// Slots of the vertices of a face across axis n whose low corner is `low`; along an inactive axis each is met twice.
-fn face_vertices(low: vec3i, n: u32) -> vec4u {
-    let a = axis((n + 1u) % 3u) * reach();
-    let b = axis((n + 2u) % 3u) * reach();
-    return vec4u(slot_of(low), slot_of(low + a), slot_of(low + b), slot_of(low + a + b));
-}
-
-// Where these vertices keep the pressure between gas and body.
-fn interface_indices(at: vec4u) -> vec4u {
-    return vec4u(interface_index(at.x), interface_index(at.y), interface_index(at.z), interface_index(at.w));
-}
-
-// Mean pressure of the open part of a face of cell c next to an obstacle.
-fn cut_face_pressure(c: vec3i, low: vec3i, n: u32, up: bool) -> f32 {
-    var sum = 0.0;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        if corner[n] == 1 { continue; }
-        let own = corner + select(vec3i(0), axis(n), up);
-        sum += face_shape(slot_of(c), n, up, own) * pressure[slot_of(low + corner)];
-    }
-    return sum;
-}
-
-// Pressure of the face of GAS cell c across axis n: mean of its vertices; for B2B1 inside the gas the finite-element mean,
-// p * (1,4,1)/6 along the axis and (1,11,11,1)/24 across, without which short waves grow for c dt > 2 dx.
-fn face_pressure(c: vec3i, n: u32, up: bool, beyond: u32) -> f32 {
-    let low = select(c, c + axis(n), up);
-    let between_gas = beyond == GAS || is_image(select(c - axis(n), c + axis(n), up));
-    if QUADRATIC && between_gas && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
-    if CUT { return cut_face_pressure(c, low, n, up); }
-    var at = face_vertices(low, n);
-    for (var turn = 0u; turn < u32(SOLIDS && beyond == SOLID); turn++) { at = interface_indices(at); }
-    return mean2(mean2(pressure[at.x], pressure[at.y]), mean2(pressure[at.z], pressure[at.w]));
-}
-
 // Loss of momentum of a cluster next to an obstacle: the pressure gradient over its gas.
 fn cut_impulse(slot: u32) -> vec3f {
     var force = vec3f(0.0);
@@ -73,61 +39,6 @@ fn cut_impulse(slot: u32) -> vec3f {
         }
     }
     return -force / cluster_share(slot);
-}
-
-fn wide_range(n: u32) -> array<vec3i, 2> {
-    var first = -reach();
-    var last = 2 * reach();
-    first[n] = -1;
-    last[n] = 1;
-    return array<vec3i, 2>(first, last);
-}
-
-fn wide_face_is_gas(low: vec3i, n: u32) -> bool {
-    let range = wide_range(n);
-    for (var z = range[0].z; z <= range[1].z; z++) {
-        for (var y = range[0].y; y <= range[1].y; y++) {
-            for (var x = range[0].x; x <= range[1].x; x++) {
-                let v = mirrored_vertex(low + vec3i(x, y, z));
-                if !is_vertex(v) || !has(cells[slot_of(v)], VERTEX_GAS) { return false; }
-            }
-        }
-    }
-    return true;
-}
-
-// (1, 4, 1) / 6 of the vertices along axis n, by differences from `reference`.
-fn face_line(middle: vec3i, n: u32, reference: f32) -> f32 {
-    let below = pressure[slot_of(mirrored_vertex(middle - axis(n)))] - reference;
-    let above = pressure[slot_of(mirrored_vertex(middle + axis(n)))] - reference;
-    return rounded((below + above) / 6.0) + rounded(2.0 / 3.0 * (pressure[slot_of(mirrored_vertex(middle))] - reference));
-}
-
-// (1, 11, 11, 1) / 24 across; an inactive axis has one layer.
-fn across_weights(a: u32) -> vec4f { return select(vec4f(0.0, 1.0, 0.0, 0.0), vec4f(1.0, 11.0, 11.0, 1.0) / 24.0, a < DIM); }
-
-// By differences, so that a constant pressure stays constant, from the highest in the middle, and from both ends alike.
-fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
-    let a = (n + 1u) % 3u;
-    let b = (n + 2u) % 3u;
-    let at = face_vertices(low, n);
-    let reference = max(max(pressure[at.x], pressure[at.y]), max(pressure[at.z], pressure[at.w]));
-    var rows: vec4f;
-    for (var k = -reach()[b]; k <= 2 * reach()[b]; k++) {
-        var lines: vec4f;
-        for (var j = -reach()[a]; j <= 2 * reach()[a]; j++) { lines[j + 1] = face_line(low + j * axis(a) + k * axis(b), n, reference); }
-        rows[k + 1] = paired(lines * across_weights(a));
-    }
-    return reference + paired(rows * across_weights(b));
-}
-
-// Mean pressure of the low face of a cell deep inside the gas.
-fn interior_face(at: u32, n: u32) -> f32 {
-    if QUADRATIC { return wide_face_pressure(cell_of(at), n); }
-    let t = across(n);
-    if DIM == 1u { return pressure[at]; }
-    if DIM == 2u { return mean2(pressure[at], pressure[at + t.x + t.y]); }
-    return 0.25 * (pressure[at] + pressure[at + t.x] + pressure[at + t.y] + pressure[at + t.x + t.y]);
 }
 
 fn interior_impulse(slot: u32) -> vec3f {
@@ -169,10 +80,11 @@ fn interior_heat(slot: u32, here: vec4f) -> f32 {
             below = (conserved[low][n + 1u] + here[n + 1u]) / (conserved[low].x + here.x);
             above = (here[n + 1u] + conserved[high][n + 1u]) / (here.x + conserved[high].x);
         }
-        heat += rounded((interior_face(slot, n) + carried_along(low, slot)) * below
-            - (interior_face(high, n) + carried_along(slot, high)) * above);
+        let p = vec2f(interior_face(slot, n), interior_face(high, n));
+        let shift = vec2f(shift_between(p.x, low, slot, n), shift_between(p.y, slot, high, n));
+        heat += rounded((p.x + carried_along(low, slot)) * below - (p.y + carried_along(slot, high)) * above) + rounded(shift.x - shift.y);
     }
-    return heat;
+    return heat + heat_at_vertices(cell_of(slot), slot);
 }
 
 // Calls with c in GAS; slots of other kinds see the same face from the other side.
@@ -230,7 +142,7 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
     if beyond == GAS {
         let there = in_space(conserved[far]);
         let velocity = face_velocity(n, select(far, slot, up), select(slot, far, up), select(there, here, up), select(here, there, up));
-        return (p + carried_along(slot, far)) * velocity;
+        return (p + carried_along(slot, far)) * velocity + shift_between(p, select(far, slot, up), select(slot, far, up), n);
     }
     // Open: the velocity that the solve saw there.
     let face = OpenFace(energy[2u * params.slots + far], energy[params.slots + far]);
@@ -260,6 +172,7 @@ fn heat_of(slot: u32, own: bool, gives: bool) -> f32 {
         }
         heat += rounded(along);
     }
+    if own { heat += heat_at_vertices(c, slot); }
     return heat;
 }
 

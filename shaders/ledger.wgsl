@@ -21,6 +21,9 @@
 // Largest relative change of density and internal energy that a cell settles in one step.
 const SETTLED_PER_STEP = 0.1;
 
+// Share of its entropy p / rho^gamma that a cell keeps when it settles a debt, once it is colder than all gas of the start.
+const KEPT_ENTROPY = 0.9999;
+
 // What a SOLID cell at the surface holds at most, in gas of the density beside it.
 const HELD_AT_SURFACE = 1.1;
 
@@ -152,12 +155,15 @@ fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     var bounds = ENCLOSED;
     if gas_neighbours + 1u >= 2u * DIM { bounds = IN_THE_OPEN; }
     if all.flow.x < bounds.left * gas.flow.x || internal_energy(all) < bounds.left * before { return 0.0; }
+    // No debt takes the entropy below what the floor keeps, nor further down where it is there: the floor's own books would come back.
+    let coldest = min(KEPT_ENTROPY * pressure_of(gas) / pow(gas.flow.x, params.gamma), params.least_entropy);
     let kick = bounds.speed * bounds.speed * params.gamma * (params.gamma - 1.0) * before / gas.flow.x;
     var part = min(1.0, SETTLED_PER_STEP * gas.flow.x / max(abs(all.flow.x - gas.flow.x), 1e-30));
     for (var k = 0; k < 12; k++) {
         let some = with_part(gas, slot, part);
         let change = some.flow.yzw / some.flow.x - gas.flow.yzw / gas.flow.x;
-        if abs(internal_energy(some) - before) <= SETTLED_PER_STEP * before && dot(change, change) <= kick { return part; }
+        let cools = pressure_of(some) < coldest * pow(some.flow.x, params.gamma);
+        if abs(internal_energy(some) - before) <= SETTLED_PER_STEP * before && dot(change, change) <= kick && !cools { return part; }
         part *= 0.5;
     }
     return 0.0;

@@ -1,7 +1,8 @@
 // odd_even: the mode of alternating cells, which pressures at vertices do not see and the solve leaves alone. Around every vertex
 // whose cells are all GAS the alternating mean of the state is found, and a share of it is taken from each cell with its sign:
 // what one cell loses its neighbours gain. A vertex takes nothing where a cell would not stand it: in strong shocks what alternates is the
-// shock. Reads gas, cells. Writes gas, by way of work.
+// shock. At vertices of a body's surface gas cells mix instead: between shards no flux of momentum would take a velocity into a wall from
+// a cell, for closed faces have none. Reads gas, cells. Writes gas, by way of work.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -58,6 +59,46 @@ fn taken_at(v: vec3i) -> Gas {
     return taken;
 }
 
+// Whether a cell at a vertex is gas with gas beside it there.
+fn mixes(v: vec3i, c: vec3i) -> bool {
+    if kind_of(cells[slot_of(c)]) != GAS { return false; }
+    for (var n = 0u; n < DIM; n++) {
+        let other = select(c - axis(n), c + axis(n), v[n] > c[n]);
+        if kind_of(cells[slot_of(other)]) == GAS { return true; }
+    }
+    return false;
+}
+
+// Cells that mix at a vertex; none where there is no body.
+fn mixing_count(v: vec3i) -> f32 {
+    var count = 0.0;
+    var bodies = false;
+    for (var k = 0u; k < corner_count(); k++) {
+        let c = v - corner_offset(k);
+        bodies = bodies || kind_of(cells[slot_of(c)]) == SOLID;
+        count += f32(mixes(v, c));
+    }
+    return select(0.0, count, bodies);
+}
+
+// What a cell takes from the others at a vertex: towards the mean, by pairs, so that what one gives is what the other takes.
+fn mixed_at(v: vec3i, c: vec3i, slot: u32) -> Gas {
+    var sum = Gas(vec4f(0.0), 0.0);
+    let count = mixing_count(v);
+    if count == 0.0 || !mixes(v, c) { return sum; }
+    let share = FILTER / (f32(corner_count()) * count);
+    for (var k = 0u; k < corner_count(); k++) {
+        let other = v - corner_offset(k);
+        if !mixes(v, other) { continue; }
+        let at = slot_of(other);
+        let flow = share * (conserved[at] - conserved[slot]);
+        let unit = LAST_PLACE * power_of_two(max(conserved[at].x, conserved[slot].x));
+        sum.flow += vec4f(whole(flow.x, unit), flow.yzw);
+        sum.energy += share * (energy[at] - energy[slot]);
+    }
+    return sum;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                  @builtin(local_invocation_index) lane: u32) {
@@ -72,6 +113,11 @@ fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
             let sign = sign_of(reach() - corner);
             change.flow -= sign * taken.flow;
             change.energy -= sign * taken.energy;
+            if SOLIDS {
+                let mixed = mixed_at(c + corner, c, slot);
+                change.flow += mixed.flow;
+                change.energy += mixed.energy;
+            }
         }
     }
     work[slot] = change.flow;

@@ -13,6 +13,8 @@ pub struct FluidUpdate {
     /// Gas that follows the bodies, as their slots get it.
     late_flux: Option<Bound>,
     momentum: [Bound; 2],
+    /// Not with the consistent carrier.
+    parting: Option<[Bound; 2]>,
     energy: [Bound; 2],
     floor: [Bound; 2],
 }
@@ -26,15 +28,17 @@ impl FluidUpdate {
         let Parts { gpu, state } = parts;
         let follows = state.has_solids() && scene.late_flux();
         let late_flux = || state.bind(gpu, "late_flux.wgsl", "late_flux", &[], &[("LISTED", 1.0)]);
+        let parting = || parts.both("parting.wgsl", "parting_surplus", &[], &[]);
         Ok(Self {
             late_flux: follows.then(late_flux).transpose()?,
             momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
+            parting: (!scene.consistent()).then(parting).transpose()?,
             energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
             floor: parts.both("fluid_floor.wgsl", "fluid_floor", &[], &[])?,
         })
     }
 
-    /// Gas that follows bodies, momentum, energy, floor.
+    /// Gas that follows bodies, momentum; who pays where velocities part; energy; floor.
     pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, control: &TimeStep) {
         pass.stage("fluid_update");
         if let Some(late_flux) = &self.late_flux {
@@ -42,6 +46,9 @@ impl FluidUpdate {
         }
         record_busy(pass, state, "UPDATE", &self.momentum);
         carrier.record(pass, state, Carried::Solved, "UPDATE");
+        if let Some(parting) = &self.parting {
+            record_both(pass, state, "UPDATE", parting);
+        }
         record_both(pass, state, "UPDATE", &self.energy);
         control.record_cold(pass);
         let [plain, listed] = &self.floor;

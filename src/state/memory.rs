@@ -104,6 +104,7 @@ impl MemoryPlan {
         let unknowns = (slots + 2 * capacity) as u64;
         let names = ["pressure", "stiffness", "solution", "residual", "direction", "product", "inverse_diagonal"];
         self.add("pressure", &names.map(|name| (name, unknowns, 4)));
+        self.add("pressure", &[("what vertices ask", slots as u64, 4)]);
         let rows = surface::rows(slots, capacity);
         let entries = (rows * surface::row_length(dimension)) as u64;
         if rows > 0 {

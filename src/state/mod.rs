@@ -64,7 +64,7 @@ pub struct State {
     pub interface: Interface,
     /// Solids.
     pub particles: Particles,
-    /// Unknowns of the pressure system: X, then D of the increment form and the vectors of PCG.
+    /// Unknowns of the pressure system: X. Behind them what each vertex asks of the gas around it (`shaders/parting.wgsl`).
     pub pressure: Buffer<f32>,
     /// S^-1 of each unknown.
     pub stiffness: Buffer<f32>,
@@ -113,7 +113,7 @@ impl State {
         let geometry = scene.cut_geometry();
         let start_gas = cut::initial_gas(scene, &geometry);
         let params = Params {
-            least_entropy: gas::least_entropy(scene.gas.gamma, &start_gas, &openings),
+            least_entropy: gas::least_entropy(scene, &start_gas, &openings),
             ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity))
         };
         let table = cut::table(&grid, &geometry);
@@ -136,7 +136,7 @@ impl State {
             gas: GasState::new(gpu, scene, &grid, start.len())?,
             interface: Interface::new(gpu, &params, domain.dimension, !start.is_empty(), table.len())?,
             particles: Particles::new(gpu, slots, &start, scene.consistent(), scene.elastic_vectors())?,
-            pressure: Buffer::new(gpu, "pressure", unknowns)?,
+            pressure: Buffer::new(gpu, "pressure", unknowns + slots)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
             pcg: PcgVectors::new(gpu, unknowns)?,
             elastic_solve: ElasticBuffers::new(gpu, scene, slots, &start)?,

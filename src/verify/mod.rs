@@ -23,6 +23,7 @@ mod books;
 mod bow_shocks;
 mod buoyancy;
 mod clamped;
+mod cold;
 mod cylinders;
 mod document;
 mod drifting;
@@ -101,6 +102,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         panel::CASES,
         shells::CASES,
         cylinders::CASES,
+        cold::CASES,
         fragments::CASES,
         thin_walls::CASES,
     ];

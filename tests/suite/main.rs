@@ -5,6 +5,7 @@ mod bench;
 mod books;
 mod boundaries;
 mod cli;
+mod cold;
 mod common;
 mod cut;
 mod determinism;

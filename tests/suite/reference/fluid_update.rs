@@ -8,6 +8,7 @@ use super::grid::{add, shift};
 use super::interface::{self, Interface};
 use super::intermediate_pressure::{Intermediate, face_velocity};
 use super::p2g::Nodes;
+use super::parting::Parting;
 use super::{GAS, Gas, Pair, Problem, SOLID, internal_energy, kinetic_energy};
 
 /// Pressure of the face above `low`.
@@ -141,6 +142,25 @@ pub(crate) fn late_flux(
     }
 }
 
+/// The face pressures per axis, and the gas with the momentum that they give it.
+fn push(problem: &Problem, interface: &Interface, star: &Gas, solution: &Solution, dt: f64) -> ([Vec<f64>; 3], Gas) {
+    let grid = &problem.grid;
+    let kind = |c: [i32; 3]| interface.cells[grid.slot(c)];
+    let touching = |low: [i32; 3], axis: usize| kind(low) == GAS || kind(shift(low, axis, 1)) == GAS;
+    let mut pressure = [vec![0.0; grid.slots()], vec![0.0; grid.slots()], vec![0.0; grid.slots()]];
+    let mut next = star.clone();
+    for (axis, pressure) in pressure.iter_mut().enumerate().take(grid.dimension) {
+        for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
+            pressure[grid.slot(low)] = face_pressure(problem, interface, solution, axis, low);
+        }
+        for c in grid.interior().into_iter().filter(|c| kind(*c) == GAS) {
+            let (below, above) = (grid.slot(shift(c, axis, -1)), grid.slot(c));
+            next.conserved[above][1 + axis] -= dt / grid.spacing * (pressure[above] - pressure[below]);
+        }
+    }
+    (pressure, next)
+}
+
 /// The stage: gas after the pressure step. `nodes` are the solid nodes that entered the solve. The new velocities of the faces carry the
 /// internal energy of `held`, too.
 pub(crate) fn fluid_update(
@@ -154,29 +174,22 @@ pub(crate) fn fluid_update(
     let gas_slots: Vec<_> = grid.interior().into_iter().filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
     let kind = |c: [i32; 3]| interface.cells[grid.slot(c)];
     let touching = |low: [i32; 3], axis: usize| kind(low) == GAS || kind(shift(low, axis, 1)) == GAS;
-    let mut pressure = [vec![0.0; grid.slots()], vec![0.0; grid.slots()], vec![0.0; grid.slots()]];
-    let mut next = star.clone();
-    for (axis, pressure) in pressure.iter_mut().enumerate().take(grid.dimension) {
-        for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
-            pressure[grid.slot(low)] = face_pressure(problem, interface, solution, axis, low);
-        }
-        for c in &gas_slots {
-            let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));
-            next.conserved[above][1 + axis] -= dt / grid.spacing * (pressure[above] - pressure[below]);
-        }
-    }
+    let (pressure, mut next) = push(problem, interface, star, solution, dt);
     let solid = working_velocity(problem, solution, &nodes.velocity);
     let mut work = pressure.clone();
     let carrier = Carrier::new(problem, &interface.cells, &next);
+    let gas = &next.clone();
+    let (before, solid, carrier) = (&intermediate.predicted_pressure, &solid, carrier.as_ref());
+    let parting = Parting { problem, interface, gas, pressure: before, solution, solid };
     for axis in 0..grid.dimension {
         for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
             let slot = grid.slot(low);
             let closed = kind(low) == SOLID || kind(shift(low, axis, 1)) == SOLID;
             work[axis][slot] = if closed {
-                solid_power(problem, solution, &solid, axis, low) / grid.area()
+                solid_power(problem, solution, solid, axis, low) / grid.area()
             } else {
                 let high = grid.slot(shift(low, axis, 1));
-                let velocity = match &carrier {
+                let velocity = match carrier {
                     Some(carrier) if interface.cells[slot] == GAS && interface.cells[high] == GAS => {
                         carrier.between(&next, axis, slot, high)
                     }
@@ -184,7 +197,9 @@ pub(crate) fn fluid_update(
                 };
                 let inside = interface.cells[slot] == GAS && interface.cells[high] == GAS;
                 let heat = |gas: &Gas| 0.5 * (internal_energy(gas.get(slot)) + internal_energy(gas.get(high)));
-                (pressure[axis][slot] + held.filter(|_| inside).map_or(0.0, heat)) * velocity
+                let p = pressure[axis][slot];
+                let shift = if inside { parting.shift_between(p, axis, slot, high) } else { 0.0 };
+                (p + held.filter(|_| inside).map_or(0.0, heat)) * velocity + shift
             };
         }
         for face in boundary::open_faces(problem, &interface.cells).into_iter().filter(|face| face.1 == axis) {
@@ -197,10 +212,13 @@ pub(crate) fn fluid_update(
             next.energy[above] -= dt / grid.spacing * (work[axis][above] - work[axis][below]);
         }
     }
+    for (energy, heat) in next.energy.iter_mut().zip(parting.heat_at_vertices()) {
+        *energy += dt / grid.spacing * heat;
+    }
     next
 }
 
-/// Keeps the internal energy above a tenth of its value after advection; returns how many cells it touched.
+/// Keeps the internal energy above a tenth of its value after advection and the entropy above the least; returns how many cells it touched.
 pub(crate) fn energy_floor(
     problem: &Problem,
     cells: &[u32],
@@ -214,7 +232,8 @@ pub(crate) fn energy_floor(
         (0..cells.len()).filter(|slot| cells[*slot] == GAS && problem.grid.contains(problem.grid.coordinates(*slot)))
     {
         let mut u = gas.get(slot);
-        let floor = 0.1 * internal_energy(star.get(slot));
+        let coldest = problem.least_entropy * u[0].powf(problem.gamma) / (problem.gamma - 1.0);
+        let floor = coldest.max(0.1 * internal_energy(star.get(slot)));
         if internal_energy(u) >= floor {
             continue;
         }

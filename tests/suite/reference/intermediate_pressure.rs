@@ -10,6 +10,8 @@ use super::{GAS, GHOST, Gas, Problem, SOLID, boundary};
 pub(crate) struct Intermediate {
     /// EOS pressure of gas cells.
     pub(crate) pressure: Vec<f64>,
+    /// The same after the predictor.
+    pub(crate) predicted_pressure: Vec<f64>,
     /// What the solve is told about open faces.
     pub(crate) open: boundary::OpenFaces,
     /// P* at vertices.
@@ -146,5 +148,5 @@ pub(crate) fn intermediate(
         velocities[grid.slot(node)] = node_velocity(problem, &interface.cells, star, node);
     }
     let open = boundary::faces(problem, &interface.cells, star, &predicted_pressure, memory, dt);
-    Intermediate { pressure, open, vertex_pressure, node_mass, node_velocity: velocities }
+    Intermediate { pressure, predicted_pressure, open, vertex_pressure, node_mass, node_velocity: velocities }
 }

@@ -64,8 +64,14 @@ fn pocket(problem: &Problem, state: &State, bins: &Bins, c: [i32; 3]) -> [f64; 5
 }
 
 /// Part of its ledger that a gas cell applies at once. In the open the ledger may take half more than the cell holds, and 0.3 of the
-/// speed of sound per step; enclosed on two faces or more it must leave a quarter, and a tenth.
-pub(crate) fn settled_part(u: [f64; 5], owed: [f64; 5], volume: f64, open: bool, gamma: f64) -> f64 {
+/// speed of sound per step; enclosed on two faces or more it must leave a quarter, and a tenth. No debt takes the entropy below the least.
+pub(crate) fn settled_part(
+    u: [f64; 5],
+    owed: [f64; 5],
+    volume: f64,
+    open: bool,
+    (gamma, least_entropy): (f64, f64),
+) -> f64 {
     let with = |part: f64| [0, 1, 2, 3, 4].map(|k| u[k] + part * owed[k] / volume);
     let (internal, all) = (internal_energy(u), with(1.0));
     let (left, speed) = if open { (-0.5, 0.3) } else { (0.25, 0.1) };
@@ -74,8 +80,11 @@ pub(crate) fn settled_part(u: [f64; 5], owed: [f64; 5], volume: f64, open: bool,
     }
     let sound = (gamma * (gamma - 1.0) * internal / u[0]).sqrt();
     let velocity = |u: [f64; 5]| glam::dvec3(u[1], u[2], u[3]) / u[0];
+    let entropy = |u: [f64; 5]| (gamma - 1.0) * internal_energy(u) / u[0].powf(gamma);
+    let coldest = least_entropy.min(0.9999 * entropy(u));
     let stands = |after: [f64; 5]| {
-        (internal_energy(after) - internal).abs() <= 0.1 * internal
+        entropy(after) >= coldest
+            && (internal_energy(after) - internal).abs() <= 0.1 * internal
             && (velocity(after) - velocity(u)).length() <= speed * sound
     };
     let mut part = f64::min(1.0, 0.1 * u[0] * volume / owed[0].abs());
@@ -107,7 +116,7 @@ pub(crate) fn settle(problem: &Problem, state: &mut State) {
         if state.cells[slot] == GAS {
             let u = state.gas.get(slot);
             let open = targets.len() + 1 >= 2 * grid.dimension;
-            let part = settled_part(u, rest, grid.volume(), open, problem.gamma);
+            let part = settled_part(u, rest, grid.volume(), open, (problem.gamma, problem.least_entropy));
             state.gas.set(slot, [0, 1, 2, 3, 4].map(|k| u[k] + part * rest[k] / grid.volume()));
             rest = rest.map(|owed| (1.0 - part) * owed);
         } else if targets.is_empty() {

@@ -19,6 +19,7 @@ pub(crate) mod material;
 pub(crate) mod mpm_grid_update;
 pub(crate) mod p2g;
 pub(crate) mod particle_sort;
+pub(crate) mod parting;
 pub(crate) mod step;
 pub(crate) mod time_step;
 pub(crate) mod two_spaces;
@@ -176,6 +177,8 @@ pub(crate) struct Problem {
     pub(crate) gravity: [f64; 3],
     /// Density and pressure of the undisturbed gas.
     pub(crate) ambient: (f64, f64),
+    /// p / rho^gamma that no gas falls below.
+    pub(crate) least_entropy: f64,
     pub(crate) materials: Vec<material::Material>,
     pub(crate) numerics: Numerics,
 }
@@ -220,6 +223,7 @@ impl Problem {
             obstacles,
             gravity: [0.0; 3],
             ambient: (1.0, 1.0),
+            least_entropy: 0.0,
             materials: Vec::new(),
             numerics: Numerics::default(),
         }
