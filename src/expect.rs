@@ -87,7 +87,8 @@ impl Budget {
             let ghost = f64::from(particle.ghost_pressure);
             let start = scene.gas.ambient.pressure;
             let material = materials.get(particle.material as usize);
-            let energy = material.map_or(0.0, |material| material.ghost_energy(ghost, start));
+            let stored = material.filter(|_| !particle.driven);
+            let energy = stored.map_or(0.0, |material| material.ghost_energy(ghost, start));
             self.solid_mass += mass;
             self.energy += f64::from(particle.kinetic_energy) + f64::from(particle.volume0) * energy;
             for (sum, v) in self.momentum.iter_mut().zip(particle.velocity) {

@@ -1,7 +1,7 @@
 // Where the velocities of two cells part, the pressure of their face works on both, and each pays for it in proportion to its own
 // pressure. The mean by mass, with which a face moves, would let a thin cell pay nearly all of a work whose pressure is the dense one's:
 // its entropy would fall. No cell pays more than its own pressure can; what a vertex asks beyond that is paid by all cells around it.
-// The consistent carrier has the shares by mass alone: by pressure, tubes would have errors 2 to 10 % larger.
+// In gas alone shares are those by mass: by pressure, tubes would have errors 2 to 10 % larger.
 // Needs element, system, body_power and the bindings control, cells, extra, pressure, conserved, energy, node and work.
 
 // Pressure of a gas cell before the solve.
@@ -14,7 +14,7 @@ fn parting_speed(slot: u32, n: u32) -> f32 {
 
 // Power from the low to the high of two gas cells, beside that of the face's velocity: from shares by mass to shares by pressure.
 fn shift_between(p: f32, low: u32, high: u32, n: u32) -> f32 {
-    if CONSISTENT { return 0.0; }
+    if !SOLIDS { return 0.0; }
     let jump = parting_speed(high, n) - parting_speed(low, n);
     if jump <= 0.0 { return 0.0; }
     let a = vec2f(conserved[low].x, own_pressure(low));
@@ -100,7 +100,7 @@ fn heat_at_vertex(v: vec3i, c: vec3i, slot: u32) -> f32 {
 
 // Opposite corners in pairs, so that mirror images keep their bits.
 fn heat_at_vertices(c: vec3i, slot: u32) -> f32 {
-    if CONSISTENT { return 0.0; }
+    if !SOLIDS { return 0.0; }
     var heat = 0.0;
     for (var k = 0u; k < corner_count() / 2u; k++) {
         let low = heat_at_vertex(c + corner_offset(k), c, slot);

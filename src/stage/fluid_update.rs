@@ -13,7 +13,7 @@ pub struct FluidUpdate {
     /// Gas that follows the bodies, as their slots get it.
     late_flux: Option<Bound>,
     momentum: [Bound; 2],
-    /// Not with the consistent carrier.
+    /// In scenes with bodies.
     parting: Option<[Bound; 2]>,
     energy: [Bound; 2],
     floor: [Bound; 2],
@@ -32,7 +32,7 @@ impl FluidUpdate {
         Ok(Self {
             late_flux: follows.then(late_flux).transpose()?,
             momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
-            parting: (!scene.consistent()).then(parting).transpose()?,
+            parting: state.has_solids().then(parting).transpose()?,
             energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
             floor: parts.both("fluid_floor.wgsl", "fluid_floor", &[], &[])?,
         })

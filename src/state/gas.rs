@@ -53,8 +53,8 @@ pub(super) fn ring_books(scene: &Scene, solids: bool) -> bool {
 /// Share of the least entropy of the start and of what flows in that gas must keep: no process lowers p / rho^gamma
 /// [minimum entropy principle: Tadmor 1986], but a scheme of high order may, by a little, at jumps.
 const ENTROPY_SHARE: f64 = 0.9;
-/// The same where the faces have one velocity: there thin cells at corners pay for the work of dense ones.
-const ENTROPY_SHARE_CONSISTENT: f64 = 0.1;
+/// The same in gas alone: there thin cells at corners pay for the work of dense ones.
+const ENTROPY_SHARE_ALONE: f64 = 0.1;
 
 /// p / rho^gamma that no gas falls below, from the gas of the start `[density, momentum, energy]` and the sides.
 pub(super) fn least_entropy(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> f32 {
@@ -68,6 +68,6 @@ pub(super) fn least_entropy(scene: &Scene, start: &[[f64; 5]], openings: &Openin
     let physical = states.filter(|(density, pressure)| *density > 0.0 && *pressure > 0.0);
     let least =
         physical.map(|(density, pressure): (f64, f64)| pressure / density.powf(gamma)).fold(f64::INFINITY, f64::min);
-    let share = if scene.consistent() { ENTROPY_SHARE_CONSISTENT } else { ENTROPY_SHARE };
+    let share = if scene.bodies.is_empty() { ENTROPY_SHARE_ALONE } else { ENTROPY_SHARE };
     if least.is_finite() { (share * least) as f32 } else { 0.0 }
 }

@@ -29,7 +29,7 @@ impl Parting<'_> {
     /// Power through the face of two gas cells beside that of its velocity: each pays in proportion to its pressure, not to the mass of
     /// the other.
     pub(crate) fn shift_between(&self, p: f64, axis: usize, low: usize, high: usize) -> f64 {
-        if self.problem.numerics.consistent {
+        if self.problem.materials.is_empty() {
             return 0.0;
         }
         let jump = (self.speed(high, axis) - self.speed(low, axis)).max(0.0);
@@ -85,7 +85,7 @@ impl Parting<'_> {
     pub(crate) fn heat_at_vertices(&self) -> Vec<f64> {
         let grid = &self.problem.grid;
         let mut heat = vec![0.0; grid.slots()];
-        if self.problem.numerics.consistent {
+        if self.problem.materials.is_empty() {
             return heat;
         }
         for v in grid.vertices() {
