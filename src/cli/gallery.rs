@@ -16,7 +16,7 @@ use super::progress::clock;
 use super::{open_device, run};
 use crate::export::atomic;
 use crate::scene::{self, SMALL, Scene};
-use crate::{Error, Result};
+use crate::{Error, Result, input};
 
 /// Folders of the scenes that are shown when nobody asks for others.
 const SHOWN: [&str; 2] = ["paper", "demos"];
@@ -176,7 +176,7 @@ fn show(entry: &Entry, out: &Path, quiet: bool, cli: &Cli) -> Shown {
         Ok(Err(error)) => Some(error.to_string()),
         Err(_) => Some("a bug of ours, said above".to_owned()),
     };
-    let report = std::fs::read_to_string(folder.join("report.json")).ok();
+    let report = input::text(&folder.join("report.json"), input::MOST_REPORT).ok();
     let report = report.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
     Shown { entry: entry.clone(), error, seconds: start.elapsed().as_secs_f64(), report }
 }

@@ -17,7 +17,7 @@ use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
 use crate::scene::{Scene, Shot};
 use crate::state::Grid;
-use crate::{Error, Result};
+use crate::{Error, Result, input};
 
 /// Name of the scene's own look among the views.
 const MAIN: &str = "main";
@@ -75,7 +75,7 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
 
 fn read_report(run: &Path) -> Result<Recorded> {
     let path = run.join("report.json");
-    let text = std::fs::read_to_string(&path).map_err(|source| match source.kind() {
+    let text = input::text(&path, input::MOST_REPORT).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => {
             Error::Usage(format!("{} is no folder of a run: it has no report.json", run.display()))
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use toml::de::{DeTable, DeValue};
 
-use super::check_shape;
+use super::{budget, check_shape};
 use super::source::{Finding, walk};
 use super::{GasState, Integrator, Obstacles, Preconditioner, Scene};
 
@@ -56,9 +56,9 @@ pub(super) fn numbers(root: &DeTable<'_>, findings: &mut Vec<Finding>) {
 
 /// Everything that is wrong with a scene.
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
-    let mut check = Check { scene, findings: Vec::new() };
+    let mut check = Check { scene, sound_domain: false, findings: Vec::new() };
     check.domain();
-    let sound_domain = check.findings.is_empty();
+    check.sound_domain = check.findings.is_empty();
     check.gas();
     check.boundary();
     check.bodies();
@@ -69,8 +69,13 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     check.numerics();
     check.render();
     check.expect();
-    if sound_domain && check.findings.len() == before {
-        check_shape::places(scene, &mut check.findings);
+    // what loops over cells comes last, and only where a count says that it ends
+    if check.sound_domain && check.findings.len() == before {
+        check.findings.extend(budget::findings(scene));
+        if check.findings.len() == before {
+            check.patches_cover();
+            check_shape::places(scene, &mut check.findings);
+        }
     }
     check.findings
 }
@@ -78,6 +83,8 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
 /// The scene and what has been found so far.
 pub(super) struct Check<'s> {
     pub(super) scene: &'s Scene,
+    /// Whether cells may be counted.
+    sound_domain: bool,
     pub(super) findings: Vec<Finding>,
 }
 

@@ -1,5 +1,6 @@
 //! Reading scenes: parse, override, fill in defaults, check. All findings are reported at once.
 
+use std::io;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -9,7 +10,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
 use super::{Material, Scene, check, variants};
-use crate::{Error, Result};
+use crate::{Error, Result, input};
 
 /// The override that lets mesh files lie outside of the scene's folder.
 const OUTSIDE: &str = "allow_outside";
@@ -23,7 +24,7 @@ impl Scene {
     /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with every mistake, its file, line, key and what is allowed.
     pub fn load(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|source| Error::io(path, source))?;
+        let text = input::text(path, input::MOST_SCENE).map_err(|source| unreadable(path, source))?;
         Scene::parse(&text, &path.display().to_string(), overrides)
     }
 
@@ -87,6 +88,16 @@ impl Scene {
     }
 }
 
+/// A file that holds no text is a wrong scene; one that cannot be read is the disk's affair.
+fn unreadable(path: &Path, source: io::Error) -> Error {
+    match source.kind() {
+        io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput | io::ErrorKind::FileTooLarge => {
+            Error::Scene(format!("{}: {source}", path.display()))
+        }
+        _ => Error::io(path, source),
+    }
+}
+
 fn greatest_divisor(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { greatest_divisor(b, a % b) }
 }
@@ -135,7 +146,8 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
         Ok(mut scene) => {
             scene.resolve();
             let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
-            findings.extend(scene.resolve_shapes(MeshFolder { folder, outside }));
+            let dimension = scene.domain.dimension;
+            findings.extend(scene.resolve_shapes(MeshFolder { folder, outside, dimension }));
             if findings.is_empty() {
                 findings.extend(check::findings(&scene));
             }

@@ -6,6 +6,7 @@
 //! Units are consistent and chosen by the scene: every field names its dimension in brackets, in kg, m, s for example.
 
 mod body;
+mod budget;
 mod boundary;
 mod camera;
 mod check;
@@ -50,6 +51,7 @@ include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
 pub use body::{Body, Contact, Friction, Motion, MotionAt, Sampling};
+pub use budget::MOST_PARTICLES;
 pub use boundary::{
     AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
     TimedState,
@@ -61,7 +63,7 @@ pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidU
 pub use cut::{CutCell, CutGeometry};
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
-pub use mesh::Mesh;
+pub use mesh::{Mesh, Up};
 pub use named::Named;
 pub use polyhedron::Part;
 pub use radial_flow::RadialFlow;
@@ -72,7 +74,7 @@ pub use render::{
 pub use sample::{Overlap, Seed};
 pub use settings::{Film, Numerics, Obstacles, Output, Pair, Preconditioner, Time, Transfer};
 pub use shape::Shape;
-pub use shipped::{Shipped, shipped, stem};
+pub use shipped::{STANDARD_INPUT, Shipped, shipped, shipped_named, stem};
 pub use shot::{Shot, ShotKeys};
 pub use variants::SMALL;
 pub use vortex::Vortex;
