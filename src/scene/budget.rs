@@ -24,14 +24,14 @@ const MOST_LOOKS: u64 = 200_000;
 const PASSES: u64 = 4;
 
 /// The work of a scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-pub struct Work {
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Work {
     /// Particles, about.
-    pub particles: u64,
+    particles: u64,
     /// Rows of cells that bodies touch.
-    pub rows: u64,
+    rows: u64,
     /// Distances to single shapes.
-    pub distances: u64,
+    distances: u64,
 }
 
 impl Shape {
@@ -106,8 +106,7 @@ fn face_distances(scene: &Scene) -> u64 {
 }
 
 /// The work of finding particles, obstacles and regions.
-#[must_use]
-pub(super) fn work(scene: &Scene) -> Work {
+fn work(scene: &Scene) -> Work {
     let domain = &scene.domain;
     let mut work = Work::default();
     let cells = (0..domain.axes()).fold(1u64, |product, d| product.saturating_mul(u64::from(domain.cells[d])));

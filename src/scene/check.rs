@@ -69,6 +69,9 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     check.numerics();
     check.render();
     check.expect();
+    if check.sound_domain && check.findings.is_empty() {
+        check.ranges();
+    }
     // what loops over cells comes last, and only where a count says that it ends
     if check.sound_domain && check.findings.len() == before {
         check.findings.extend(budget::findings(scene));

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
-use super::{Material, Scene, check, variants};
+use super::{Material, Scene, check, variants, vocabulary};
 use crate::{Error, Result, input};
 
 /// The override that lets mesh files lie outside of the scene's folder.
@@ -138,19 +138,25 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
     }
     source.index(&root);
     check::numbers(&root, &mut findings);
+    let (words, unreadable) = vocabulary::findings(&mut root);
+    findings.extend(words);
     match Scene::deserialize(Deserializer::from(Spanned::new(place, root))) {
         Err(error) => {
-            findings.push(located(source, &error));
+            // what cannot be read was told with all others of its kind
+            if !unreadable {
+                findings.push(located(source, &error));
+            }
             Err(findings)
         }
         Ok(mut scene) => {
             scene.resolve();
             let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
             let dimension = scene.domain.dimension;
-            findings.extend(scene.resolve_shapes(MeshFolder { folder, outside, dimension }));
-            if findings.is_empty() {
+            let shapes = scene.resolve_shapes(MeshFolder { folder, outside, dimension });
+            if shapes.is_empty() {
                 findings.extend(check::findings(&scene));
             }
+            findings.extend(shapes);
             if findings.is_empty() { Ok(scene) } else { Err(findings) }
         }
     }

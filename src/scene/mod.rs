@@ -12,6 +12,7 @@ mod camera;
 mod check;
 mod check_body;
 mod check_boundary;
+mod check_range;
 mod check_render;
 mod check_shape;
 mod coupling;
@@ -38,6 +39,7 @@ mod source;
 mod tests;
 mod variants;
 mod vector;
+mod vocabulary;
 mod vortex;
 mod wave;
 

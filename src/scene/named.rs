@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 use super::budget::DEEPEST;
 use super::mesh::{MeshFolder, Surfaces};
 use super::source::Finding;
-use crate::spelling::did_you_mean;
+
 use super::{Boundary, Scene, Shape, distance, shape, vector};
+use crate::spelling::did_you_mean;
 
 /// Names that a message lists at most.
 const MOST_NAMES: usize = 40;
