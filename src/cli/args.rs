@@ -101,7 +101,7 @@ pub struct RunOptions {
     /// What to run.
     #[command(flatten)]
     pub scene: SceneOptions,
-    /// Folder for the results [default: out/<scene>]
+    /// Folder for the results [default: out/<scene>, or the next free name beside it]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// End of the run [s], instead of time.until
@@ -119,9 +119,15 @@ pub struct RunOptions {
     /// Write tables and report, but no pictures
     #[arg(long)]
     pub no_frames: bool,
+    /// Replace what an earlier run wrote into --out
+    #[arg(long)]
+    pub force: bool,
     /// Do not compare the result with the scene's [expect]
     #[arg(long)]
     pub no_expect: bool,
+    /// Fail if the result does not meet the scene's [expect], also where resolution, physics or end were changed by hand
+    #[arg(long, conflicts_with = "no_expect")]
+    pub expect: bool,
     /// Print nothing but warnings and errors
     #[arg(long, short)]
     pub quiet: bool,

@@ -128,6 +128,7 @@ fn earlier(path: &Path) -> Result<Measurement> {
 fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Result<Measurement> {
     let plan = MemoryPlan::fitting(scene, gpu)?;
     let mut simulation = Simulation::new(gpu, scene)?;
+    interrupt::listen_between_steps();
     simulation.set_target(NEVER)?;
     let warm = summary(&run_steps(&mut simulation, options.warmup)?);
     gpu.wait(None)?;
@@ -247,7 +248,7 @@ fn timed_steps(simulation: &mut Simulation, steps: u32, detail: Detail) -> Resul
 }
 
 fn stop_if_asked() -> Result<()> {
-    if interrupt::wish() == interrupt::Wish::GoOn { Ok(()) } else { Err(Error::Interrupted) }
+    if interrupt::wish() { Err(Error::Interrupted) } else { Ok(()) }
 }
 
 /// Times and bytes per step of each stage.

@@ -9,6 +9,14 @@ macro_rules! say {
     }};
 }
 
+/// Prints a line on standard error. A terminal that has gone away never ends a run.
+macro_rules! tell {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($text)*);
+    }};
+}
+
 mod args;
 mod bench;
 mod check;
@@ -44,7 +52,7 @@ const INTERNAL: u8 = 1;
 /// Runs the program: reads the arguments, does what they say, reports errors once, and returns the exit code.
 #[must_use]
 pub fn main() -> ExitCode {
-    panic::set_hook(Box::new(|info| eprintln!("{}", bug_report(info))));
+    panic::set_hook(Box::new(|info| tell!("{}", bug_report(info))));
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(message) => {
@@ -79,7 +87,7 @@ fn report(error: &Error, json: bool) {
     let text = error.to_string();
     // The findings of a scene bring their own heads.
     let head = if text.starts_with("error") { "" } else { "error: " };
-    eprintln!("{head}{}", text.trim_end());
+    tell!("{head}{}", text.trim_end());
     if json {
         say!("{}", json!({ "error": { "code": error.exit_code(), "kind": kind(error), "message": text } }));
     }
@@ -95,6 +103,7 @@ fn kind(error: &Error) -> &'static str {
         Error::Diverged { .. } => "diverged",
         Error::Expectation(_) => "expectation",
         Error::Io { .. } => "io",
+        Error::Film(_) => "film",
         Error::Gpu(_) => "gpu",
         Error::Interrupted => "interrupted",
         Error::Shader(_) => "shader",
@@ -130,7 +139,7 @@ fn execute(cli: &Cli) -> Result<()> {
 fn window(cli: &Cli) -> Result<()> {
     view::view(None, cli).inspect_err(|error| {
         if matches!(error, Error::Usage(_)) && !cli.json {
-            eprintln!("{}", Cli::command().render_help());
+            tell!("{}", Cli::command().render_help());
         }
     })
 }
@@ -141,7 +150,7 @@ fn open_device(cli: &Cli) -> Result<Gpu> {
     let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })?;
     if gpu.is_software() && !ANNOUNCED.swap(true, Ordering::Relaxed) {
         let name = &gpu.info.name;
-        eprintln!(
+        tell!(
             "warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU"
         );
     }

@@ -49,7 +49,7 @@ impl Progress {
                 bar.set_message(self.text(time, last, part));
             }
             Form::Lines if self.spoken.elapsed() >= PAUSE => {
-                eprintln!("{:5.1} %  {}", 100.0 * part, self.text(time, last, part));
+                tell!("{:5.1} %  {}", 100.0 * part, self.text(time, last, part));
                 self.spoken = Instant::now();
             }
             Form::Lines => {}

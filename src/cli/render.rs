@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::args::{Cli, RenderOptions};
-use super::interrupt::{self, Wish};
+use super::interrupt;
 use super::progress::clock;
 use super::run::{PICTURES, without_coarse};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
@@ -50,11 +50,12 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     let files = files(options, folder.clone())?;
     let gpu = open_device(cli)?;
     let mut drawing = Drawing { gpu, scene, hash, shots, depth: files.needs()?.depth, at_work: None };
+    interrupt::listen_between_steps();
     let writer = Writer::start(files, &drawing.scene);
     let mut drawn = Ok(());
     for (index, path) in &frames {
         let frame =
-            if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
+            if interrupt::wish() { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
         let accepted = frame.map(|frame| writer.send(Message { records: Vec::new(), frame: Some(frame) }));
         if !matches!(accepted, Ok(true)) {
             drawn = accepted.map(|_| ());
@@ -62,9 +63,9 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
         }
     }
     // What the writer has to say comes first: a disk that is full, for example.
-    let Written { frames, notes, .. } = writer.finish()?;
-    film::tell(&notes, options.quiet || cli.json);
-    drawn?;
+    let Written { frames, films, .. } = writer.finish()?;
+    let filmed = film::tell(&films, options.quiet || cli.json);
+    drawn.and(filmed)?;
     if cli.json {
         say!("{}", json!({ "frames": frames, "folder": folder, "seconds": start.elapsed().as_secs_f64() }));
     } else if !options.quiet {
@@ -174,7 +175,7 @@ fn files(options: &RenderOptions, folder: PathBuf) -> Result<Files> {
     }
     without_coarse(&mut formats);
     let video = film::asked(&options.film, &folder.join("frames"));
-    Ok(Files { folder, formats, video, tables: false })
+    Ok(Files { folder, formats, video, tables: false, listed: false })
 }
 
 /// Device, scene and look, and the buffers and kernels of the frames so far.
