@@ -23,6 +23,7 @@ mod check;
 mod film;
 mod folder;
 mod gallery;
+mod init;
 mod interrupt;
 mod list;
 mod progress;
@@ -52,6 +53,7 @@ const INTERNAL: u8 = 1;
 /// Runs the program: reads the arguments, does what they say, reports errors once, and returns the exit code.
 #[must_use]
 pub fn main() -> ExitCode {
+    with_runtime_folder();
     panic::set_hook(Box::new(|info| tell!("{}", bug_report(info))));
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -69,6 +71,19 @@ pub fn main() -> ExitCode {
             ExitCode::from(error.exit_code())
         }
         Err(_) => ExitCode::from(INTERNAL),
+    }
+}
+
+/// Starts the program again with a folder that graphics drivers ask for and complain about, where there is none.
+fn with_runtime_folder() {
+    #[cfg(target_os = "linux")]
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none()
+        && let Ok(program) = std::env::current_exe()
+    {
+        use std::os::unix::process::CommandExt;
+        // It returns only where that is not possible; then the driver complains.
+        let again = &mut std::process::Command::new(program);
+        let _ = again.args(std::env::args_os().skip(1)).env("XDG_RUNTIME_DIR", std::env::temp_dir()).exec();
     }
 }
 
@@ -124,6 +139,15 @@ fn execute(cli: &Cli) -> Result<()> {
         Command::List => list::scenes(cli.json),
         Command::Schema => {
             say!("{}", crate::scene::schema());
+            Ok(())
+        }
+        Command::Init(options) => init::init(options),
+        Command::Show { scene } => init::show(scene),
+        Command::Man => {
+            let mut page = Vec::new();
+            let written = clap_mangen::Man::new(Cli::command()).render(&mut page);
+            written.map_err(|source| Error::io("standard output", source))?;
+            say!("{}", String::from_utf8_lossy(&page));
             Ok(())
         }
         Command::Completions { shell } => {

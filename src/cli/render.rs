@@ -15,7 +15,7 @@ use super::{film, open_device};
 use crate::export::states;
 use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
-use crate::scene::{Scene, Shot};
+use crate::scene::{MOST_PARTICLES, Scene, Shot};
 use crate::state::Grid;
 use crate::{Error, Result, input};
 
@@ -27,6 +27,7 @@ const MAIN: &str = "main";
 struct Recorded {
     scene_hash: String,
     scene_file: String,
+    particles: u64,
     scene: Scene,
 }
 
@@ -38,7 +39,7 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
     let recorded = read_report(&options.run)?;
-    let hash = recorded.scene_hash.clone();
+    let (hash, particles) = (recorded.scene_hash.clone(), recorded.particles.min(MOST_PARTICLES));
     let scene = with_look(recorded, options)?;
     if scene.hash() != hash {
         let message = "the scene of the run is read differently by this program, or a mesh file of it has changed";
@@ -49,7 +50,7 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     let folder = options.out.clone().unwrap_or_else(|| options.run.join("again"));
     let files = files(options, folder.clone())?;
     let gpu = open_device(cli)?;
-    let mut drawing = Drawing { gpu, scene, hash, shots, depth: files.needs()?.depth, at_work: None };
+    let mut drawing = Drawing { gpu, scene, hash, shots, particles, depth: files.needs()?.depth, at_work: None };
     interrupt::listen_between_steps();
     let writer = Writer::start(files, &drawing.scene);
     let mut drawn = Ok(());
@@ -100,8 +101,8 @@ fn with_look(recorded: Recorded, options: &RenderOptions) -> Result<Scene> {
             "only render.* and output.fields can change without simulating; use `brisance run` for other keys";
         return Err(Error::Usage(format!("--set {key}: {message}")));
     }
-    // The meshes of the run, wherever they were allowed to lie.
-    let mut overrides = vec!["allow_outside=true".to_owned()];
+    // What came from elsewhere names no files outside of its folder.
+    let mut overrides = vec![format!("allow_outside={}", options.allow_outside)];
     if let Some(camera) = &options.camera {
         scene.render.path = None;
         overrides.push(format!("render.camera={camera}"));
@@ -120,7 +121,17 @@ fn with_look(recorded: Recorded, options: &RenderOptions) -> Result<Scene> {
     }
     overrides.extend(options.set.iter().cloned());
     let text = toml::to_string(&scene).map_err(|error| Error::Scene(format!("report.json: {error}")))?;
-    Scene::parse(&text, &recorded.scene_file, &overrides)
+    if options.allow_outside {
+        return Scene::parse(&text, &recorded.scene_file, &overrides);
+    }
+    let place = options.run.join("scene.toml");
+    Scene::parse(&text, &place.display().to_string(), &overrides).map_err(|error| match error {
+        Error::Scene(text) if text.contains(".mesh.path") => {
+            let hint = "nothing outside of the folder of the run is read; --allow-outside reads meshes where the run found them";
+            Error::Scene(format!("{text}\n{hint}"))
+        }
+        error => error,
+    })
 }
 
 /// The views that are asked for; what the command line says holds for each of them.
@@ -184,14 +195,15 @@ struct Drawing {
     scene: Scene,
     hash: String,
     shots: Vec<Shot>,
+    particles: u64,
     depth: crate::render::Depth,
     at_work: Option<(Loaded, Renderer)>,
 }
 
 impl Drawing {
     fn draw(&mut self, index: u32, path: &Path) -> Result<FrameToWrite> {
-        let (hash, stored) = states::read(path)?;
         let grid = Grid::of(&self.scene.domain);
+        let (hash, stored) = states::read(path, states::most_bytes(grid.slots() as u64, self.particles))?;
         if hash != self.hash || !stored.fits(&grid) {
             return Err(Error::Usage(format!("{} is a state of another scene than report.json", path.display())));
         }

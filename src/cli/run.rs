@@ -10,12 +10,14 @@ use super::interrupt;
 use super::progress::{Progress, clock};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::folder::Folder;
+use super::init::not_an_input;
 use super::{film, open_device, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Check, Ending, Summary};
 use crate::export::Needs;
 use crate::export::report::{self, DeviceReport, Report, Status};
 use crate::gpu::Gpu;
+use crate::math::plain;
 use crate::render::{Renderer, SceneBuffers, Stored};
 use crate::scene::{self, Scene};
 use crate::simulation::{BATCH, Simulation};
@@ -126,6 +128,9 @@ impl<'a> Run<'a> {
         start: Instant,
     ) -> Result<Self> {
         let (formats, video) = (formats(options, &scene), film::asked(&options.film, &folder.path.join("frames")));
+        if let Some((film, _)) = &video {
+            not_an_input(film, &options.scene.scene)?;
+        }
         let pictures = !options.no_frames || video.is_some();
         let files = Files { folder: folder.path.clone(), formats, video, tables: true, listed: true };
         let mut needs = files.needs()?;
@@ -334,7 +339,8 @@ impl<'a> Run<'a> {
     fn print(&self, report: &Report<&Scene>) {
         let wall = clock(self.start.elapsed());
         let (time, steps) = (report.time, report.steps);
-        say!("t = {time:.6} s after {steps} steps in {wall}; {} frames in {}", report.frames, self.folder.path.display());
+        let time = plain(time);
+        say!("t = {time} s after {steps} steps in {wall}; {} frames in {}", report.frames, self.folder.path.display());
         for check in &report.expect {
             say!("  {check}");
         }

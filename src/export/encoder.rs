@@ -19,6 +19,8 @@ const ANSWER: Duration = Duration::from_secs(5);
 const PAUSE: Duration = Duration::from_millis(20);
 /// Bytes of what it says that are kept: the last ones.
 const KEPT: usize = 2000;
+/// Lines of these.
+const LINES: usize = 3;
 
 /// Whether the encoder is there and answers.
 pub(super) fn answers() -> bool {
@@ -136,7 +138,9 @@ fn hear(mut errors: impl Read) -> String {
         let over = kept.len().saturating_sub(KEPT);
         kept.drain(..over);
     }
-    String::from_utf8_lossy(&kept).into_owned()
+    let text = String::from_utf8_lossy(&kept);
+    let lines: Vec<&str> = text.lines().collect();
+    lines[lines.len().saturating_sub(LINES)..].join("\n")
 }
 
 #[cfg(test)]

@@ -15,6 +15,9 @@ const MOST_SLOTS: u64 = i32::MAX as u64;
 /// Edges of a cell may differ by this much, relative: what decimal numbers in a file lose.
 const CUBE_TOLERANCE: f64 = 1e-6;
 
+/// Bytes that titles and names have at most.
+const MOST_LETTERS: usize = 200;
+
 /// Keys that hold one number per axis.
 const VECTORS: [&str; 16] = [
     "cells", "origin", "size", "velocity", "center", "axis", "from", "to", "point", "normal", "offset", "about",
@@ -209,14 +212,20 @@ impl Check<'_> {
 
     fn names(&mut self) {
         let scene = self.scene;
+        if scene.title.len() > MOST_LETTERS || scene.title.chars().any(char::is_control) {
+            let message = format!("{} bytes, or control characters", scene.title.len());
+            self.add("title", message, format!("give one line of at most {MOST_LETTERS} bytes; films carry it"));
+        }
         let bodies = scene.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
         let obstacles = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect::<Vec<_>>();
         let probes = scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>();
         for (list, names) in [("bodies", bodies), ("obstacles", obstacles), ("probes", probes)] {
             let mut seen = BTreeSet::new();
             for (index, name) in names.into_iter().enumerate() {
-                if name.is_empty() || name.contains([',', '"', '\n']) {
-                    let help = "names head columns of tables: give text without commas, quotes or line breaks";
+                let plain = |c: char| !(c.is_control() || [',', '"'].contains(&c));
+                if name.is_empty() || name.starts_with('=') || name.len() > MOST_LETTERS || !name.chars().all(plain) {
+                    let help = "names head columns of tables: give short text without commas, quotes, line breaks or other control \
+                                characters, and no `=` in front";
                     self.add(format!("{list}[{index}].name"), format!("`{name}` is no name"), help);
                 } else if !seen.insert(name) {
                     self.add(

@@ -10,6 +10,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
 use super::{Material, Scene, check, variants, vocabulary};
+use crate::material::{PRESETS, Units};
 use crate::{Error, Result, input};
 
 /// The override that lets mesh files lie outside of the scene's folder.
@@ -81,6 +82,12 @@ impl Scene {
         let default = if self.domain.dimension == 1 { 4 } else { 2 };
         for body in self.bodies.iter_mut().filter(|body| body.particles_per_cell == 0) {
             body.particles_per_cell = default;
+        }
+        for body in &self.bodies {
+            let preset = PRESETS.iter().position(|preset| preset.name == body.material);
+            if let Some(Ok(material)) = preset.map(|index| Material::of_preset(index, Units::Si, &[])) {
+                self.materials.entry(body.material.clone()).or_insert(material);
+            }
         }
         for body in self.bodies.iter_mut().filter(|body| body.density == 0.0) {
             body.density = self.materials.get(&body.material).and_then(Material::density).unwrap_or(0.0);

@@ -53,6 +53,15 @@ pub fn shipped() -> Vec<Shipped> {
 /// # Errors
 /// [`Error::Scene`] with the names most like it.
 pub fn shipped_named(name: &str) -> Result<Shipped> {
+    let folder = Path::new(name);
+    if folder.join("report.json").is_file() {
+        return Err(Error::Scene(format!(
+            "`{name}` is the folder of a run: `brisance render {name}` draws its frames again, `brisance view SCENE` runs its scene anew"
+        )));
+    }
+    if folder.is_dir() {
+        return Err(Error::Scene(format!("`{name}` is a folder; name a scene file, or a shipped scene (`brisance list`)")));
+    }
     let mut all = shipped();
     match all.iter().position(|scene| scene.is_called(name)) {
         Some(place) => Ok(all.swap_remove(place)),

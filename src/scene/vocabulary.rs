@@ -17,6 +17,7 @@ pub(super) fn findings(root: &mut DeTable<'_>) -> (Vec<Finding>, bool) {
     let schema = SCHEMA.get_or_init(|| Scene::schema().to_value());
     let mut words = Words { schema, findings: Vec::new(), unreadable: false };
     words.table("", root, schema);
+    words.findings.sort_by_key(|finding| finding.span.as_ref().map(|place| place.start));
     (words.findings, words.unreadable)
 }
 
