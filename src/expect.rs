@@ -9,10 +9,10 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::math::plain;
 use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::gpu::{Gpu, readback};
+use crate::math::plain;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::snapshot::{Snapshot, kind};

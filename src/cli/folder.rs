@@ -174,7 +174,9 @@ mod tests {
         let folder = Folder::take(&path, false).unwrap();
         fs::create_dir_all(path.join("frames/deep")).unwrap();
         let outside = place.path().join("outside.txt");
-        for file in [path.join("frames/0000.png"), path.join("frames/mine.png"), path.join("frames/deep/1"), outside.clone()] {
+        for file in
+            [path.join("frames/0000.png"), path.join("frames/mine.png"), path.join("frames/deep/1"), outside.clone()]
+        {
             fs::write(file, "x").unwrap();
         }
         let written = ["frames/0000.png", "frames/deep/1", "../outside.txt"].map(|name| path.join(name));

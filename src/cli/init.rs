@@ -54,7 +54,8 @@ pub(super) fn show(name: &str) -> Result<()> {
 pub(super) fn not_an_input(path: &Path, scene: &str) -> Result<()> {
     let end = path.extension().map(|end| end.to_string_lossy().to_lowercase()).unwrap_or_default();
     let read = ["toml", "obj", "stl", "ply", "gltf", "glb", "bin"].contains(&end.as_str());
-    let same = || path.canonicalize().ok().is_some_and(|own| Path::new(scene).canonicalize().is_ok_and(|other| own == other));
+    let same =
+        || path.canonicalize().ok().is_some_and(|own| Path::new(scene).canonicalize().is_ok_and(|other| own == other));
     if path.exists() && (read || same()) {
         return Err(Error::Usage(format!("{} is an input and stays as it is; name another file", path.display())));
     }

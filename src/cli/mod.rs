@@ -174,9 +174,7 @@ fn open_device(cli: &Cli) -> Result<Gpu> {
     let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })?;
     if gpu.is_software() && !ANNOUNCED.swap(true, Ordering::Relaxed) {
         let name = &gpu.info.name;
-        tell!(
-            "warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU"
-        );
+        tell!("warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU");
     }
     Ok(gpu)
 }

@@ -55,8 +55,7 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     let writer = Writer::start(files, &drawing.scene);
     let mut drawn = Ok(());
     for (index, path) in &frames {
-        let frame =
-            if interrupt::wish() { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
+        let frame = if interrupt::wish() { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
         let accepted = frame.map(|frame| writer.send(Message { records: Vec::new(), frame: Some(frame) }));
         if !matches!(accepted, Ok(true)) {
             drawn = accepted.map(|_| ());

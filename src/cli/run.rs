@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use super::args::{Cli, RunOptions};
 use super::check::overlap_text;
+use super::folder::Folder;
+use super::init::not_an_input;
 use super::interrupt;
 use super::progress::{Progress, clock};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
-use super::folder::Folder;
-use super::init::not_an_input;
 use super::{film, open_device, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Check, Ending, Summary};
@@ -300,7 +300,12 @@ impl<'a> Run<'a> {
         Budget::read(&self.simulation, &self.scene, self.summary.stored_energy())
     }
 
-    fn write_report(&self, (status, outcome): (Status, &str), written: Written, expect: &[Check]) -> Result<Report<&Scene>> {
+    fn write_report(
+        &self,
+        (status, outcome): (Status, &str),
+        written: Written,
+        expect: &[Check],
+    ) -> Result<Report<&Scene>> {
         // A device that is lost cannot be asked any more; the report must come all the same.
         let running = status == Status::Running;
         let end = if running { Budget::default() } else { self.end_budget().unwrap_or_default() };

@@ -11,7 +11,7 @@ use super::tables::Tables;
 use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::export::video::VideoExporter;
-use crate::export::{self, Exporter, atomic, Moment, Needs, Origin};
+use crate::export::{self, Exporter, Moment, Needs, Origin, atomic};
 use crate::render::{Picture, Stored};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;

@@ -26,7 +26,8 @@ pub fn remember() {
 /// What this thread has written for the first time since the last call, once it remembers.
 #[must_use]
 pub fn newly_written() -> Vec<PathBuf> {
-    WRITTEN.with_borrow_mut(|written| written.as_mut().map_or_else(Vec::new, |written| std::mem::take(&mut written.new)))
+    WRITTEN
+        .with_borrow_mut(|written| written.as_mut().map_or_else(Vec::new, |written| std::mem::take(&mut written.new)))
 }
 
 /// Writes `path` through `fill`, creating its folder; an existing file is replaced only when everything was written.

@@ -73,7 +73,8 @@ pub(super) struct Encoder {
 impl Encoder {
     /// Starts one.
     pub(super) fn start(mut command: Command) -> std::io::Result<Self> {
-        let mut process = alone(&mut command).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn()?;
+        let mut process =
+            alone(&mut command).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn()?;
         let (pictures, queue) = sync_channel(QUEUE);
         let feeding = process.stdin.take().map(|pipe| std::thread::spawn(move || feed(pipe, &queue)));
         let said = process.stderr.take().map(|errors| std::thread::spawn(move || hear(errors)));

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::{Error, Result};
 use crate::expect::Check;
 use crate::export::atomic;
+use crate::{Error, Result};
 
 /// The device a run used.
 #[derive(Debug, Clone, Serialize)]

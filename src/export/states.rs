@@ -136,7 +136,8 @@ pub fn most_bytes(slots: u64, particles: u64) -> u64 {
 /// [`Error::Io`] if the file cannot be read or is no whole state.
 pub fn read(path: &Path, most: u64) -> Result<(String, Stored)> {
     // what does not compress grows by less than its head
-    let file = input::bytes(path, most.saturating_add(most / 8) + (1 << 20)).map_err(|source| Error::io(path, source))?;
+    let file =
+        input::bytes(path, most.saturating_add(most / 8) + (1 << 20)).map_err(|source| Error::io(path, source))?;
     parse(&file, most).map_err(|reason| {
         let text = format!("{reason}; run the scene again with --export states");
         Error::io(path, io::Error::new(io::ErrorKind::InvalidData, text))

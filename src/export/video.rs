@@ -125,7 +125,9 @@ impl Film {
             Some(reason) => Err(reason),
         };
         let film = self.path.display();
-        moved.map(|()| format!("film in {film}")).map_err(|reason| format!("no film {film}: {ENCODER}: {}", reason.trim()))
+        moved
+            .map(|()| format!("film in {film}"))
+            .map_err(|reason| format!("no film {film}: {ENCODER}: {}", reason.trim()))
     }
 }
 

@@ -64,7 +64,8 @@ pub(super) fn shapes(scene: &Scene) -> Vec<Finding> {
     let placed = scene.placed_shapes().into_iter().chain(scene.patch_shapes()).chain(own);
     let finding = |(path, shape): (String, &Shape)| {
         let parts = shape.parts_count();
-        let help = format!("give at most {MOST_PARTS}; copies of copies multiply, and so do uses of shapes that use others");
+        let help =
+            format!("give at most {MOST_PARTS}; copies of copies multiply, and so do uses of shapes that use others");
         (parts > MOST_PARTS).then(|| Finding::new(path, format!("a shape of {parts} single shapes"), help))
     };
     placed.filter_map(finding).collect()
@@ -151,7 +152,8 @@ fn range_counts(domain: &Domain, [low, high]: &[[f64; 3]; 2]) -> [u64; 3] {
         if d >= domain.axes() {
             return 1;
         }
-        let cell = |x: f64| ((x - domain.origin[d]) / domain.spacing()).floor().clamp(0.0, f64::from(domain.cells[d] - 1));
+        let cell =
+            |x: f64| ((x - domain.origin[d]) / domain.spacing()).floor().clamp(0.0, f64::from(domain.cells[d] - 1));
         (cell(high[d]) - cell(low[d])).max(0.0) as u64 + 1
     })
 }
@@ -167,6 +169,7 @@ fn share(domain: &Domain, shape: &Shape, [low, high]: &[[f64; 3]; 2], parts: u64
         if d < axes { low + (high - low) * (f64::from(k) + 0.5) / f64::from(count) } else { 0.0 }
     };
     let total = count.pow(axes as u32);
-    let inside = |k: u32| shape.distance([at(0, k % count), at(1, k / count % count), at(2, k / (count * count))]) < 0.0;
+    let inside =
+        |k: u32| shape.distance([at(0, k % count), at(1, k / count % count), at(2, k / (count * count))]) < 0.0;
     (0..total).filter(|k| inside(*k)).count() as f64 / f64::from(total)
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use toml::de::{DeTable, DeValue};
 
-use super::{budget, check_shape};
 use super::source::{Finding, walk};
 use super::{GasState, Integrator, Obstacles, Preconditioner, Scene};
+use super::{budget, check_shape};
 
 /// Cells per active axis at least: the advection stencil needs this many.
 const FEWEST_CELLS: u32 = 3;

@@ -57,7 +57,8 @@ impl Check<'_> {
         let out = |number: &&f64| **number != 0.0 && !(least..=most).contains(&number.abs());
         if let Some(number) = numbers.iter().find(out) {
             let message = format!("{number:e} is out of the range of single precision");
-            let help = format!("give a size from {least:e} to {most:e}; other units, in which numbers lie near 1, help");
+            let help =
+                format!("give a size from {least:e} to {most:e}; other units, in which numbers lie near 1, help");
             self.add(path, message, help);
         }
     }

@@ -167,7 +167,8 @@ pub(super) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
             let message = format!("body `{}` reaches out of the domain, at {point:?} for example", body.name);
             let (low, high) = body.shape.bounds();
             let hint = remedy(&scene.domain, low, high);
-            let help = format!("{}; {hint}move or shrink the body, or cut it with an intersection", extent(&scene.domain));
+            let help =
+                format!("{}; {hint}move or shrink the body, or cut it with an intersection", extent(&scene.domain));
             findings.push(Finding::new(&path, message, help));
         } else if !scene.has_particles(index) {
             let message = format!("body `{}` holds no particle", body.name);
@@ -204,7 +205,8 @@ fn remedy(domain: &Domain, low: [f64; 3], high: [f64; 3]) -> String {
     } else if scaled(1e3) {
         "it would fit with `scale = 1000`, to millimetres; ".to_owned()
     } else if inside(upright.0, upright.1) || inside(lying.0, lying.1) {
-        "it would fit after a quarter turn about x: `axis = [1, 0, 0]`, `degrees = 90` or -90, or `up` of a mesh; ".to_owned()
+        "it would fit after a quarter turn about x: `axis = [1, 0, 0]`, `degrees = 90` or -90, or `up` of a mesh; "
+            .to_owned()
     } else {
         String::new()
     }
@@ -219,7 +221,11 @@ fn misses(scene: &Scene, path: &str, shape: &Shape, findings: &mut Vec<Finding>)
         let corner = |v: [f64; 3]| v[..domain.axes()].to_vec();
         let message = format!("lies outside the domain, between {:?} and {:?}", corner(low), corner(high));
         let hint = remedy(domain, low, high);
-        findings.push(Finding::new(path, message, format!("{}; {hint}move the shape or enlarge the domain", extent(domain))));
+        findings.push(Finding::new(
+            path,
+            message,
+            format!("{}; {hint}move the shape or enlarge the domain", extent(domain)),
+        ));
     }
     outside
 }

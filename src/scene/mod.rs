@@ -6,8 +6,8 @@
 //! Units are consistent and chosen by the scene: every field names its dimension in brackets, in kg, m, s for example.
 
 mod body;
-mod budget;
 mod boundary;
+mod budget;
 mod camera;
 mod check;
 mod check_body;
@@ -54,11 +54,11 @@ include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
 pub use body::{Body, Contact, Friction, Motion, MotionAt, Sampling};
-pub use budget::MOST_PARTICLES;
 pub use boundary::{
     AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
     TimedState,
 };
+pub use budget::MOST_PARTICLES;
 pub use camera::{Camera, CameraKey, CameraPath};
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;

@@ -165,7 +165,14 @@ struct Library<'s> {
 
 impl<'s> Library<'s> {
     fn new(own: &'s BTreeMap<String, Shape>, meshes: MeshFolder<'s>) -> Self {
-        Library { own, meshes, surfaces: Surfaces::default(), ready: BTreeMap::new(), open: Vec::new(), findings: Vec::new() }
+        Library {
+            own,
+            meshes,
+            surfaces: Surfaces::default(),
+            ready: BTreeMap::new(),
+            open: Vec::new(),
+            findings: Vec::new(),
+        }
     }
 
     /// Gives the shapes below `shape` what they use.

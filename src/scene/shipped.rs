@@ -60,7 +60,9 @@ pub fn shipped_named(name: &str) -> Result<Shipped> {
         )));
     }
     if folder.is_dir() {
-        return Err(Error::Scene(format!("`{name}` is a folder; name a scene file, or a shipped scene (`brisance list`)")));
+        return Err(Error::Scene(format!(
+            "`{name}` is a folder; name a scene file, or a shipped scene (`brisance list`)"
+        )));
     }
     let mut all = shipped();
     match all.iter().position(|scene| scene.is_called(name)) {

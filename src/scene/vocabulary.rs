@@ -76,7 +76,9 @@ impl<'s> Words<'s> {
         for (key, value) in table.iter_mut() {
             match known.get(&**key.get_ref()) {
                 Some(schema) => self.value(&below(key.get_ref()), value, schema),
-                None if schema["additionalProperties"] == false => unknown.push((key.get_ref().to_string(), key.span())),
+                None if schema["additionalProperties"] == false => {
+                    unknown.push((key.get_ref().to_string(), key.span()))
+                }
                 None => {}
             }
         }

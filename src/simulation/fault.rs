@@ -40,10 +40,13 @@ impl Simulation {
         let Ok(now) = self.snapshot() else { return "it cannot be read back".to_owned() };
         let range = |values: &mut dyn Iterator<Item = f64>| {
             let finite = values.filter(|value| value.is_finite());
-            let [low, high] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+            let [low, high] =
+                finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
             format!("{} to {}", plain(low), plain(high))
         };
-        let gas = || now.density.iter().zip(&now.pressure).map(|(d, p)| (f64::from(*d), f64::from(*p))).filter(|(d, _)| *d > 0.0);
+        let gas = || {
+            now.density.iter().zip(&now.pressure).map(|(d, p)| (f64::from(*d), f64::from(*p))).filter(|(d, _)| *d > 0.0)
+        };
         format!(
             "density {}, pressure {}, temperature p / rho {}",
             range(&mut gas().map(|(density, _)| density)),

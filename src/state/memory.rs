@@ -209,7 +209,8 @@ impl MemoryPlan {
                 format!("the scene needs {:.2} GiB, {device} has {limit:.2} GiB free", gib(self.bytes(None)))
             }
         };
-        let advice = finest_resolution(scene, |cells| fits(&self.at(scene, cells))).map_or_else(|| "use another --device".to_owned(), |cells| format!("--resolution {cells} fits"));
+        let advice = finest_resolution(scene, |cells| fits(&self.at(scene, cells)))
+            .map_or_else(|| "use another --device".to_owned(), |cells| format!("--resolution {cells} fits"));
         Err(Error::DoesNotFit(format!("{problem}; {advice}")))
     }
 

@@ -65,7 +65,20 @@ pub(crate) fn report(folder: &Path) -> serde_json::Value {
 #[test]
 fn help_and_usage() {
     let help = succeeds(&["--help"]);
-    for verb in ["run", "render", "gallery", "check", "bench", "verify", "devices", "list", "schema"] {
+    for verb in [
+        "run",
+        "render",
+        "gallery",
+        "check",
+        "bench",
+        "verify",
+        "devices",
+        "list",
+        "schema",
+        "init",
+        "show",
+        "completions",
+    ] {
         assert!(help.contains(&format!("\n  {verb} ")), "{help}");
     }
     assert!(succeeds(&["--version"]).starts_with("brisance "));
@@ -74,6 +87,7 @@ fn help_and_usage() {
     fails(2, &["run", "sod", "--frames", "many"]);
     fails(2, &["bench", "sod", "--steps", "0"]);
     assert!(succeeds(&["completions", "bash"]).contains("_brisance"));
+    assert!(succeeds(&["man"]).contains(".TH brisance 1"));
 }
 
 #[test]
@@ -347,10 +361,20 @@ fn failed_expectations_have_their_own_exit_code() {
     let scene = folder.path().join("small.toml");
     write_small_scene(&scene);
     let target = folder.path().join("result");
-    let short =
-        ["--set", "expect.min_pressure=1.5", "--until", "0.005", "--no-frames", "--out", target.to_str().unwrap()];
+    let short = [
+        "--set",
+        "expect.min_pressure=1.5",
+        "--until",
+        "0.005",
+        "--no-frames",
+        "--force",
+        "--out",
+        target.to_str().unwrap(),
+    ];
     let arguments = [&["run", scene.to_str().unwrap()], &short[..]].concat();
-    let text = fails(8, &arguments);
+    // what was changed by hand is another experiment
+    assert!(err(&run(&arguments)).contains("not enforced, since the end was changed"));
+    let text = fails(8, &[&arguments[..], &["--expect"]].concat());
     assert!(text.contains("[expect]: min_pressure"), "{text}");
     assert!(!target.join("frames").exists());
     assert_eq!(report(&target)["expect"][0]["passed"], false);
@@ -382,6 +406,8 @@ fn interruption_leaves_complete_files() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let report = report(&target);
     assert!(report["outcome"].as_str().unwrap().starts_with("interrupted"), "{}", report["outcome"]);
+    assert_eq!(report["status"], "stopped");
+    assert!(!target.join(".brisance.lock").exists());
     let frames = report["frames"].as_u64().unwrap();
     for index in 0..frames {
         let picture = std::fs::read(target.join(format!("frames/{index:04}.png"))).unwrap();

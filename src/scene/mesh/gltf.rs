@@ -55,7 +55,9 @@ fn buffers<'b>(file: &'b Gltf, path: &str, place: MeshFolder<'_>) -> Result<Vec<
     let mut buffers = Vec::new();
     for buffer in file.document.buffers() {
         let bytes: Cow<'b, [u8]> = match buffer.source() {
-            Source::Bin => Cow::Borrowed(file.blob.as_deref().ok_or_else(|| damaged(path, "its binary part is missing"))?),
+            Source::Bin => {
+                Cow::Borrowed(file.blob.as_deref().ok_or_else(|| damaged(path, "its binary part is missing"))?)
+            }
             Source::Uri(uri) => match uri.split_once(";base64,") {
                 Some((head, text)) if head.starts_with("data:") => {
                     Cow::Owned(base64(text).ok_or_else(|| damaged(path, "its buffer is no base64"))?)

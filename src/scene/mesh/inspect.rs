@@ -49,7 +49,8 @@ pub(super) fn sound(surface: Surface, repair: bool) -> Result<Tree, Problem> {
     if repair {
         return Ok(tree);
     }
-    let help = "close the surface, or take it as it is with `repair = true`: inside is where the winding number is above 1/2";
+    let help =
+        "close the surface, or take it as it is with `repair = true`: inside is where the winding number is above 1/2";
     let Edges { open, crowded } = edges(&triangles);
     if !open.is_empty() {
         return Err((open_text(&open, &points), help.to_owned()));

@@ -12,11 +12,7 @@ use super::{MAX_BYTES, MAX_TRIANGLES, MeshFolder, Surface, Up, gltf, stl};
 pub(super) type Problem = (String, String);
 
 /// Reads a file by its extension; the second is the direction that its format calls up, if it does.
-pub(super) fn surface(
-    path: &str,
-    node: Option<&str>,
-    place: MeshFolder<'_>,
-) -> Result<(Surface, Option<Up>), Problem> {
+pub(super) fn surface(path: &str, node: Option<&str>, place: MeshFolder<'_>) -> Result<(Surface, Option<Up>), Problem> {
     let end = Path::new(path).extension().map(|end| end.to_string_lossy().to_lowercase()).unwrap_or_default();
     let read = match end.as_str() {
         "obj" => obj,
