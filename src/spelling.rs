@@ -3,7 +3,7 @@
 /// Names that are told at most.
 const MOST: usize = 3;
 /// Names less alike than this are not told.
-const ALIKE: f64 = 0.7;
+const ALIKE: f64 = 0.8;
 
 /// The names most like a word, best first: at most three, none that is quite different.
 pub fn closest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<&'n str> {

@@ -9,13 +9,14 @@ use super::check::overlap_text;
 use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
+use super::outcome::{changed_by_hand, device, last_words, status, totals, verdict};
 use super::progress::{Progress, clock};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Check, Ending, Summary};
 use crate::export::Needs;
-use crate::export::report::{self, DeviceReport, Report, Status};
+use crate::export::report::{self, Report, Status};
 use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::render::{Renderer, SceneBuffers, Stored};
@@ -23,7 +24,7 @@ use crate::scene::{self, Scene};
 use crate::simulation::{BATCH, Simulation};
 use crate::snapshot::Snapshot;
 use crate::state::MemoryPlan;
-use crate::{Error, Result, input};
+use crate::{Error, Result};
 
 /// Runs a scene.
 ///
@@ -62,21 +63,6 @@ fn owning(
     interrupt::listen_between_steps();
     let outcome = run.frames();
     run.finish(outcome, json)
-}
-
-/// What is left to do when the process ends at once: the report says so, and the folder is free.
-fn last_words(folder: &Folder) -> impl FnMut() + Send + use<> {
-    let (report, lock) = (folder.path.join("report.json"), folder.lock().to_owned());
-    move || {
-        let text = input::text(&report, input::MOST_REPORT).ok();
-        let read = text.and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok());
-        if let Some(mut read) = read.filter(|read| read["status"] == "running") {
-            read["status"] = "stopped".into();
-            read["outcome"] = Error::Interrupted.to_string().into();
-            let _ = report::write(&report, &read);
-        }
-        let _ = std::fs::remove_file(&lock);
-    }
 }
 
 /// Options that are keys of the scene.
@@ -376,70 +362,4 @@ pub(super) fn without_coarse(formats: &mut Vec<String>) {
     if formats.iter().any(|name| name == "png16") {
         formats.retain(|name| name != "png");
     }
-}
-
-fn device(gpu: &Gpu) -> DeviceReport {
-    let info = &gpu.info;
-    DeviceReport {
-        name: info.name.clone(),
-        backend: info.backend.to_string(),
-        driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
-        software: gpu.is_software(),
-    }
-}
-
-fn totals(summary: &Summary, end: &Budget) -> BTreeMap<String, f64> {
-    let values = [
-        ("gas_mass", end.gas_mass),
-        ("solid_mass", end.solid_mass),
-        ("energy_with_crossed", end.energy),
-        ("momentum_x_with_crossed", end.momentum[0]),
-        ("momentum_y_with_crossed", end.momentum[1]),
-        ("momentum_z_with_crossed", end.momentum[2]),
-        ("pcg_iterations", summary.iterations as f64),
-        ("pcg_iterations_max", summary.max_iterations.into()),
-        ("pcg_residual_max", summary.max_residual),
-        ("substeps", summary.substeps as f64),
-        ("min_density", summary.min_density),
-        ("min_pressure", summary.min_pressure),
-        ("max_speed", summary.max_speed),
-        ("floored_cells", summary.floored as f64),
-    ];
-    values.map(|(name, value)| (name.to_owned(), value)).into()
-}
-
-/// How far a run came.
-fn status(outcome: &Result<()>) -> Status {
-    match outcome {
-        Ok(()) => Status::Finished,
-        Err(Error::Interrupted) => Status::Stopped,
-        Err(_) => Status::Failed,
-    }
-}
-
-/// Sections whose keys change no number of the result.
-const LOOKS: [&str; 6] = ["render.", "output.", "expect.", "title", "description", "time.frames"];
-
-/// What the command line changed about the experiment.
-fn changed_by_hand(options: &RunOptions) -> Option<String> {
-    if options.scene.resolution.is_some() {
-        return Some("the resolution".to_owned());
-    }
-    if options.until.is_some() {
-        return Some("the end".to_owned());
-    }
-    let key = |set: &String| set.split('=').next().unwrap_or_default().trim().to_owned();
-    options.scene.set.iter().map(key).find(|key| !LOOKS.iter().any(|look| key.starts_with(look)))
-}
-
-/// The error of a run whose checks failed.
-fn verdict(checks: &[Check]) -> Result<()> {
-    let failed: Vec<String> = checks.iter().filter(|check| !check.passed).map(|check| check.name.clone()).collect();
-    if failed.is_empty() {
-        return Ok(());
-    }
-    Err(Error::Expectation(format!(
-        "the run does not meet the scene's [expect]: {}; report.json has the values, --no-expect skips the check",
-        failed.join(", ")
-    )))
 }

@@ -246,7 +246,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("0000.state");
         write(&path, "cafe", &state()).unwrap();
-        let whole = std::fs::read(&path, 1 << 20).unwrap();
+        let whole = std::fs::read(&path).unwrap();
         let told = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
             read(&path, 1 << 20).unwrap_err().to_string()

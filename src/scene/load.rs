@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
-use super::{Material, Scene, check, variants, vocabulary};
+use super::{Material, Scene, budget, check, variants, vocabulary};
 use crate::material::{PRESETS, Units};
 use crate::{Error, Result, input};
 
@@ -67,6 +67,12 @@ impl Scene {
                 )));
             }
             scene.domain.cells[axis] = u32::try_from(scaled / u64::from(longest)).unwrap_or(u32::MAX);
+        }
+        if let Some(first) = budget::findings(&scene).first() {
+            return Err(Error::DoesNotFit(format!(
+                "resolution {cells}: {}: {}; {}",
+                first.path, first.message, first.help
+            )));
         }
         let findings = check::findings(&scene);
         match findings.first() {

@@ -120,10 +120,13 @@ impl Surface {
     }
 }
 
+/// What a surface was read from: path, node, whether y is up, whether it may be open.
+type Key = (String, Option<String>, Option<bool>, bool);
+
 /// Surfaces that were read, by what they were read from: many bodies may share one.
 #[derive(Debug, Default)]
 pub(super) struct Surfaces {
-    ready: BTreeMap<(String, Option<String>, Option<bool>, bool), Arc<Tree>>,
+    ready: BTreeMap<Key, Arc<Tree>>,
     triangles: usize,
 }
 

@@ -29,6 +29,7 @@ mod named;
 mod noise;
 mod polyhedron;
 mod radial_flow;
+mod region;
 mod render;
 mod sample;
 mod settings;
@@ -71,6 +72,7 @@ pub use mesh::{Mesh, Up};
 pub use named::Named;
 pub use polyhedron::Part;
 pub use radial_flow::RadialFlow;
+pub use region::Region;
 pub use render::{
     Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice, Surface,
     ToneMap,
@@ -201,47 +203,6 @@ pub struct GasState {
     pub velocity: [f64; 3],
     /// Pressure `[Pa]`, positive.
     pub pressure: f64,
-}
-
-/// A part of the domain with its own gas state at the start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(from = "RegionKeys", into = "RegionKeys")]
-pub struct Region {
-    /// Where.
-    pub shape: Shape,
-    /// The state inside; its keys stand next to `shape` in the file.
-    pub state: GasState,
-}
-
-/// The keys of a [`Region`] as they stand in the file.
-#[derive(Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "Region")]
-struct RegionKeys {
-    /// Where.
-    shape: Shape,
-    /// Density `[kg m^-3]`, positive.
-    density: f64,
-    /// Velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
-    velocity: [f64; 3],
-    /// Pressure `[Pa]`, positive.
-    pressure: f64,
-}
-
-impl From<RegionKeys> for Region {
-    fn from(keys: RegionKeys) -> Self {
-        let state = GasState { density: keys.density, velocity: keys.velocity, pressure: keys.pressure };
-        Region { shape: keys.shape, state }
-    }
-}
-
-impl From<Region> for RegionKeys {
-    fn from(region: Region) -> Self {
-        let GasState { density, velocity, pressure } = region.state;
-        RegionKeys { shape: region.shape, density, velocity, pressure }
-    }
 }
 
 /// A static obstacle.

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::cli::{brisance, err, fails, report, run, succeeds};
+use crate::cli::{brisance, err, fails, report, run, succeeds, table, write_small_scene};
 use crate::common::gpu_or_skip;
 
 const SHORT: [&str; 7] = ["run", "sod", "--until", "0.01", "--frames", "1", "--out"];
@@ -126,4 +126,39 @@ fn scenes_come_by_name_by_pipe_and_from_nothing() {
     Command::new("mkfifo").arg(folder.path().join("fifo.toml")).status().unwrap();
     assert!(err(&at(&["check", "fifo.toml"])).contains("no regular file"));
     assert!(err(&run(&["check", folder.path().to_str().unwrap()])).contains("is a folder"));
+}
+
+#[test]
+fn interruption_leaves_complete_files() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("small.toml");
+    write_small_scene(&scene);
+    let target = folder.path().join("result");
+    let long = ["--until", "1000", "--frames", "100000", "--out", target.to_str().unwrap()];
+    let arguments = [&["run", scene.to_str().unwrap()], &long[..]].concat();
+    let mut child = brisance(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let start = Instant::now();
+    while !target.join("frames/0003.png").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "ended early");
+        assert!(start.elapsed() < Duration::from_secs(60), "no frame in a minute");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let report = report(&target);
+    assert!(report["outcome"].as_str().unwrap().starts_with("interrupted"), "{}", report["outcome"]);
+    assert_eq!(report["status"], "stopped");
+    assert!(!target.join(".brisance.lock").exists());
+    let frames = report["frames"].as_u64().unwrap();
+    for index in 0..frames {
+        let picture = std::fs::read(target.join(format!("frames/{index:04}.png"))).unwrap();
+        assert!(picture.ends_with(b"IEND\xaeB`\x82"), "frame {index} is cut");
+    }
+    assert!(!target.join(format!("frames/{frames:04}.png")).exists());
+    let (_, steps) = table(&target.join("diagnostics.csv"));
+    assert_eq!(steps.len() as u64, report["steps"].as_u64().unwrap());
 }
