@@ -159,16 +159,16 @@ fn mesh(random: &mut Random) -> (&'static str, Vec<u8>) {
     let (name, mut bytes) = match random.below(5) {
         0 => {
             let mut text = String::new();
-            corners.iter().for_each(|[x, y, z]| drop(writeln!(text, "v {x} {y} {z}")));
-            faces.iter().for_each(|[a, b, c]| drop(writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1)));
+            corners.iter().for_each(|[x, y, z]| writeln!(text, "v {x} {y} {z}").unwrap());
+            faces.iter().for_each(|[a, b, c]| writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).unwrap());
             ("m.obj", text.into_bytes())
         }
         1 => {
             let mut text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n\
                             property list uchar int vertex_indices\nend_header\n"
                 .to_owned();
-            corners.iter().for_each(|[x, y, z]| drop(writeln!(text, "{x} {y} {z}")));
-            faces.iter().for_each(|[a, b, c]| drop(writeln!(text, "3 {a} {b} {c}")));
+            corners.iter().for_each(|[x, y, z]| writeln!(text, "{x} {y} {z}").unwrap());
+            faces.iter().for_each(|[a, b, c]| writeln!(text, "3 {a} {b} {c}").unwrap());
             ("m.ply", text.into_bytes())
         }
         2 => {
@@ -187,7 +187,7 @@ fn mesh(random: &mut Random) -> (&'static str, Vec<u8>) {
                 text.push_str("facet normal 0 0 0\nouter loop\n");
                 face.iter()
                     .map(|k| corners[*k as usize])
-                    .for_each(|[x, y, z]| drop(writeln!(text, "vertex {x} {y} {z}")));
+                    .for_each(|[x, y, z]| writeln!(text, "vertex {x} {y} {z}").unwrap());
                 text.push_str("endloop\nendfacet\n");
             }
             ("m.stl", (text + "endsolid\n").into_bytes())

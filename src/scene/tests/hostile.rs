@@ -58,7 +58,7 @@ fn cells_particles_and_faces_are_counted() {
     expect(&ball, &["domain.cells=[60000, 30000]"], &["particles, about", "134217728"]);
     expect(&ball, &["domain.cells=[2000000000, 1000000000]"], &["domain.cells", "in all"]);
     let open = format!("{BASE}[boundary.y_min.patched]\npatches = [{{ shape = {BALL}, rule = \"outlet\" }}]\n");
-    let open = open.replace("[20, 10]", "[400000000, 4]").replace("[2.0, 1.0]", "[400000000.0, 4.0]");
+    let open = open.replace("[20, 10]", "[300000000, 3]").replace("[2.0, 1.0]", "[300000000.0, 3.0]");
     expect(&open, &[], &["patches of all faces", "100000000"]);
     let mut many = BASE.to_owned();
     for k in 0..1024 {
