@@ -1,5 +1,7 @@
 //! Embeds the shipped scenes and models, so that `brisance run sod` works wherever the binary lies. Adding one is adding one file.
 
+#![allow(clippy::disallowed_macros)]
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 

@@ -49,6 +49,9 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A film could not be made; pictures and tables are there.
+    #[error("{0}; the pictures are written all the same")]
+    Film(String),
     /// The user pressed Ctrl-C; everything written so far is valid.
     #[error("interrupted; all files written so far are complete")]
     Interrupted,
@@ -65,7 +68,7 @@ impl Error {
             Error::DoesNotFit(_) => 5,
             Error::Diverged { .. } => 7,
             Error::Expectation(_) => 8,
-            Error::Io { .. } => 9,
+            Error::Io { .. } | Error::Film(_) => 9,
             Error::Gpu(_) => 75,
             Error::Interrupted => 130,
             Error::Shader(_) => 1,

@@ -12,6 +12,7 @@ use serde::Serialize;
 use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::gpu::{Gpu, readback};
+use crate::math::plain;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::snapshot::{Snapshot, kind};
@@ -197,7 +198,7 @@ pub struct Check {
 impl std::fmt::Display for Check {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let verdict = if self.passed { "ok  " } else { "FAIL" };
-        write!(f, "{verdict} {} = {:.4e}, expected {}", self.name, self.measured, self.allowed)
+        write!(f, "{verdict} {} = {}, expected {}", self.name, plain(self.measured), self.allowed)
     }
 }
 

@@ -14,7 +14,7 @@
 //! # Ok::<(), brisance::Error>(())
 //! ```
 //!
-//! Modules stand on floors and use lower floors only: `math`, `error`, `riemann`; `material`, `gpu`; `scene`, `numerics`;
+//! Modules stand on floors and use lower floors only: `math`, `error`, `input`, `riemann`, `spelling`; `material`, `gpu`; `scene`, `numerics`;
 //! `state`; `stage`, `snapshot`; `simulation`, `diagnostics`, `bodies`; `render`, `expect`; `export`, `verify`; `cli`, `viewer`. The rules of the
 //! house are in `docs/architecture.md`, the method in `docs/method.md`. Start reading at [`simulation::Simulation::record_step`].
 
@@ -25,6 +25,7 @@ pub mod error;
 pub mod expect;
 pub mod export;
 pub mod gpu;
+pub mod input;
 pub mod material;
 pub mod math;
 pub mod numerics;
@@ -33,6 +34,7 @@ pub mod riemann;
 pub mod scene;
 pub mod simulation;
 pub mod snapshot;
+pub mod spelling;
 pub mod stage;
 pub mod state;
 pub mod verify;

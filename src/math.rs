@@ -1,1 +1,12 @@
 //! glam re-exports and small pure helpers.
+
+/// A number as people write it, with about five digits: 4, 0.81, 12345, 1.5e-7.
+#[must_use]
+pub fn plain(number: f64) -> String {
+    let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
+    match rounded.abs() {
+        0.0 => "0".to_owned(),
+        size if (1e-4..1e6).contains(&size) => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
+    }
+}

@@ -46,8 +46,16 @@ pub enum Command {
     List,
     /// Print the JSON schema of scene files
     Schema,
-    /// Print a completion script
-    #[command(hide = true)]
+    /// Write a commented scene to start from
+    Init(InitOptions),
+    /// Print the text of a shipped scene
+    Show {
+        /// Name of a shipped scene, see `brisance list`
+        scene: String,
+    },
+    /// Print the manual page, for `man -l -`
+    Man,
+    /// Print a completion script, for example `brisance completions bash > ~/.local/share/bash-completion/completions/brisance`
     Completions {
         /// For which shell.
         shell: clap_complete::Shell,
@@ -71,6 +79,23 @@ pub struct SceneOptions {
     /// Cells along the longest axis
     #[arg(long, value_name = "CELLS")]
     pub resolution: Option<u32>,
+}
+
+/// Options of `init`.
+#[derive(Debug, Args)]
+pub struct InitOptions {
+    /// Name of the new scene file
+    #[arg(default_value = "scene.toml")]
+    pub name: String,
+    /// Three dimensions instead of two
+    #[arg(long = "3d", conflicts_with_all = ["shock_tube", "from"])]
+    pub in_3d: bool,
+    /// A shock tube instead of a blast
+    #[arg(long, conflicts_with = "from")]
+    pub shock_tube: bool,
+    /// A copy of a shipped scene
+    #[arg(long, value_name = "SCENE")]
+    pub from: Option<String>,
 }
 
 /// Options of `view`.
@@ -101,7 +126,7 @@ pub struct RunOptions {
     /// What to run.
     #[command(flatten)]
     pub scene: SceneOptions,
-    /// Folder for the results [default: out/<scene>]
+    /// Folder for the results [default: out/<scene>, or the next free name beside it]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// End of the run [s], instead of time.until
@@ -119,9 +144,15 @@ pub struct RunOptions {
     /// Write tables and report, but no pictures
     #[arg(long)]
     pub no_frames: bool,
+    /// Replace what an earlier run wrote into --out
+    #[arg(long)]
+    pub force: bool,
     /// Do not compare the result with the scene's [expect]
     #[arg(long)]
     pub no_expect: bool,
+    /// Fail if the result does not meet the scene's [expect], also where resolution, physics or end were changed by hand
+    #[arg(long, conflicts_with = "no_expect")]
+    pub expect: bool,
     /// Print nothing but warnings and errors
     #[arg(long, short)]
     pub quiet: bool,
@@ -143,6 +174,9 @@ pub struct FilmOptions {
 pub struct RenderOptions {
     /// Folder of a run that has states: `brisance run SCENE --export states`
     pub run: PathBuf,
+    /// Read mesh files outside of the folder of the run, too, where the run found them
+    #[arg(long)]
+    pub allow_outside: bool,
     /// Take [render] and output.fields from another scene file, or from a shipped scene
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,

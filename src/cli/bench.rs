@@ -17,8 +17,8 @@ use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::stage::traffic::{self, Load};
 use crate::state::MemoryPlan;
-use crate::state::memory::resolutions;
-use crate::{Error, Result};
+use crate::state::memory::finest_resolution;
+use crate::{Error, Result, input};
 
 /// Time to run towards: far behind the end of any measurement \[s\].
 const NEVER: f64 = 1e30;
@@ -117,7 +117,7 @@ fn show<T: Serialize>(cli: &Cli, result: &T, print: impl Fn(&T)) -> Result<()> {
 
 /// What `--json` printed at an earlier time.
 fn earlier(path: &Path) -> Result<Measurement> {
-    let text = std::fs::read_to_string(path).map_err(|error| Error::io(path, error))?;
+    let text = input::text(path, input::MOST_REPORT).map_err(|error| Error::io(path, error))?;
     serde_json::from_str(&text).map_err(|error| {
         let name = path.display();
         Error::Usage(format!("{name} is no measurement of `brisance bench SCENE --json`: {error}"))
@@ -128,6 +128,7 @@ fn earlier(path: &Path) -> Result<Measurement> {
 fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Result<Measurement> {
     let plan = MemoryPlan::fitting(scene, gpu)?;
     let mut simulation = Simulation::new(gpu, scene)?;
+    interrupt::listen_between_steps();
     simulation.set_target(NEVER)?;
     let warm = summary(&run_steps(&mut simulation, options.warmup)?);
     gpu.wait(None)?;
@@ -204,7 +205,7 @@ fn load(options: &BenchOptions) -> Result<Scene> {
         let ratio = f64::from(cells) / f64::from(largest);
         large.domain.cell_count() as f64 * ratio.powi(large.domain.dimension as i32)
     };
-    let fitting = resolutions(&large).find(|&cells| cells_at(cells) <= most as f64 * (1.0 + 1e-9));
+    let fitting = finest_resolution(&large, |cells| cells_at(cells) <= most as f64 * (1.0 + 1e-9));
     let cells =
         fitting.ok_or_else(|| Error::Usage(format!("--cells {most} is too few for {}", options.scene.scene)))?;
     scene.with_resolution(cells)
@@ -247,7 +248,7 @@ fn timed_steps(simulation: &mut Simulation, steps: u32, detail: Detail) -> Resul
 }
 
 fn stop_if_asked() -> Result<()> {
-    if interrupt::wish() == interrupt::Wish::GoOn { Ok(()) } else { Err(Error::Interrupted) }
+    if interrupt::wish() { Err(Error::Interrupted) } else { Ok(()) }
 }
 
 /// Times and bytes per step of each stage.

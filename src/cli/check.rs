@@ -5,9 +5,11 @@ use std::path::Path;
 use serde_json::json;
 
 use super::args::{CheckOptions, Cli};
+use super::init::not_an_input;
 use super::{open_device, scenes};
 use crate::export::png;
 use crate::gpu::Gpu;
+use crate::math::plain;
 use crate::render::{Renderer, SceneBuffers};
 use crate::scene::{Overlap, Scene, ThinBody};
 use crate::simulation::Simulation;
@@ -22,6 +24,9 @@ use crate::{Error, Result};
 pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     let scene = scenes::load(&options.scene, &[])?;
     let plan = MemoryPlan::new(&scene, scene.particle_count());
+    if let Some(path) = &options.picture {
+        not_an_input(path, &options.scene.scene)?;
+    }
     if cli.device.is_some() || options.picture.is_some() {
         let gpu = open_device(cli)?;
         plan.check_device(&scene, &gpu)?;
@@ -30,13 +35,17 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
         }
     }
     let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
+    let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
+    if let Some(warning) = estimate.warning() {
+        tell!("warning: {warning}");
+    }
     if cli.json {
         let groups: serde_json::Map<_, _> =
             plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes.into())).collect();
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "overlaps": overlaps, "thin": thin, "scene": scene });
+            "memory": memory, "estimate": estimate, "overlaps": overlaps, "thin": thin, "scene": scene });
         say!("{object}");
         return Ok(());
     }
@@ -64,6 +73,13 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     if let Some(largest) = plan.largest() {
         say!("#   largest buffer: {}, {}", largest.name, size(largest.bytes));
     }
+    let solid = match estimate.solid_sound_speed {
+        0.0 => String::new(),
+        speed => format!(", {} m/s in bodies", plain(speed)),
+    };
+    say!("# sound      {} m/s in gas{solid}", plain(estimate.gas_sound_speed));
+    say!("# steps      about {} of {} s, as at the start", plain(estimate.steps.ceil()), plain(estimate.step));
+    say!("# disk       about {}", size(estimate.disk_bytes as u64));
     say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
     Ok(())
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::args::FilmOptions;
 use crate::export::video;
+use crate::{Error, Result};
 
 /// The film that is asked for, with its pictures per second; none, and a warning, where there is no encoder.
 pub(super) fn asked(options: &FilmOptions, frames: &Path) -> Option<(PathBuf, u32)> {
@@ -11,7 +12,7 @@ pub(super) fn asked(options: &FilmOptions, frames: &Path) -> Option<(PathBuf, u3
     if video::is_possible() {
         return Some((path.clone(), options.fps));
     }
-    eprintln!(
+    tell!(
         "warning: no film {}: ffmpeg is not installed or not on the PATH; the pictures are written all the same. With ffmpeg: \
          ffmpeg -framerate {} -i {}/%04d.png -pix_fmt yuv420p {}",
         path.display(),
@@ -22,9 +23,18 @@ pub(super) fn asked(options: &FilmOptions, frames: &Path) -> Option<(PathBuf, u3
     None
 }
 
-/// Tells what became of films: warnings always, success unless quiet.
-pub(super) fn tell(notes: &[String], quiet: bool) {
-    for note in notes.iter().filter(|note| !quiet || note.starts_with("warning")) {
-        eprintln!("{note}");
+/// Tells what became of films, and returns the error of those that were not made.
+pub(super) fn tell(films: &[std::result::Result<String, String>], quiet: bool) -> Result<()> {
+    let mut lost = Vec::new();
+    for film in films {
+        match film {
+            Ok(_) if quiet => {}
+            Ok(made) => tell!("{made}"),
+            Err(reason) => {
+                tell!("warning: {reason}");
+                lost.push(reason.as_str());
+            }
+        }
     }
+    if lost.is_empty() { Ok(()) } else { Err(Error::Film(lost.join("; "))) }
 }

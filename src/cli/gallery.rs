@@ -11,12 +11,12 @@ use std::time::Instant;
 use serde_json::{Value, json};
 
 use super::args::{Cli, GalleryOptions, RunOptions, Scale, SceneOptions};
-use super::interrupt::{self, Wish};
+use super::interrupt;
 use super::progress::clock;
 use super::{open_device, run};
 use crate::export::atomic;
 use crate::scene::{self, SMALL, Scene};
-use crate::{Error, Result};
+use crate::{Error, Result, input};
 
 /// Folders of the scenes that are shown when nobody asks for others.
 const SHOWN: [&str; 2] = ["paper", "demos"];
@@ -64,7 +64,7 @@ pub(super) fn gallery(options: &GalleryOptions, cli: &Cli) -> Result<()> {
     } else {
         say!("{} scenes in {}: {}", shown.len(), clock(seconds), options.out.join("gallery.html").display());
     }
-    if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { verdict(&shown, &options.out) }
+    if interrupt::wish() { Err(Error::Interrupted) } else { verdict(&shown, &options.out) }
 }
 
 /// How many scenes run at a time.
@@ -92,12 +92,12 @@ fn perform(
     let shown: Mutex<Vec<(usize, Shown)>> = Mutex::default();
     let quiet = cli.json || options.quiet || jobs > 1;
     let work = || {
-        while interrupt::wish() == Wish::GoOn {
+        while !interrupt::wish() {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(entry) = entries.get(index) else { break };
-            eprintln!("[{}/{count}] {}", index + 1, entry.id);
+            tell!("[{}/{count}] {}", index + 1, entry.id);
             let one = show(entry, &options.out, quiet, cli);
-            eprintln!("[{}/{count}] {}: {}", index + 1, one.entry.id, one.error.as_deref().unwrap_or("done"));
+            tell!("[{}/{count}] {}: {}", index + 1, one.entry.id, one.error.as_deref().unwrap_or("done"));
             let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
             let place = shown.partition_point(|(other, _)| *other < index);
             shown.insert(place, (index, one));
@@ -167,7 +167,7 @@ fn show(entry: &Entry, out: &Path, quiet: bool, cli: &Cli) -> Shown {
         allow_outside: false,
         resolution: None,
     };
-    let run = RunOptions { scene, out: Some(folder.clone()), quiet, ..RunOptions::default() };
+    let run = RunOptions { scene, out: Some(folder.clone()), force: true, quiet, ..RunOptions::default() };
     // what an earlier gallery left must not stand for a run that does not get so far
     let _ = std::fs::remove_file(folder.join("report.json"));
     let outcome = catch_unwind(AssertUnwindSafe(|| run::perform(&run, cli, false)));
@@ -176,7 +176,7 @@ fn show(entry: &Entry, out: &Path, quiet: bool, cli: &Cli) -> Shown {
         Ok(Err(error)) => Some(error.to_string()),
         Err(_) => Some("a bug of ours, said above".to_owned()),
     };
-    let report = std::fs::read_to_string(folder.join("report.json")).ok();
+    let report = input::text(&folder.join("report.json"), input::MOST_REPORT).ok();
     let report = report.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
     Shown { entry: entry.clone(), error, seconds: start.elapsed().as_secs_f64(), report }
 }

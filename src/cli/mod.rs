@@ -9,14 +9,24 @@ macro_rules! say {
     }};
 }
 
+/// Prints a line on standard error. A terminal that has gone away never ends a run.
+macro_rules! tell {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($text)*);
+    }};
+}
+
 mod args;
 mod bench;
 mod check;
 mod film;
 mod folder;
 mod gallery;
+mod init;
 mod interrupt;
 mod list;
+mod outcome;
 mod progress;
 mod render;
 mod run;
@@ -44,7 +54,8 @@ const INTERNAL: u8 = 1;
 /// Runs the program: reads the arguments, does what they say, reports errors once, and returns the exit code.
 #[must_use]
 pub fn main() -> ExitCode {
-    panic::set_hook(Box::new(|info| eprintln!("{}", bug_report(info))));
+    with_runtime_folder();
+    panic::set_hook(Box::new(|info| tell!("{}", bug_report(info))));
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(message) => {
@@ -64,6 +75,19 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// Starts the program again with a folder that graphics drivers ask for and complain about, where there is none.
+fn with_runtime_folder() {
+    #[cfg(target_os = "linux")]
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none()
+        && let Ok(program) = std::env::current_exe()
+    {
+        use std::os::unix::process::CommandExt;
+        // It returns only where that is not possible; then the driver complains.
+        let again = &mut std::process::Command::new(program);
+        let _ = again.args(std::env::args_os().skip(1)).env("XDG_RUNTIME_DIR", std::env::temp_dir()).exec();
+    }
+}
+
 /// One line for a panic, which is always a bug.
 fn bug_report(info: &panic::PanicHookInfo<'_>) -> String {
     let payload = info.payload();
@@ -79,7 +103,7 @@ fn report(error: &Error, json: bool) {
     let text = error.to_string();
     // The findings of a scene bring their own heads.
     let head = if text.starts_with("error") { "" } else { "error: " };
-    eprintln!("{head}{}", text.trim_end());
+    tell!("{head}{}", text.trim_end());
     if json {
         say!("{}", json!({ "error": { "code": error.exit_code(), "kind": kind(error), "message": text } }));
     }
@@ -95,6 +119,7 @@ fn kind(error: &Error) -> &'static str {
         Error::Diverged { .. } => "diverged",
         Error::Expectation(_) => "expectation",
         Error::Io { .. } => "io",
+        Error::Film(_) => "film",
         Error::Gpu(_) => "gpu",
         Error::Interrupted => "interrupted",
         Error::Shader(_) => "shader",
@@ -117,6 +142,15 @@ fn execute(cli: &Cli) -> Result<()> {
             say!("{}", crate::scene::schema());
             Ok(())
         }
+        Command::Init(options) => init::init(options),
+        Command::Show { scene } => init::show(scene),
+        Command::Man => {
+            let mut page = Vec::new();
+            let written = clap_mangen::Man::new(Cli::command()).render(&mut page);
+            written.map_err(|source| Error::io("standard output", source))?;
+            say!("{}", String::from_utf8_lossy(&page));
+            Ok(())
+        }
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "brisance", &mut script);
@@ -130,7 +164,7 @@ fn execute(cli: &Cli) -> Result<()> {
 fn window(cli: &Cli) -> Result<()> {
     view::view(None, cli).inspect_err(|error| {
         if matches!(error, Error::Usage(_)) && !cli.json {
-            eprintln!("{}", Cli::command().render_help());
+            tell!("{}", Cli::command().render_help());
         }
     })
 }
@@ -141,9 +175,7 @@ fn open_device(cli: &Cli) -> Result<Gpu> {
     let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })?;
     if gpu.is_software() && !ANNOUNCED.swap(true, Ordering::Relaxed) {
         let name = &gpu.info.name;
-        eprintln!(
-            "warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU"
-        );
+        tell!("warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU");
     }
     Ok(gpu)
 }

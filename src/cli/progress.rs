@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::diagnostics::StepRecord;
+use crate::math::plain;
 
 /// Resolution of the bar.
 const TICKS: u64 = 10_000;
@@ -49,7 +50,7 @@ impl Progress {
                 bar.set_message(self.text(time, last, part));
             }
             Form::Lines if self.spoken.elapsed() >= PAUSE => {
-                eprintln!("{:5.1} %  {}", 100.0 * part, self.text(time, last, part));
+                tell!("{:5.1} %  {}", 100.0 * part, self.text(time, last, part));
                 self.spoken = Instant::now();
             }
             Form::Lines => {}
@@ -60,7 +61,8 @@ impl Progress {
         let (step, iterations) = last.map_or((0, 0), |record| (record.step, record.iterations));
         let left = self.start.elapsed().mul_f64(if part > 0.0 { (1.0 - part) / part } else { 0.0 });
         let left = if part > 0.0 { clock(left) } else { "?".to_owned() };
-        format!("t = {time:.4e} s  step {step}  PCG {iterations}  {} to go", left)
+        let time = plain(time);
+        format!("t = {time} s  step {step}  PCG {iterations}  {} to go", left)
     }
 
     /// Takes the bar away.

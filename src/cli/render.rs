@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::args::{Cli, RenderOptions};
-use super::interrupt::{self, Wish};
+use super::interrupt;
 use super::progress::clock;
 use super::run::{PICTURES, without_coarse};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
@@ -15,9 +15,9 @@ use super::{film, open_device};
 use crate::export::states;
 use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
-use crate::scene::{Scene, Shot};
+use crate::scene::{MOST_PARTICLES, Scene, Shot};
 use crate::state::Grid;
-use crate::{Error, Result};
+use crate::{Error, Result, input};
 
 /// Name of the scene's own look among the views.
 const MAIN: &str = "main";
@@ -27,6 +27,7 @@ const MAIN: &str = "main";
 struct Recorded {
     scene_hash: String,
     scene_file: String,
+    particles: u64,
     scene: Scene,
 }
 
@@ -38,7 +39,7 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
     let recorded = read_report(&options.run)?;
-    let hash = recorded.scene_hash.clone();
+    let (hash, particles) = (recorded.scene_hash.clone(), recorded.particles.min(MOST_PARTICLES));
     let scene = with_look(recorded, options)?;
     if scene.hash() != hash {
         let message = "the scene of the run is read differently by this program, or a mesh file of it has changed";
@@ -49,12 +50,12 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     let folder = options.out.clone().unwrap_or_else(|| options.run.join("again"));
     let files = files(options, folder.clone())?;
     let gpu = open_device(cli)?;
-    let mut drawing = Drawing { gpu, scene, hash, shots, depth: files.needs()?.depth, at_work: None };
+    let mut drawing = Drawing { gpu, scene, hash, shots, particles, depth: files.needs()?.depth, at_work: None };
+    interrupt::listen_between_steps();
     let writer = Writer::start(files, &drawing.scene);
     let mut drawn = Ok(());
     for (index, path) in &frames {
-        let frame =
-            if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
+        let frame = if interrupt::wish() { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
         let accepted = frame.map(|frame| writer.send(Message { records: Vec::new(), frame: Some(frame) }));
         if !matches!(accepted, Ok(true)) {
             drawn = accepted.map(|_| ());
@@ -62,9 +63,9 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
         }
     }
     // What the writer has to say comes first: a disk that is full, for example.
-    let Written { frames, notes, .. } = writer.finish()?;
-    film::tell(&notes, options.quiet || cli.json);
-    drawn?;
+    let Written { frames, films, .. } = writer.finish()?;
+    let filmed = film::tell(&films, options.quiet || cli.json);
+    drawn.and(filmed)?;
     if cli.json {
         say!("{}", json!({ "frames": frames, "folder": folder, "seconds": start.elapsed().as_secs_f64() }));
     } else if !options.quiet {
@@ -75,7 +76,7 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
 
 fn read_report(run: &Path) -> Result<Recorded> {
     let path = run.join("report.json");
-    let text = std::fs::read_to_string(&path).map_err(|source| match source.kind() {
+    let text = input::text(&path, input::MOST_REPORT).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => {
             Error::Usage(format!("{} is no folder of a run: it has no report.json", run.display()))
         }
@@ -99,8 +100,8 @@ fn with_look(recorded: Recorded, options: &RenderOptions) -> Result<Scene> {
             "only render.* and output.fields can change without simulating; use `brisance run` for other keys";
         return Err(Error::Usage(format!("--set {key}: {message}")));
     }
-    // The meshes of the run, wherever they were allowed to lie.
-    let mut overrides = vec!["allow_outside=true".to_owned()];
+    // What came from elsewhere names no files outside of its folder.
+    let mut overrides = vec![format!("allow_outside={}", options.allow_outside)];
     if let Some(camera) = &options.camera {
         scene.render.path = None;
         overrides.push(format!("render.camera={camera}"));
@@ -119,7 +120,17 @@ fn with_look(recorded: Recorded, options: &RenderOptions) -> Result<Scene> {
     }
     overrides.extend(options.set.iter().cloned());
     let text = toml::to_string(&scene).map_err(|error| Error::Scene(format!("report.json: {error}")))?;
-    Scene::parse(&text, &recorded.scene_file, &overrides)
+    if options.allow_outside {
+        return Scene::parse(&text, &recorded.scene_file, &overrides);
+    }
+    let place = options.run.join("scene.toml");
+    Scene::parse(&text, &place.display().to_string(), &overrides).map_err(|error| match error {
+        Error::Scene(text) if text.contains(".mesh.path") => {
+            let hint = "nothing outside of the folder of the run is read; --allow-outside reads meshes where the run found them";
+            Error::Scene(format!("{text}\n{hint}"))
+        }
+        error => error,
+    })
 }
 
 /// The views that are asked for; what the command line says holds for each of them.
@@ -174,7 +185,7 @@ fn files(options: &RenderOptions, folder: PathBuf) -> Result<Files> {
     }
     without_coarse(&mut formats);
     let video = film::asked(&options.film, &folder.join("frames"));
-    Ok(Files { folder, formats, video, tables: false })
+    Ok(Files { folder, formats, video, tables: false, listed: false })
 }
 
 /// Device, scene and look, and the buffers and kernels of the frames so far.
@@ -183,14 +194,15 @@ struct Drawing {
     scene: Scene,
     hash: String,
     shots: Vec<Shot>,
+    particles: u64,
     depth: crate::render::Depth,
     at_work: Option<(Loaded, Renderer)>,
 }
 
 impl Drawing {
     fn draw(&mut self, index: u32, path: &Path) -> Result<FrameToWrite> {
-        let (hash, stored) = states::read(path)?;
         let grid = Grid::of(&self.scene.domain);
+        let (hash, stored) = states::read(path, states::most_bytes(grid.slots() as u64, self.particles))?;
         if hash != self.hash || !stored.fits(&grid) {
             return Err(Error::Usage(format!("{} is a state of another scene than report.json", path.display())));
         }

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
 use super::args::{Cli, VerifyOptions};
-use super::interrupt::{self, Wish};
+use super::interrupt;
 use super::open_device;
 use crate::export::atomic;
 use crate::gpu::{Gpu, GpuOptions};
@@ -41,13 +41,14 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
     let gpu = open_device(cli)?;
+    interrupt::listen_between_steps();
     let bar = progress(cases.len());
     let notify = |text: &str| {
         match &bar {
             Some(bar) => bar.set_message(text.to_owned()),
-            None => eprintln!("{:6.1} s  {text}", start.elapsed().as_secs_f64()),
+            None => tell!("{:6.1} s  {text}", start.elapsed().as_secs_f64()),
         }
-        if interrupt::wish() >= Wish::AfterFrame { Err(Error::Interrupted) } else { Ok(()) }
+        if interrupt::wish() { Err(Error::Interrupted) } else { Ok(()) }
     };
     let done = || bar.iter().for_each(|bar| bar.inc(1));
     let devices = [std::slice::from_ref(&gpu), &more_devices(cli, &gpu)?].concat();

@@ -25,7 +25,7 @@ pub(super) fn view(options: Option<&ViewOptions>, cli: &Cli) -> Result<()> {
     let options = GpuOptions { device: cli.device.clone(), shaders: None };
     let (steps, seconds) = crate::viewer::run(options, request, pace)?;
     if steps > 0 {
-        eprintln!(
+        tell!(
             "{steps} steps in {seconds:.1} s: {:.2} steps/s with everything that the window needs",
             steps as f64 / seconds
         );

@@ -6,11 +6,12 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use super::folder::Folder;
 use super::tables::Tables;
 use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::export::video::VideoExporter;
-use crate::export::{self, Exporter, Moment, Needs, Origin};
+use crate::export::{self, Exporter, Moment, Needs, Origin, atomic};
 use crate::render::{Picture, Stored};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
@@ -55,6 +56,8 @@ pub(super) struct Files {
     pub(super) video: Option<(PathBuf, u32)>,
     /// Whether there are tables.
     pub(super) tables: bool,
+    /// Whether the folder keeps a list of what is written.
+    pub(super) listed: bool,
 }
 
 impl Files {
@@ -90,8 +93,8 @@ pub(super) struct Written {
     pub(super) frames: u32,
     /// Time spent encoding and writing.
     pub(super) busy: Duration,
-    /// What there is to tell about the files.
-    pub(super) notes: Vec<String>,
+    /// What became of films.
+    pub(super) films: Vec<std::result::Result<String, String>>,
 }
 
 impl Writer {
@@ -122,6 +125,7 @@ impl Writer {
 }
 
 fn work(messages: &Receiver<Message>, files: &Files, scene: &Scene) -> Result<Written> {
+    atomic::remember();
     let mut exporters = files.open()?;
     let mut tables = files.tables.then(|| Tables::new(&files.folder, scene));
     let origin = Origin::of(scene);
@@ -147,11 +151,14 @@ fn work(messages: &Receiver<Message>, files: &Files, scene: &Scene) -> Result<Wr
         if let Some(tables) = &mut tables {
             tables.save()?;
         }
+        if files.listed {
+            Folder::note(&files.folder, &atomic::newly_written())?;
+        }
         written.busy += start.elapsed();
     }
     let start = Instant::now();
     for exporter in &mut exporters {
-        written.notes.extend(exporter.finish()?);
+        written.films.extend(exporter.finish());
     }
     written.busy += start.elapsed();
     Ok(written)

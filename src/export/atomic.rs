@@ -1,9 +1,34 @@
 //! Files appear complete or not at all: written under a temporary name in the same folder, then renamed.
 
+use std::cell::RefCell;
+use std::collections::HashSet;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::{Error, Result};
+
+/// Files that a thread has written.
+#[derive(Default)]
+struct Written {
+    seen: HashSet<PathBuf>,
+    new: Vec<PathBuf>,
+}
+
+thread_local! {
+    static WRITTEN: RefCell<Option<Written>> = const { RefCell::new(None) };
+}
+
+/// From now on this thread remembers what it writes.
+pub fn remember() {
+    WRITTEN.set(Some(Written::default()));
+}
+
+/// What this thread has written for the first time since the last call, once it remembers.
+#[must_use]
+pub fn newly_written() -> Vec<PathBuf> {
+    WRITTEN
+        .with_borrow_mut(|written| written.as_mut().map_or_else(Vec::new, |written| std::mem::take(&mut written.new)))
+}
 
 /// Writes `path` through `fill`, creating its folder; an existing file is replaced only when everything was written.
 pub fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
@@ -26,6 +51,13 @@ fn try_write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
     fill(&mut writer)?;
     let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.persist(path)?;
+    WRITTEN.with_borrow_mut(|written| {
+        if let Some(written) = written
+            && written.seen.insert(path.to_owned())
+        {
+            written.new.push(path.to_owned());
+        }
+    });
     Ok(())
 }
 

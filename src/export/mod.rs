@@ -5,6 +5,7 @@
 pub mod apng;
 pub mod atomic;
 pub mod csv;
+mod encoder;
 pub mod exr;
 pub mod png;
 pub mod report;
@@ -17,6 +18,7 @@ use std::path::{Path, PathBuf};
 use crate::render::{Depth, Picture, Stored};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
+use crate::spelling::did_you_mean;
 use crate::{Error, Result};
 
 /// What files say about the scene that they come from.
@@ -119,9 +121,9 @@ pub trait Exporter {
         Needs::default()
     }
 
-    /// Called once behind the last frame; what there is to tell the user.
-    fn finish(&mut self) -> Result<Vec<String>> {
-        Ok(Vec::new())
+    /// Called once behind the last frame; what there is to tell the user, and what was not made.
+    fn finish(&mut self) -> Vec<std::result::Result<String, String>> {
+        Vec::new()
     }
 }
 
@@ -173,6 +175,7 @@ pub fn open(names: &[String], folder: &Path) -> Result<Vec<Box<dyn Exporter>>> {
 fn find(name: &str) -> Result<&'static Format> {
     FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
         let known: Vec<_> = FORMATS.iter().map(|format| format.name).collect();
-        Error::Usage(format!("no export format `{name}`; there are: {}", known.join(", ")))
+        let like = did_you_mean(name, known.iter().copied());
+        Error::Usage(format!("no export format `{name}`{like} There are: {}", known.join(", ")))
     })
 }

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::Result;
 use crate::expect::Check;
 use crate::export::atomic;
+use crate::{Error, Result};
 
 /// The device a run used.
 #[derive(Debug, Clone, Serialize)]
@@ -22,11 +22,27 @@ pub struct DeviceReport {
     pub software: bool,
 }
 
+/// How far a run came.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// It goes on, or its process was killed; the other entries are those of the last frame.
+    Running,
+    /// It came to its end, whatever its expectations say.
+    Finished,
+    /// Somebody stopped it.
+    Stopped,
+    /// Something went wrong; `outcome` says what went wrong first.
+    Failed,
+}
+
 /// Contents of report.json. `S` is the scene with its defaults filled in.
 #[derive(Debug, Clone, Serialize)]
 pub struct Report<S> {
     /// Version of Brisance.
     pub version: &'static str,
+    /// How far it came.
+    pub status: Status,
     /// `running`, `finished`, or the error message.
     pub outcome: String,
     /// Simulated time reached \[s\].
@@ -59,10 +75,15 @@ pub struct Report<S> {
     pub scene: S,
 }
 
-/// Writes any report as indented JSON.
+/// Writes any report as indented JSON. On a full disk the earlier report makes room for the new one.
+///
+/// # Errors
+/// [`Error::Io`] if it cannot be written.
 pub fn write(path: &Path, report: &impl Serialize) -> Result<()> {
-    atomic::write(path, |out| {
-        serde_json::to_writer_pretty(&mut *out, report)?;
-        out.write_all(b"\n")
+    let mut text = serde_json::to_vec_pretty(report).map_err(|error| Error::io(path, error.into()))?;
+    text.push(b'\n');
+    atomic::write(path, |out| out.write_all(&text)).or_else(|error| match path.is_file() {
+        true => std::fs::write(path, &text).map_err(|_| error),
+        false => Err(error),
     })
 }

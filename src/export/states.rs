@@ -15,13 +15,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::render::{Stored, StoredParticles};
-use crate::{Error, Result};
+use crate::{Error, Result, input};
 
 /// First line of every file; the number is that of the format.
 const MAGIC: &str = "brisance state 1";
 
 /// Bytes of a number in all arrays but the kinds.
 const WORD: usize = 4;
+/// Bytes of a slot of the grid, and of a particle.
+const SLOT: u64 = 24;
+const PARTICLE: u64 = 160;
 
 /// Writes `states/NNNN.state`.
 #[derive(Debug)]
@@ -121,19 +124,27 @@ pub fn write(path: &Path, scene: &str, state: &Stored) -> Result<()> {
     })
 }
 
-/// Reads one state and the hash of its scene.
+/// Bytes that the arrays of a state have at most, in a scene of so many slots and particles.
+#[must_use]
+pub fn most_bytes(slots: u64, particles: u64) -> u64 {
+    SLOT * slots + PARTICLE * particles
+}
+
+/// Reads one state and the hash of its scene; its arrays may have `most` bytes in all.
 ///
 /// # Errors
 /// [`Error::Io`] if the file cannot be read or is no whole state.
-pub fn read(path: &Path) -> Result<(String, Stored)> {
-    let file = std::fs::read(path).map_err(|source| Error::io(path, source))?;
-    parse(&file).map_err(|reason| {
+pub fn read(path: &Path, most: u64) -> Result<(String, Stored)> {
+    // what does not compress grows by less than its head
+    let file =
+        input::bytes(path, most.saturating_add(most / 8) + (1 << 20)).map_err(|source| Error::io(path, source))?;
+    parse(&file, most).map_err(|reason| {
         let text = format!("{reason}; run the scene again with --export states");
         Error::io(path, io::Error::new(io::ErrorKind::InvalidData, text))
     })
 }
 
-fn parse(file: &[u8]) -> std::result::Result<(String, Stored), String> {
+fn parse(file: &[u8], most: u64) -> std::result::Result<(String, Stored), String> {
     let mut lines = file.splitn(3, |byte| *byte == b'\n');
     if lines.next() != Some(MAGIC.as_bytes()) {
         return Err(format!("not a file that begins with `{MAGIC}`"));
@@ -141,6 +152,10 @@ fn parse(file: &[u8]) -> std::result::Result<(String, Stored), String> {
     let head: Head = serde_json::from_slice(lines.next().unwrap_or_default())
         .map_err(|error| format!("its second line cannot be read: {error}"))?;
     let mut rest = lines.next().unwrap_or_default();
+    let promised = head.arrays.iter().fold(0u64, |sum, array| sum.saturating_add(array.bytes as u64));
+    if promised > most {
+        return Err(format!("its arrays have {promised} bytes, those of the scene at most {most}"));
+    }
     let mut arrays = Vec::new();
     for array in head.arrays {
         let (stream, behind) = rest.split_at_checked(array.stored).ok_or("the file is cut")?;
@@ -220,7 +235,7 @@ mod tests {
         for particles in [state().particles, None] {
             let state = Stored { particles, ..state() };
             write(&path, "cafe", &state).unwrap();
-            let (scene, again) = read(&path).unwrap();
+            let (scene, again) = read(&path, 1 << 20).unwrap();
             assert_eq!((scene.as_str(), text(&again)), ("cafe", text(&state)));
         }
         assert_eq!(list(folder.path()).unwrap(), [(3, path)]);
@@ -234,7 +249,7 @@ mod tests {
         let whole = std::fs::read(&path).unwrap();
         let told = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
-            read(&path).unwrap_err().to_string()
+            read(&path, 1 << 20).unwrap_err().to_string()
         };
         assert!(told(b"P6 2 2").contains("brisance state 1"));
         assert!(told(&whole[..whole.len() - 9]).contains("the file is cut"));

@@ -1,23 +1,18 @@
 //! Films: raw pictures through a pipe to ffmpeg, one film per view. It encodes in processes of its own, beside the simulation.
 
 use std::ffi::OsString;
-use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::Command;
 
+use crate::export::encoder::{self, ENCODER, Encoder};
 use crate::export::{Exporter, Moment};
 use crate::render::Frame;
 use crate::{Error, Result};
 
-/// The program that encodes.
-const ENCODER: &str = "ffmpeg";
-
 /// Whether films can be made here.
 #[must_use]
 pub fn is_possible() -> bool {
-    let quiet = || Stdio::null();
-    let asked = Command::new(ENCODER).arg("-version").stdin(quiet()).stdout(quiet()).stderr(quiet()).status();
-    asked.is_ok_and(|status| status.success())
+    encoder::answers()
 }
 
 /// Writes the first picture of each view to a film: `film.mp4` for the scene's own look, `film_VIEW.mp4` for the others.
@@ -36,8 +31,7 @@ struct Film {
     path: PathBuf,
     /// Where it grows until it is complete.
     draft: PathBuf,
-    process: Child,
-    pipe: Option<ChildStdin>,
+    encoder: Option<Encoder>,
     size: [u32; 2],
     /// Why it was given up.
     failed: Option<String>,
@@ -73,8 +67,8 @@ impl Exporter for VideoExporter {
         Ok(())
     }
 
-    fn finish(&mut self) -> Result<Vec<String>> {
-        Ok(self.films.drain(..).map(Film::finish).collect())
+    fn finish(&mut self) -> Vec<std::result::Result<String, String>> {
+        self.films.drain(..).map(Film::finish).collect()
     }
 }
 
@@ -105,63 +99,41 @@ impl Film {
         command.args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]);
         command.args(["-metadata", &format!("title={}", moment.origin.title)]);
         command.args(["-metadata", &format!("comment=brisance, scene {}", moment.origin.hash)]);
-        command.arg(&draft).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
-        #[cfg(unix)]
-        {
-            use std::os::unix::process::CommandExt;
-            // Ctrl-C in the terminal is for us: the film ends when its pictures end.
-            command.process_group(0);
-        }
-        let mut process = command.spawn().map_err(|source| Error::io(ENCODER, source))?;
-        let pipe = process.stdin.take();
+        command.arg(&draft);
+        let encoder = Encoder::start(command).map_err(|source| Error::io(ENCODER, source))?;
         let size = [frame.width, frame.height];
-        Ok(Self { view: view.to_owned(), path: film, draft, process, pipe, size, failed: None })
+        Ok(Self { view: view.to_owned(), path: film, draft, encoder: Some(encoder), size, failed: None })
     }
 
     /// Takes a picture. A film that fails does not stop the run, whose pictures are on the disk all the same.
     fn add(&mut self, frame: &Frame) {
-        let Some(pipe) = &mut self.pipe else { return };
-        let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-        let sent = if [frame.width, frame.height] == self.size {
-            pipe.write_all(&rgb)
+        let Some(encoder) = self.encoder.as_mut().filter(|_| self.failed.is_none()) else { return };
+        let rgb = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        self.failed = if [frame.width, frame.height] == self.size {
+            encoder.add(rgb).err()
         } else {
-            Err(io::Error::other("pictures of several sizes make no film"))
+            Some("pictures of several sizes make no film".to_owned())
         };
-        if let Err(error) = sent {
-            self.failed = Some(error.to_string());
-            self.pipe = None;
-        }
     }
 
-    /// Waits for the encoder; what became of the film.
-    fn finish(mut self) -> String {
-        self.pipe = None;
-        let mut said = String::new();
-        if let Some(errors) = &mut self.process.stderr {
-            // What it says is only told.
-            let _ = errors.read_to_string(&mut said);
-        }
-        let done = self.process.wait().is_ok_and(|status| status.success());
-        let reason = self.failed.take().map(|reason| format!("{reason} {said}"));
+    /// Waits for the encoder; where the film is, or why there is none.
+    fn finish(mut self) -> std::result::Result<String, String> {
+        let ended = self.encoder.take().map_or(Ok(()), Encoder::finish);
+        let reason = self.failed.take().map(|reason| format!("{reason}; {}", ended.as_ref().err().unwrap_or(&reason)));
         let moved = match reason {
-            None if done => std::fs::rename(&self.draft, &self.path).map_err(|error| error.to_string()),
-            reason => Err(reason.unwrap_or(said)),
+            None => ended.and_then(|()| std::fs::rename(&self.draft, &self.path).map_err(|error| error.to_string())),
+            Some(reason) => Err(reason),
         };
-        match moved {
-            Ok(()) => format!("film in {}", self.path.display()),
-            Err(reason) => {
-                format!("warning: no film {}: {ENCODER} failed: {}", self.path.display(), reason.trim())
-            }
-        }
+        let film = self.path.display();
+        moved
+            .map(|()| format!("film in {film}"))
+            .map_err(|reason| format!("no film {film}: {ENCODER}: {}", reason.trim()))
     }
 }
 
 impl Drop for Film {
     fn drop(&mut self) {
-        // A film that was finished has no draft any more, and its process has ended.
-        self.pipe = None;
-        let _ = self.process.kill();
-        let _ = self.process.wait();
+        // A film that was finished has no draft any more.
         let _ = std::fs::remove_file(&self.draft);
     }
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use toml::de::{DeTable, DeValue};
 
-use super::check_shape;
 use super::source::{Finding, walk};
 use super::{GasState, Integrator, Obstacles, Preconditioner, Scene};
+use super::{budget, check_shape};
 
 /// Cells per active axis at least: the advection stencil needs this many.
 const FEWEST_CELLS: u32 = 3;
@@ -14,6 +14,9 @@ const FEWEST_CELLS: u32 = 3;
 const MOST_SLOTS: u64 = i32::MAX as u64;
 /// Edges of a cell may differ by this much, relative: what decimal numbers in a file lose.
 const CUBE_TOLERANCE: f64 = 1e-6;
+
+/// Bytes that titles and names have at most.
+const MOST_LETTERS: usize = 200;
 
 /// Keys that hold one number per axis.
 const VECTORS: [&str; 16] = [
@@ -56,9 +59,9 @@ pub(super) fn numbers(root: &DeTable<'_>, findings: &mut Vec<Finding>) {
 
 /// Everything that is wrong with a scene.
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
-    let mut check = Check { scene, findings: Vec::new() };
+    let mut check = Check { scene, sound_domain: false, findings: Vec::new() };
     check.domain();
-    let sound_domain = check.findings.is_empty();
+    check.sound_domain = check.findings.is_empty();
     check.gas();
     check.boundary();
     check.bodies();
@@ -69,8 +72,16 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     check.numerics();
     check.render();
     check.expect();
-    if sound_domain && check.findings.len() == before {
-        check_shape::places(scene, &mut check.findings);
+    if check.sound_domain && check.findings.is_empty() {
+        check.ranges();
+    }
+    // what loops over cells comes last, and only where a count says that it ends
+    if check.sound_domain && check.findings.len() == before {
+        check.findings.extend(budget::findings(scene));
+        if check.findings.len() == before {
+            check.patches_cover();
+            check_shape::places(scene, &mut check.findings);
+        }
     }
     check.findings
 }
@@ -78,6 +89,8 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
 /// The scene and what has been found so far.
 pub(super) struct Check<'s> {
     pub(super) scene: &'s Scene,
+    /// Whether cells may be counted.
+    sound_domain: bool,
     pub(super) findings: Vec<Finding>,
 }
 
@@ -199,14 +212,20 @@ impl Check<'_> {
 
     fn names(&mut self) {
         let scene = self.scene;
+        if scene.title.len() > MOST_LETTERS || scene.title.chars().any(char::is_control) {
+            let message = format!("{} bytes, or control characters", scene.title.len());
+            self.add("title", message, format!("give one line of at most {MOST_LETTERS} bytes; films carry it"));
+        }
         let bodies = scene.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
         let obstacles = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect::<Vec<_>>();
         let probes = scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>();
         for (list, names) in [("bodies", bodies), ("obstacles", obstacles), ("probes", probes)] {
             let mut seen = BTreeSet::new();
             for (index, name) in names.into_iter().enumerate() {
-                if name.is_empty() || name.contains([',', '"', '\n']) {
-                    let help = "names head columns of tables: give text without commas, quotes or line breaks";
+                let plain = |c: char| !(c.is_control() || [',', '"'].contains(&c));
+                if name.is_empty() || name.starts_with('=') || name.len() > MOST_LETTERS || !name.chars().all(plain) {
+                    let help = "names head columns of tables: give short text without commas, quotes, line breaks or other control \
+                                characters, and no `=` in front";
                     self.add(format!("{list}[{index}].name"), format!("`{name}` is no name"), help);
                 } else if !seen.insert(name) {
                     self.add(

@@ -2,7 +2,8 @@
 
 use super::check::Check;
 use super::{Body, Friction};
-use crate::material::kind_names;
+use crate::material::{PRESETS, kind_names};
+use crate::spelling::did_you_mean;
 
 /// Bodies that one scene may have.
 pub const MAX_BODIES: usize = 1024;
@@ -46,7 +47,9 @@ impl Check<'_> {
         } else {
             format!("the scene has {known}")
         };
-        self.add(format!("{path}.material"), format!("unknown material `{}`", body.material), help);
+        let presets = PRESETS.iter().map(|preset| preset.name);
+        let like = did_you_mean(&body.material, self.scene.materials.keys().map(String::as_str).chain(presets));
+        self.add(format!("{path}.material"), format!("unknown material `{}`{like}", body.material), help);
     }
 
     /// Friction, and what is clamped or moves as prescribed.

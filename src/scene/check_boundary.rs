@@ -2,6 +2,7 @@
 
 use super::boundary::{AttenuatedOutlet, Inflow, InletRule, Patched, PressureOutlet, Reservoir, TimedInlet};
 use super::check::Check;
+use super::source::Finding;
 use super::{Boundaries, Boundary, check_shape};
 
 /// Cells that a periodic axis needs: the stencils must not meet themselves.
@@ -73,15 +74,20 @@ impl Check<'_> {
         }
         for (number, patch) in patched.patches.iter().enumerate() {
             let key = format!("{path}.patches[{number}].shape");
-            let before = self.findings.len();
             check_shape::sizes(&key, &patch.shape, &mut self.findings);
-            let domain = &self.scene.domain;
-            let sound = (1..=3).contains(&domain.dimension) && domain.cell_count() > 0 && domain.spacing() > 0.0;
-            if self.findings.len() == before && sound {
-                let covers = domain.side_faces(index).any(|center| patch.shape.distance(center) < 0.0);
-                if !covers {
+        }
+    }
+
+    /// Patches that hold no face.
+    pub(super) fn patches_cover(&mut self) {
+        let domain = &self.scene.domain;
+        for (index, (side, name)) in self.scene.boundary.sides().into_iter().zip(Boundaries::NAMES).enumerate() {
+            let Boundary::Patched(patched) = side else { continue };
+            for (number, patch) in patched.patches.iter().enumerate() {
+                if !domain.side_faces(index).any(|center| patch.shape.distance(center) < 0.0) {
+                    let key = format!("boundary.{name}.patched.patches[{number}].shape");
                     let help = "the shape must hold the centre of at least one face of the side";
-                    self.add(key, "the patch covers no face of the side", help);
+                    self.findings.push(Finding::new(key, "the patch covers no face of the side", help));
                 }
             }
         }

@@ -165,7 +165,10 @@ pub(super) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
         }
         if let Some(point) = outside_point(&scene.domain, body) {
             let message = format!("body `{}` reaches out of the domain, at {point:?} for example", body.name);
-            let help = format!("{}; move or shrink the body, or cut it with an intersection", extent(&scene.domain));
+            let (low, high) = body.shape.bounds();
+            let hint = remedy(&scene.domain, low, high);
+            let help =
+                format!("{}; {hint}move or shrink the body, or cut it with an intersection", extent(&scene.domain));
             findings.push(Finding::new(&path, message, help));
         } else if !scene.has_particles(index) {
             let message = format!("body `{}` holds no particle", body.name);
@@ -186,6 +189,29 @@ pub(super) fn extent(domain: &Domain) -> String {
     format!("the domain has {}", ranges.collect::<Vec<_>>().join(", "))
 }
 
+/// What would make a thing fit that other programs wrote: thousandths, or a quarter turn.
+fn remedy(domain: &Domain, low: [f64; 3], high: [f64; 3]) -> String {
+    let axes = domain.axes().min(3);
+    let inside = |low: [f64; 3], high: [f64; 3]| {
+        (0..axes).all(|d| low[d] >= domain.origin[d] && high[d] <= domain.origin[d] + domain.size[d])
+    };
+    let scaled = |factor: f64| inside(low.map(|x| x * factor), high.map(|x| x * factor));
+    let upright = ([low[0], -high[2], low[1]], [high[0], -low[2], high[1]]);
+    let lying = ([low[0], low[2], -high[1]], [high[0], high[2], -low[1]]);
+    if !low.iter().chain(&high).take(3 * 2).all(|x| x.is_finite()) {
+        String::new()
+    } else if scaled(1e-3) {
+        "it would fit with `scale = 0.001`, from millimetres; ".to_owned()
+    } else if scaled(1e3) {
+        "it would fit with `scale = 1000`, to millimetres; ".to_owned()
+    } else if inside(upright.0, upright.1) || inside(lying.0, lying.1) {
+        "it would fit after a quarter turn about x: `axis = [1, 0, 0]`, `degrees = 90` or -90, or `up` of a mesh; "
+            .to_owned()
+    } else {
+        String::new()
+    }
+}
+
 fn misses(scene: &Scene, path: &str, shape: &Shape, findings: &mut Vec<Finding>) -> bool {
     let domain = &scene.domain;
     let (low, high) = shape.bounds();
@@ -194,7 +220,12 @@ fn misses(scene: &Scene, path: &str, shape: &Shape, findings: &mut Vec<Finding>)
     if outside {
         let corner = |v: [f64; 3]| v[..domain.axes()].to_vec();
         let message = format!("lies outside the domain, between {:?} and {:?}", corner(low), corner(high));
-        findings.push(Finding::new(path, message, format!("{}; move the shape or enlarge the domain", extent(domain))));
+        let hint = remedy(domain, low, high);
+        findings.push(Finding::new(
+            path,
+            message,
+            format!("{}; {hint}move the shape or enlarge the domain", extent(domain)),
+        ));
     }
     outside
 }

@@ -1,5 +1,6 @@
 //! Reading scenes: parse, override, fill in defaults, check. All findings are reported at once.
 
+use std::io;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -8,8 +9,9 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
-use super::{Material, Scene, check, variants};
-use crate::{Error, Result};
+use super::{Material, Scene, budget, check, variants, vocabulary};
+use crate::material::{PRESETS, Units};
+use crate::{Error, Result, input};
 
 /// The override that lets mesh files lie outside of the scene's folder.
 const OUTSIDE: &str = "allow_outside";
@@ -23,7 +25,7 @@ impl Scene {
     /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with every mistake, its file, line, key and what is allowed.
     pub fn load(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|source| Error::io(path, source))?;
+        let text = input::text(path, input::MOST_SCENE).map_err(|source| unreadable(path, source))?;
         Scene::parse(&text, &path.display().to_string(), overrides)
     }
 
@@ -66,6 +68,12 @@ impl Scene {
             }
             scene.domain.cells[axis] = u32::try_from(scaled / u64::from(longest)).unwrap_or(u32::MAX);
         }
+        if let Some(first) = budget::findings(&scene).first() {
+            return Err(Error::DoesNotFit(format!(
+                "resolution {cells}: {}: {}; {}",
+                first.path, first.message, first.help
+            )));
+        }
         let findings = check::findings(&scene);
         match findings.first() {
             None => Ok(scene),
@@ -81,9 +89,25 @@ impl Scene {
         for body in self.bodies.iter_mut().filter(|body| body.particles_per_cell == 0) {
             body.particles_per_cell = default;
         }
+        for body in &self.bodies {
+            let preset = PRESETS.iter().position(|preset| preset.name == body.material);
+            if let Some(Ok(material)) = preset.map(|index| Material::of_preset(index, Units::Si, &[])) {
+                self.materials.entry(body.material.clone()).or_insert(material);
+            }
+        }
         for body in self.bodies.iter_mut().filter(|body| body.density == 0.0) {
             body.density = self.materials.get(&body.material).and_then(Material::density).unwrap_or(0.0);
         }
+    }
+}
+
+/// A file that holds no text is a wrong scene; one that cannot be read is the disk's affair.
+fn unreadable(path: &Path, source: io::Error) -> Error {
+    match source.kind() {
+        io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput | io::ErrorKind::FileTooLarge => {
+            Error::Scene(format!("{}: {source}", path.display()))
+        }
+        _ => Error::io(path, source),
     }
 }
 
@@ -127,18 +151,25 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
     }
     source.index(&root);
     check::numbers(&root, &mut findings);
+    let (words, unreadable) = vocabulary::findings(&mut root);
+    findings.extend(words);
     match Scene::deserialize(Deserializer::from(Spanned::new(place, root))) {
         Err(error) => {
-            findings.push(located(source, &error));
+            // what cannot be read was told with all others of its kind
+            if !unreadable {
+                findings.push(located(source, &error));
+            }
             Err(findings)
         }
         Ok(mut scene) => {
             scene.resolve();
             let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
-            findings.extend(scene.resolve_shapes(MeshFolder { folder, outside }));
-            if findings.is_empty() {
+            let dimension = scene.domain.dimension;
+            let shapes = scene.resolve_shapes(MeshFolder { folder, outside, dimension });
+            if shapes.is_empty() {
                 findings.extend(check::findings(&scene));
             }
+            findings.extend(shapes);
             if findings.is_empty() { Ok(scene) } else { Err(findings) }
         }
     }

@@ -6,8 +6,10 @@
 mod gltf;
 mod inspect;
 mod read;
+mod stl;
 mod tree;
 
+use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -17,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use super::named::{one, placed_bounds, unplaced};
 use super::source::Finding;
 use super::{shape, vector};
+use crate::input;
 use tree::Tree;
 
 /// Bytes that a mesh file may have.
@@ -44,6 +47,12 @@ pub struct Mesh {
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub offset: [f64; 3],
+    /// Direction that is up in the file. In `.gltf` and `.glb` that is y, as their standard says; other files are taken as they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub up: Option<Up>,
+    /// Only this node of a `.gltf` or `.glb`, with those below it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub node: Option<String>,
     /// Accept a surface that is open or crosses itself: inside is where the winding number is above 1/2.
     #[serde(default)]
     pub repair: bool,
@@ -52,10 +61,37 @@ pub struct Mesh {
     tree: OnceLock<Arc<Tree>>,
 }
 
+/// A direction that is up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Up {
+    /// y, as in glTF and in most films.
+    Y,
+    /// z, as in most engineering.
+    Z,
+}
+
+impl Up {
+    /// The direction that is up in a scene of so many axes.
+    fn of_scene(dimension: u32) -> Self {
+        if dimension == 3 { Up::Z } else { Up::Y }
+    }
+
+    /// A quarter turn about x, where two directions differ.
+    fn turned(self, to: Up, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        match (self, to) {
+            (Up::Y, Up::Z) => [x, -z, y],
+            (Up::Z, Up::Y) => [x, z, -y],
+            _ => [x, y, z],
+        }
+    }
+}
+
 impl PartialEq for Mesh {
     fn eq(&self, other: &Self) -> bool {
-        let keys = |mesh: &Mesh| (mesh.path.clone(), mesh.scale, mesh.axis, mesh.degrees, mesh.offset, mesh.repair);
-        keys(self) == keys(other)
+        let file = |mesh: &Mesh| (mesh.path.clone(), mesh.up, mesh.node.clone(), mesh.repair);
+        let place = |mesh: &Mesh| (mesh.scale, mesh.axis, mesh.degrees, mesh.offset);
+        file(self) == file(other) && place(self) == place(other)
     }
 }
 
@@ -66,6 +102,34 @@ struct Surface {
     triangles: Vec<[u32; 3]>,
 }
 
+impl Surface {
+    /// Adds a triangle with corners of its own.
+    fn add_triangle(&mut self, corners: [[f64; 3]; 3]) -> Result<(), String> {
+        let first = self.points.len() as u32;
+        self.points.extend(corners);
+        self.add_polygon(&[first, first + 1, first + 2])
+    }
+
+    /// Adds a polygon, as triangles around its first corner.
+    fn add_polygon(&mut self, corners: &[u32]) -> Result<(), String> {
+        if self.triangles.len() + corners.len() > MAX_TRIANGLES + 2 {
+            return Err(format!("more than {MAX_TRIANGLES} triangles; simplify the mesh"));
+        }
+        self.triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]));
+        Ok(())
+    }
+}
+
+/// What a surface was read from: path, node, whether y is up, whether it may be open.
+type Key = (String, Option<String>, Option<bool>, bool);
+
+/// Surfaces that were read, by what they were read from: many bodies may share one.
+#[derive(Debug, Default)]
+pub(super) struct Surfaces {
+    ready: BTreeMap<Key, Arc<Tree>>,
+    triangles: usize,
+}
+
 /// Where mesh files may lie.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeshFolder<'a> {
@@ -73,6 +137,8 @@ pub(super) struct MeshFolder<'a> {
     pub(super) folder: &'a Path,
     /// Files outside of it may be read, too.
     pub(super) outside: bool,
+    /// Axes of the scene.
+    pub(super) dimension: u32,
 }
 
 impl MeshFolder<'_> {
@@ -91,42 +157,63 @@ impl MeshFolder<'_> {
             return Err(refused());
         }
         // a link may lead elsewhere; a file that is not there is reported where it is read
-        match (file.canonicalize(), self.folder.canonicalize()) {
-            (Ok(real), Ok(folder)) if !real.starts_with(&folder) => Err(refused()),
-            _ => Ok(file),
+        let own = if self.folder.as_os_str().is_empty() { Path::new(".") } else { self.folder };
+        match (file.canonicalize(), own.canonicalize()) {
+            (Ok(real), Ok(folder)) if real.starts_with(&folder) => Ok(file),
+            (Ok(_), _) => Err(refused()),
+            (Err(_), _) => Ok(file),
         }
     }
 
     /// The bytes of a file.
-    fn bytes(&self, within: &Path, path: &str) -> Result<Vec<u8>, (String, String)> {
+    fn bytes(&self, within: &Path, path: &str, most: u64) -> Result<Vec<u8>, (String, String)> {
         let file = self.file(within, path)?;
         let name = file.display();
         let unreadable = |error: std::io::Error| {
             (format!("{name}: {error}"), "paths start at the folder of the scene; check name and rights".to_owned())
         };
-        let size = std::fs::metadata(&file).map_err(unreadable)?.len();
-        if size > MAX_BYTES {
-            let help = format!("give at most {} MiB; simplify the mesh", MAX_BYTES >> 20);
-            return Err((format!("{name} has {} MiB", size >> 20), help));
-        }
-        std::fs::read(&file).map_err(unreadable)
+        input::bytes(&file, most).map_err(unreadable)
     }
 }
 
 impl Mesh {
-    /// Reads the surface.
-    pub(super) fn resolve(&self, path: &str, place: MeshFolder<'_>) -> Option<Finding> {
+    /// Reads the surface, if none of `ready` is the same.
+    pub(super) fn resolve(&self, path: &str, place: MeshFolder<'_>, surfaces: &mut Surfaces) -> Option<Finding> {
         if self.tree.get().is_some() {
             return None;
         }
-        let read = read::surface(&self.path, place).and_then(|surface| inspect::sound(surface, self.repair));
+        let key = (self.path.clone(), self.node.clone(), self.up.map(|up| up == Up::Y), self.repair);
+        let read = match surfaces.ready.get(&key) {
+            Some(tree) => Ok(Arc::clone(tree)),
+            None => self.read(place).map(Arc::new),
+        };
         match read {
             Ok(tree) => {
-                let _ = self.tree.set(Arc::new(tree));
-                None
+                if surfaces.ready.insert(key, Arc::clone(&tree)).is_none() {
+                    surfaces.triangles += tree.triangles().len();
+                }
+                let _ = self.tree.set(tree);
+                (surfaces.triangles > MAX_TRIANGLES).then(|| {
+                    let message = format!("{} triangles in all meshes", surfaces.triangles);
+                    Finding::new(path, message, format!("give at most {MAX_TRIANGLES}; simplify the meshes"))
+                })
             }
             Err((message, help)) => Some(Finding::new(format!("{path}.mesh.path"), message, help)),
         }
+    }
+
+    fn read(&self, place: MeshFolder<'_>) -> Result<Tree, (String, String)> {
+        let (mut surface, up) = read::surface(&self.path, self.node.as_deref(), place)?;
+        if let Some(up) = self.up.or(up) {
+            let to = Up::of_scene(place.dimension);
+            surface.points.iter_mut().for_each(|point| *point = up.turned(to, *point));
+        }
+        inspect::sound(surface, self.repair)
+    }
+
+    /// Triangles of the surface.
+    pub(super) fn triangle_count(&self) -> usize {
+        self.tree.get().map_or(0, |tree| tree.triangles().len())
     }
 
     pub(super) fn distance(&self, point: [f64; 3]) -> f64 {

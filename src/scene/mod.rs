@@ -7,15 +7,18 @@
 
 mod body;
 mod boundary;
+mod budget;
 mod camera;
 mod check;
 mod check_body;
 mod check_boundary;
+mod check_range;
 mod check_render;
 mod check_shape;
 mod coupling;
 mod cut;
 mod distance;
+mod estimate;
 mod expectation;
 mod extent;
 mod fill;
@@ -26,6 +29,7 @@ mod named;
 mod noise;
 mod polyhedron;
 mod radial_flow;
+mod region;
 mod render;
 mod sample;
 mod settings;
@@ -37,6 +41,7 @@ mod source;
 mod tests;
 mod variants;
 mod vector;
+mod vocabulary;
 mod vortex;
 mod wave;
 
@@ -54,17 +59,20 @@ pub use boundary::{
     AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
     TimedState,
 };
+pub use budget::MOST_PARTICLES;
 pub use camera::{Camera, CameraKey, CameraPath};
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
 pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
+pub use estimate::Estimate;
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
-pub use mesh::Mesh;
+pub use mesh::{Mesh, Up};
 pub use named::Named;
 pub use polyhedron::Part;
 pub use radial_flow::RadialFlow;
+pub use region::Region;
 pub use render::{
     Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice, Surface,
     ToneMap,
@@ -72,7 +80,7 @@ pub use render::{
 pub use sample::{Overlap, Seed, ThinBody};
 pub use settings::{Film, Numerics, Obstacles, Output, Pair, Preconditioner, Time, Transfer};
 pub use shape::Shape;
-pub use shipped::{Shipped, shipped, stem};
+pub use shipped::{STANDARD_INPUT, Shipped, shipped, shipped_named, stem};
 pub use shot::{Shot, ShotKeys};
 pub use variants::SMALL;
 pub use vortex::Vortex;
@@ -195,47 +203,6 @@ pub struct GasState {
     pub velocity: [f64; 3],
     /// Pressure `[Pa]`, positive.
     pub pressure: f64,
-}
-
-/// A part of the domain with its own gas state at the start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(from = "RegionKeys", into = "RegionKeys")]
-pub struct Region {
-    /// Where.
-    pub shape: Shape,
-    /// The state inside; its keys stand next to `shape` in the file.
-    pub state: GasState,
-}
-
-/// The keys of a [`Region`] as they stand in the file.
-#[derive(Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "Region")]
-struct RegionKeys {
-    /// Where.
-    shape: Shape,
-    /// Density `[kg m^-3]`, positive.
-    density: f64,
-    /// Velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
-    velocity: [f64; 3],
-    /// Pressure `[Pa]`, positive.
-    pressure: f64,
-}
-
-impl From<RegionKeys> for Region {
-    fn from(keys: RegionKeys) -> Self {
-        let state = GasState { density: keys.density, velocity: keys.velocity, pressure: keys.pressure };
-        Region { shape: keys.shape, state }
-    }
-}
-
-impl From<Region> for RegionKeys {
-    fn from(region: Region) -> Self {
-        let GasState { density, velocity, pressure } = region.state;
-        RegionKeys { shape: region.shape, density, velocity, pressure }
-    }
 }
 
 /// A static obstacle.

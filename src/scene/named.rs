@@ -6,9 +6,15 @@ use std::sync::{Arc, OnceLock};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::mesh::MeshFolder;
+use super::budget::DEEPEST;
+use super::mesh::{MeshFolder, Surfaces};
 use super::source::Finding;
+
 use super::{Boundary, Scene, Shape, distance, shape, vector};
+use crate::spelling::did_you_mean;
+
+/// Names that a message lists at most.
+const MOST_NAMES: usize = 40;
 
 /// A shape by its name, turned, scaled and moved, in this order.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -32,7 +38,15 @@ pub struct Named {
     pub offset: [f64; 3],
     /// The shape, once the scene that names it has been read; nothing before.
     #[serde(skip)]
-    shape: OnceLock<Arc<Shape>>,
+    shape: OnceLock<Counted>,
+}
+
+/// A shape with its counts, which would otherwise be taken again for every use.
+#[derive(Clone, Debug)]
+struct Counted {
+    shape: Arc<Shape>,
+    parts: u64,
+    depth: u32,
 }
 
 pub(super) fn one() -> f64 {
@@ -48,13 +62,23 @@ impl PartialEq for Named {
 
 impl Named {
     pub(super) fn distance(&self, point: [f64; 3]) -> f64 {
-        let Some(shape) = self.shape.get() else { return f64::INFINITY };
+        let Some(Counted { shape, .. }) = self.shape.get() else { return f64::INFINITY };
         let inner = unplaced(point, self.axis, self.degrees, self.offset);
         shape.distance(inner.map(|x| x / self.scale)) * self.scale
     }
 
+    /// See [`Shape::parts_count`].
+    pub(super) fn parts_count(&self) -> u64 {
+        self.shape.get().map_or(0, |counted| counted.parts)
+    }
+
+    /// See [`Shape::depth`].
+    pub(super) fn depth(&self) -> u32 {
+        self.shape.get().map_or(0, |counted| counted.depth)
+    }
+
     pub(super) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
-        let Some(shape) = self.shape.get() else { return ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]) };
+        let Some(Counted { shape, .. }) = self.shape.get() else { return ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]) };
         placed_bounds(shape.bounds(), self.scale, self.axis, self.degrees, self.offset)
     }
 }
@@ -95,7 +119,7 @@ impl Scene {
     }
 
     /// The shapes of the openings in the sides, with their keys.
-    fn patch_shapes(&self) -> Vec<(String, &Shape)> {
+    pub(super) fn patch_shapes(&self) -> Vec<(String, &Shape)> {
         let names = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"];
         let sides = self.boundary.sides().into_iter().zip(names);
         let patches = sides.filter_map(|(side, name)| match side {
@@ -118,6 +142,7 @@ impl Scene {
         for (path, shape) in self.placed_shapes().into_iter().chain(self.patch_shapes()) {
             library.resolve(&path, shape);
         }
+        library.findings.extend(super::budget::shapes(self));
         library.findings
     }
 }
@@ -131,7 +156,8 @@ fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
 struct Library<'s> {
     own: &'s BTreeMap<String, Shape>,
     meshes: MeshFolder<'s>,
-    ready: BTreeMap<String, Arc<Shape>>,
+    surfaces: Surfaces,
+    ready: BTreeMap<String, Counted>,
     /// Names on the way from a shape to those it uses.
     open: Vec<String>,
     findings: Vec<Finding>,
@@ -139,7 +165,14 @@ struct Library<'s> {
 
 impl<'s> Library<'s> {
     fn new(own: &'s BTreeMap<String, Shape>, meshes: MeshFolder<'s>) -> Self {
-        Library { own, meshes, ready: BTreeMap::new(), open: Vec::new(), findings: Vec::new() }
+        Library {
+            own,
+            meshes,
+            surfaces: Surfaces::default(),
+            ready: BTreeMap::new(),
+            open: Vec::new(),
+            findings: Vec::new(),
+        }
     }
 
     /// Gives the shapes below `shape` what they use.
@@ -152,7 +185,7 @@ impl<'s> Library<'s> {
             }
         }
         if let Shape::Mesh(mesh) = shape {
-            self.findings.extend(mesh.resolve(path, self.meshes));
+            self.findings.extend(mesh.resolve(path, self.meshes, &mut self.surfaces));
         }
         for (key, part) in shape.parts() {
             self.resolve(&format!("{path}.{key}"), part);
@@ -160,28 +193,47 @@ impl<'s> Library<'s> {
     }
 
     /// The shape of a name, with everything in it resolved.
-    fn shape(&mut self, name: &str, path: &str) -> Option<Arc<Shape>> {
+    fn shape(&mut self, name: &str, path: &str) -> Option<Counted> {
         if let Some(ready) = self.ready.get(name) {
-            return Some(Arc::clone(ready));
+            return Some(ready.clone());
         }
         if self.open.iter().any(|open| open == name) {
             let message = format!("`{name}` is made of itself: {} -> {name}", self.open.join(" -> "));
             self.findings.push(Finding::new(path, message, "remove one of these uses"));
             return None;
         }
+        if self.open.len() >= DEEPEST as usize {
+            let message = format!("more than {DEEPEST} shapes that use each other");
+            self.findings.push(Finding::new(path, message, "use shapes that are made of fewer others"));
+            return None;
+        }
         let Some(shape) = self.own.get(name).cloned().or_else(|| model(name)) else {
             let own = self.own.keys().map(String::as_str);
-            let known = own.chain(models().map(|(name, _)| name)).collect::<Vec<_>>().join(", ");
-            self.findings.push(Finding::new(path, format!("no shape `{name}`"), format!("there are {known}")));
+            let known: Vec<&str> = own.chain(models().map(|(name, _)| name)).collect();
+            let message = format!("no shape `{name}`{}", did_you_mean(name, known.iter().copied()));
+            self.findings.push(Finding::new(path, message, format!("there are {}", some(&known))));
             return None;
         };
         self.open.push(name.to_owned());
         self.resolve(&format!("shapes.{name}"), &shape);
         self.open.pop();
-        let shape = Arc::new(shape);
-        self.ready.insert(name.to_owned(), Arc::clone(&shape));
-        Some(shape)
+        let (parts, depth) = (shape.parts_count(), shape.depth());
+        if depth > DEEPEST {
+            let message = format!("{depth} shapes in each other");
+            self.findings.push(Finding::new(path, message, format!("at most {DEEPEST} are taken; use fewer")));
+            return None;
+        }
+        let counted = Counted { shape: Arc::new(shape), parts, depth };
+        self.ready.insert(name.to_owned(), counted.clone());
+        Some(counted)
     }
+}
+
+/// The first names of a list.
+fn some(names: &[&str]) -> String {
+    let rest = names.len().saturating_sub(MOST_NAMES);
+    let first = names[..names.len() - rest].join(", ");
+    if rest == 0 { first } else { format!("{first} and {rest} more") }
 }
 
 /// A model that the program carries.
@@ -204,7 +256,7 @@ mod tests {
             assert!(text.starts_with("# "), "{name} has no head");
             let shape: Shape = toml::from_str(text).unwrap_or_else(|error| panic!("{name}: {error}"));
             let own = BTreeMap::new();
-            let nowhere = MeshFolder { folder: Path::new(""), outside: false };
+            let nowhere = MeshFolder { folder: Path::new(""), outside: false, dimension: 3 };
             let mut library = Library::new(&own, nowhere);
             library.resolve(name, &shape);
             check_shape::sizes(name, &shape, &mut library.findings);

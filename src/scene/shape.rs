@@ -139,8 +139,8 @@ pub enum Shape {
     },
     /// A polygon that is turned about an axis: pots, wheels, barrels.
     Revolve {
-        /// The point of the axis at height 0 `[m]`.
-        #[serde(deserialize_with = "vector::point")]
+        /// The point of the axis at height 0 `[m]`; the origin when left out.
+        #[serde(default, deserialize_with = "vector::point")]
         #[schemars(with = "Vec<f64>")]
         center: [f64; 3],
         /// Direction of the axis, of any length; z when left out.

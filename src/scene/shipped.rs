@@ -1,9 +1,12 @@
-//! Finding scenes: files, and the shipped ones by name.
+//! Finding scenes: files, standard input, and the shipped ones by name.
 
 use std::path::Path;
 
 use super::Scene;
-use crate::{Error, Result};
+use crate::{Error, Result, input, spelling};
+
+/// The name of the scene that comes on standard input.
+pub const STANDARD_INPUT: &str = "-";
 
 /// A shipped scene.
 #[derive(Clone, Debug)]
@@ -31,53 +34,65 @@ impl Shipped {
 /// File name without folder and extension.
 #[must_use]
 pub fn stem(path: &str) -> String {
+    if path == STANDARD_INPUT {
+        return "standard_input".to_owned();
+    }
     Path::new(path).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }
 
-/// The shipped scenes: those in the folder `scenes` where there is one, otherwise those that the program carries.
+/// The shipped scenes, which the program carries: the same wherever one stands.
 #[must_use]
 pub fn shipped() -> Vec<Shipped> {
-    let mut found = Vec::new();
-    collect(Path::new("scenes"), &mut found);
-    if found.is_empty() {
-        found = super::EMBEDDED.iter().map(|(path, text)| Shipped::new(path, text)).collect();
-    }
+    let mut found: Vec<Shipped> = super::EMBEDDED.iter().map(|(path, text)| Shipped::new(path, text)).collect();
     found.sort_by(|a, b| a.path.cmp(&b.path));
     found
 }
 
-fn collect(folder: &Path, found: &mut Vec<Shipped>) {
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        if path.is_dir() {
-            collect(&path, found);
-        } else if let (true, Ok(text)) =
-            (path.extension().is_some_and(|end| end == "toml"), std::fs::read_to_string(&path))
-        {
-            let below = path.strip_prefix("scenes").unwrap_or(&path);
-            found.push(Shipped::new(&below.to_string_lossy().replace('\\', "/"), &text));
+/// The shipped scene that a user means.
+///
+/// # Errors
+/// [`Error::Scene`] with the names most like it.
+pub fn shipped_named(name: &str) -> Result<Shipped> {
+    let folder = Path::new(name);
+    if folder.join("report.json").is_file() {
+        return Err(Error::Scene(format!(
+            "`{name}` is the folder of a run: `brisance render {name}` draws its frames again, `brisance view SCENE` runs its scene anew"
+        )));
+    }
+    if folder.is_dir() {
+        return Err(Error::Scene(format!(
+            "`{name}` is a folder; name a scene file, or a shipped scene (`brisance list`)"
+        )));
+    }
+    let mut all = shipped();
+    match all.iter().position(|scene| scene.is_called(name)) {
+        Some(place) => Ok(all.swap_remove(place)),
+        None => {
+            let like = spelling::did_you_mean(&stem(name), all.iter().map(|scene| scene.name.as_str()));
+            let count = all.len();
+            Err(Error::Scene(format!(
+                "no file `{name}` and no shipped scene of that name{like} (`brisance list` prints all {count})"
+            )))
         }
     }
 }
 
 impl Scene {
-    /// Reads a scene file, or the shipped scene of that name, and applies overrides as [`Scene::load`] does.
+    /// Reads a scene file, the shipped scene of that name, or for `-` standard input, and applies overrides as [`Scene::load`] does.
     ///
     /// # Errors
     /// [`Error::Scene`] if there is none of that name or it is wrong.
     pub fn find(name: &str, overrides: &[String]) -> Result<Scene> {
-        if Path::new(name).is_file() {
+        if name == STANDARD_INPUT {
+            let text = input::standard(input::MOST_SCENE);
+            let text = text.map_err(|source| Error::Scene(format!("standard input: {source}")))?;
+            return Scene::parse(&text, "standard input", overrides);
+        }
+        let path = Path::new(name);
+        if path.exists() && !path.is_dir() {
             return Scene::load(name, overrides);
         }
-        let shipped = shipped();
-        match shipped.iter().find(|scene| scene.is_called(name)) {
-            Some(scene) => Scene::parse(&scene.text, &format!("scenes/{}", scene.path), overrides),
-            None => Err(unknown(name, &shipped)),
-        }
+        let scene = shipped_named(name)?;
+        Scene::parse(&scene.text, &format!("scenes/{}", scene.path), overrides)
     }
-}
-
-fn unknown(name: &str, shipped: &[Shipped]) -> Error {
-    let names: Vec<&str> = shipped.iter().map(|scene| scene.name.as_str()).collect();
-    Error::Scene(format!("no file `{name}` and no shipped scene of that name; there are: {}", names.join(", ")))
 }

@@ -9,6 +9,11 @@ use codespan_reporting::term;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// Keys inside each other that an override may name.
+const DEEPEST: usize = 64;
+/// Findings that are told at most.
+const MOST_TOLD: usize = 20;
+
 /// Something wrong with a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Finding {
@@ -82,12 +87,18 @@ impl Source {
         };
         let start = range.start + key.len() + 1;
         // "v=" takes two places in front of the value; the key and its "=" leave at least that many
-        let padded = |value: &str| format!("{:width$}v={value}", "", width = start - 2);
+        let padded = |value: &str| format!("{}v={value}", " ".repeat(start - 2));
         let quoted = format!("\"{}\"", value.trim().replace('\\', "\\\\").replace('"', "\\\""));
         let key = key_path(key);
         if key.is_empty() || key.split('.').any(str::is_empty) {
             let help = "name keys as in gas.ambient.density or bodies[0].density";
             return Err(Finding { span: Some(range), ..Finding::new("", format!("--set {line} names no key"), help) });
+        }
+        let depth = key.split('.').count();
+        if depth > DEEPEST {
+            let help = format!("at most {DEEPEST} are taken");
+            let message = format!("--set with {depth} keys inside each other");
+            return Err(Finding { span: Some(range), ..Finding::new("", message, help) });
         }
         Ok((key, vec![padded(value), padded(&quoted)]))
     }
@@ -136,7 +147,7 @@ impl Source {
         }
         let config = term::Config { chars: term::Chars::ascii(), ..term::Config::default() };
         let mut text = String::new();
-        for finding in findings {
+        for finding in findings.iter().take(MOST_TOLD) {
             let span = finding.span.clone().unwrap_or_else(|| self.place_of(&finding.path));
             let index = self.parts.iter().rposition(|part| part.start <= span.start).unwrap_or(0);
             let part = &self.parts[index];
@@ -151,6 +162,9 @@ impl Source {
                 term::emit_into_string(&config, &files, &diagnostic).unwrap_or_else(|_| finding.message.clone());
             text.push_str(shown.trim_end());
             text.push_str("\n\n");
+        }
+        if let rest @ 1.. = findings.len().saturating_sub(MOST_TOLD) {
+            text.push_str(&format!("and {rest} more\n\n"));
         }
         text.push_str(&format!("{}: {} in this scene", self.name, count(findings.len())));
         text

@@ -4,6 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::source;
+use crate::spelling::did_you_mean;
 
 /// The variant that every large scene has for devices without a GPU.
 pub const SMALL: &str = "small";
@@ -20,7 +21,8 @@ pub(super) fn apply(root: &mut DeTable<'_>, name: &str, text: &str) -> Result<()
     let Some(variant) = variants.get(name).and_then(|value| value.get_ref().as_table()) else {
         let known = variants.keys().map(|key| format!("`{}`", key.get_ref())).collect::<Vec<_>>();
         let known = if known.is_empty() { "no variants".to_owned() } else { known.join(", ") };
-        return Err(format!("no variant `{name}`; this scene has {known}"));
+        let like = did_you_mean(name, variants.keys().map(|key| &**key.get_ref()));
+        return Err(format!("no variant `{name}`{like}; this scene has {known}"));
     };
     let mut changes = Vec::new();
     collect("", variant, text, &mut changes);

@@ -210,8 +210,7 @@ impl MemoryPlan {
                 format!("the scene needs {:.2} GiB, {device} has {limit:.2} GiB free", gib(self.bytes(None)))
             }
         };
-        let advice = resolutions(scene)
-            .find(|&cells| fits(&self.at(scene, cells)))
+        let advice = finest_resolution(scene, |cells| fits(&self.at(scene, cells)))
             .map_or_else(|| "use another --device".to_owned(), |cells| format!("--resolution {cells} fits"));
         Err(Error::DoesNotFit(format!("{problem}; {advice}")))
     }
@@ -222,7 +221,7 @@ impl MemoryPlan {
     /// # Errors
     /// As [`MemoryPlan::check`].
     pub fn fitting(scene: &Scene, gpu: &Gpu) -> Result<Self> {
-        Self::new(scene, 0).check_device(scene, gpu)?;
+        Self::with_cut_cells(scene, 0, 0).check_device(scene, gpu)?;
         let plan = Self::new(scene, scene.particle_count());
         plan.check_device(scene, gpu)?;
         Ok(plan)
@@ -279,13 +278,19 @@ fn cut_cells(scene: &Scene) -> u64 {
     coarse.cut_geometry().cells.len() as u64 * u64::from(factor).pow(scene.domain.dimension - 1)
 }
 
-/// Numbers of cells along the longest axis that give whole cubes on all axes, below the scene's own, largest first.
-pub fn resolutions(scene: &Scene) -> impl Iterator<Item = u32> {
+/// The largest number of cells along the longest axis below the scene's own that gives whole cubes on all axes and fits; what fits at
+/// some number fits at every smaller one.
+pub fn finest_resolution(scene: &Scene, fits: impl Fn(u32) -> bool) -> Option<u32> {
     let cells = &scene.domain.cells[..scene.domain.axes()];
     let divisor = cells.iter().copied().reduce(greatest_divisor).unwrap_or(1).max(1);
     let longest = cells.iter().copied().max().unwrap_or(1);
     let step = longest / divisor;
-    (1..divisor).rev().map(move |multiple| multiple * step)
+    let (mut good, mut bad) = (0, divisor);
+    while bad - good > 1 {
+        let middle = good + (bad - good) / 2;
+        if fits(middle * step) { good = middle } else { bad = middle }
+    }
+    (good > 0).then_some(good * step)
 }
 
 fn greatest_divisor(a: u32, b: u32) -> u32 {

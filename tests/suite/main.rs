@@ -1,5 +1,7 @@
 //! The test suite: one binary, one module per subject.
 
+#![allow(clippy::disallowed_macros)]
+
 mod analytic;
 mod bench;
 mod books;
@@ -11,7 +13,9 @@ mod cut;
 mod determinism;
 mod export;
 mod far_field;
+mod folders;
 mod frames;
+mod fuzz;
 mod gallery;
 mod gpu;
 mod images;

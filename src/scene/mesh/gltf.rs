@@ -1,77 +1,144 @@
 //! glTF 2.0: the triangles of the default scene, with the placements of its nodes. Buffers are read here, with every range checked.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use glam::{DMat4, DVec3, Mat4};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::Source;
 use gltf::mesh::Mode;
-use gltf::{Accessor, Gltf, Node, Semantic};
+use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
 
 use super::read::{Problem, damaged};
-use super::{MeshFolder, Surface};
+use super::{MAX_BYTES, MAX_TRIANGLES, MeshFolder, Surface};
+use crate::spelling::did_you_mean;
 
 /// Nodes below nodes at most.
 const DEEPEST: usize = 64;
+/// Nodes at most, each counted as often as others use it.
+const MOST_NODES: usize = 100_000;
+/// Buffers at most.
+const MOST_BUFFERS: usize = 1000;
 
-/// Reads a `.gltf` or `.glb`.
-pub(super) fn read(bytes: &[u8], path: &str, place: MeshFolder<'_>) -> Result<Surface, Problem> {
+/// Reads a `.gltf` or `.glb`: all of it, or one node by its name.
+pub(super) fn read(bytes: &[u8], path: &str, wanted: Option<&str>, place: MeshFolder<'_>) -> Result<Surface, Problem> {
     let file = Gltf::from_slice(bytes).map_err(|error| damaged(path, &error.to_string()))?;
-    let within = place.folder.join(path).parent().map_or_else(|| place.folder.to_owned(), Path::to_owned);
-    let mut buffers = Vec::new();
-    for buffer in file.document.buffers() {
-        buffers.push(match buffer.source() {
-            Source::Bin => file.blob.clone().ok_or_else(|| damaged(path, "its binary part is missing"))?,
-            Source::Uri(uri) => match uri.split_once(";base64,") {
-                Some((head, text)) if head.starts_with("data:") => {
-                    base64(text).ok_or_else(|| damaged(path, "its buffer is no base64"))?
-                }
-                _ => place.bytes(&within, uri)?,
-            },
-        });
-    }
-    let mut surface = Surface::default();
+    let buffers = buffers(&file, path, place)?;
     let scene = file.document.default_scene().or_else(|| file.document.scenes().next());
+    let mut adding = Adding { buffers, wanted, names: Vec::new(), visits: 0, surface: Surface::default() };
     for node in scene.iter().flat_map(gltf::Scene::nodes) {
-        add(&node, DMat4::IDENTITY, &buffers, &mut surface, DEEPEST).map_err(|message| damaged(path, &message))?;
+        adding.node(&node, DMat4::IDENTITY, DEEPEST, wanted.is_none()).map_err(|message| damaged(path, &message))?;
     }
-    Ok(surface)
+    let Adding { names, surface, .. } = adding;
+    match wanted.filter(|wanted| !names.iter().any(|name| name == wanted)) {
+        None => Ok(surface),
+        Some(wanted) => {
+            let like = did_you_mean(wanted, names.iter().map(String::as_str));
+            let some = names.iter().take(20).cloned().collect::<Vec<_>>().join(", ");
+            Err((format!("`{path}` has no node `{wanted}`{like}"), format!("it has {some}")))
+        }
+    }
 }
 
-/// Adds the triangles of a node and of those below it.
-fn add(node: &Node<'_>, parent: DMat4, buffers: &[Vec<u8>], to: &mut Surface, depth: usize) -> Result<(), String> {
-    if depth == 0 {
-        return Err(format!("more than {DEEPEST} nodes below each other"));
+/// The bytes of all buffers; those of other files count, too, and all together are limited.
+fn buffers<'b>(file: &'b Gltf, path: &str, place: MeshFolder<'_>) -> Result<Vec<Cow<'b, [u8]>>, Problem> {
+    let within = place.folder.join(path).parent().map_or_else(|| place.folder.to_owned(), Path::to_owned);
+    let count = file.document.buffers().len();
+    if count > MOST_BUFFERS {
+        return Err(damaged(path, &format!("{count} buffers; at most {MOST_BUFFERS} are read")));
     }
-    let own = parent * Mat4::from_cols_array_2d(&node.transform().matrix()).as_dmat4();
-    for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
+    let promised = file.document.buffers().fold(0u64, |sum, buffer| sum.saturating_add(buffer.length() as u64));
+    let mut left = MAX_BYTES;
+    if promised > left {
+        return Err(damaged(path, &format!("its buffers have {promised} bytes, at most {MAX_BYTES} are read")));
+    }
+    let mut buffers = Vec::new();
+    for buffer in file.document.buffers() {
+        let bytes: Cow<'b, [u8]> = match buffer.source() {
+            Source::Bin => {
+                Cow::Borrowed(file.blob.as_deref().ok_or_else(|| damaged(path, "its binary part is missing"))?)
+            }
+            Source::Uri(uri) => match uri.split_once(";base64,") {
+                Some((head, text)) if head.starts_with("data:") => {
+                    Cow::Owned(base64(text).ok_or_else(|| damaged(path, "its buffer is no base64"))?)
+                }
+                _ => Cow::Owned(place.bytes(&within, uri, left)?),
+            },
+        };
+        if let Cow::Owned(own) = &bytes {
+            left = left.saturating_sub(own.len() as u64);
+        }
+        buffers.push(bytes);
+    }
+    Ok(buffers)
+}
+
+/// Triangles on their way from nodes to the surface.
+struct Adding<'b> {
+    buffers: Vec<Cow<'b, [u8]>>,
+    /// The node that is wanted alone.
+    wanted: Option<&'b str>,
+    names: Vec<String>,
+    visits: usize,
+    surface: Surface,
+}
+
+impl Adding<'_> {
+    /// Adds the triangles of a node and of those below it, if it is wanted or lies below one that is.
+    fn node(&mut self, node: &Node<'_>, parent: DMat4, depth: usize, wanted: bool) -> Result<(), String> {
+        if depth == 0 {
+            return Err(format!("more than {DEEPEST} nodes below each other"));
+        }
+        self.visits += 1;
+        if self.visits > MOST_NODES {
+            return Err(format!("more than {MOST_NODES} nodes, each counted as often as others use it"));
+        }
+        let own = parent * Mat4::from_cols_array_2d(&node.transform().matrix()).as_dmat4();
+        let wanted = wanted || node.name().is_some_and(|name| self.wanted == Some(name));
+        self.names.extend(node.name().map(str::to_owned));
+        if wanted {
+            node.mesh().iter().flat_map(gltf::Mesh::primitives).try_for_each(|part| self.primitive(&part, own))?;
+        }
+        node.children().try_for_each(|child| self.node(&child, own, depth - 1, wanted))
+    }
+
+    fn primitive(&mut self, primitive: &Primitive<'_>, own: DMat4) -> Result<(), String> {
         if primitive.mode() != Mode::Triangles {
             return Err("it has lines, points or strips; write triangles".to_owned());
         }
+        let to = &mut self.surface;
         let first = to.points.len() as u32;
         let positions = primitive.get(&Semantic::Positions).ok_or("a part has no positions")?;
         if (positions.data_type(), positions.dimensions()) != (DataType::F32, Dimensions::Vec3) {
             return Err("positions are not three floats".to_owned());
         }
+        let count = primitive.indices().map_or(positions.count(), |indices| indices.count());
+        if to.points.len().saturating_add(positions.count()) > 3 * MAX_TRIANGLES
+            || to.triangles.len().saturating_add(count / 3) > MAX_TRIANGLES
+        {
+            return Err(format!("more than {MAX_TRIANGLES} triangles, each counted as often as nodes use it"));
+        }
         let number = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        let points = elements(&positions, buffers)?;
+        let points = elements(&positions, &self.buffers)?;
         to.points.extend(points.iter().map(|b| {
             let point = DVec3::new(number(b), number(&b[4..]), number(&b[8..]));
             own.transform_point3(point).to_array()
         }));
         let indices: Vec<u32> = match primitive.indices() {
             None => (0..points.len() as u32).collect(),
-            Some(accessor) => {
-                elements(&accessor, buffers)?.into_iter().map(index).collect::<Option<_>>().ok_or("odd indices")?
-            }
+            Some(accessor) => elements(&accessor, &self.buffers)?
+                .into_iter()
+                .map(index)
+                .collect::<Option<_>>()
+                .ok_or("odd indices")?,
         };
         let flipped = own.determinant() < 0.0;
         to.triangles.extend(indices.chunks_exact(3).map(|t| {
             let [a, b, c] = [t[0], t[1], t[2]].map(|k| k.saturating_add(first));
             if flipped { [a, c, b] } else { [a, b, c] }
         }));
+        Ok(())
     }
-    node.children().try_for_each(|child| add(&child, own, buffers, to, depth - 1))
 }
 
 fn index(bytes: &[u8]) -> Option<u32> {
@@ -84,7 +151,7 @@ fn index(bytes: &[u8]) -> Option<u32> {
 }
 
 /// The bytes of each element of an accessor.
-fn elements<'b>(accessor: &Accessor<'_>, buffers: &'b [Vec<u8>]) -> Result<Vec<&'b [u8]>, String> {
+fn elements<'b>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]) -> Result<Vec<&'b [u8]>, String> {
     let view = accessor.view().filter(|_| accessor.sparse().is_none()).ok_or("sparse data is not supported")?;
     let buffer = buffers.get(view.buffer().index()).ok_or("a buffer is missing")?;
     let size = accessor.size();

@@ -7,6 +7,8 @@ use super::tree::Tree;
 use super::{MAX_TRIANGLES, Surface};
 use crate::scene::distance::{cross, dot, length, minus, plus};
 
+/// Corners of open edges this near to each other, over the size of the mesh, are one.
+const WELD: f64 = 1e-7;
 /// Triangles whose two sides are looked at.
 const LOOKS: usize = 2000;
 /// How far beside a triangle, over the size of the mesh.
@@ -28,11 +30,10 @@ pub(super) fn sound(surface: Surface, repair: bool) -> Result<Tree, Problem> {
         let message = format!("triangle {index} has a corner that is not there: the mesh has {}", points.len());
         return Err((message, "mend the file".to_owned()));
     }
-    let welded = weld(&points);
-    for triangle in &mut triangles {
-        *triangle = triangle.map(|k| welded[k as usize]);
+    join(&mut triangles, &weld(&points));
+    if !edges(&triangles).open.is_empty() {
+        weld_open(&points, &mut triangles);
     }
-    triangles.retain(|[a, b, c]| a != b && b != c && c != a);
     let corner = |k: u32| points[k as usize];
     let corners: Vec<[[f64; 3]; 3]> = triangles.iter().map(|t| t.map(corner)).collect();
     let volume: f64 = corners.iter().map(|[a, b, c]| dot(*a, cross(*b, *c)) / 6.0).sum();
@@ -50,12 +51,9 @@ pub(super) fn sound(surface: Surface, repair: bool) -> Result<Tree, Problem> {
     }
     let help =
         "close the surface, or take it as it is with `repair = true`: inside is where the winding number is above 1/2";
-    let (open, crowded) = edges(&triangles);
-    if open > 0 {
-        return Err((
-            format!("the surface is open, or its triangles face both ways, at {open} edges"),
-            help.to_owned(),
-        ));
+    let Edges { open, crowded } = edges(&triangles);
+    if !open.is_empty() {
+        return Err((open_text(&open, &points), help.to_owned()));
     }
     if crowded > 0 {
         return Err((format!("{crowded} edges belong to more than two triangles"), help.to_owned()));
@@ -81,8 +79,53 @@ fn weld(points: &[[f64; 3]]) -> Vec<u32> {
     points.iter().enumerate().map(|(k, point)| *first.entry(place(point)).or_insert(k as u32)).collect()
 }
 
-/// Edges that are not run through equally often in both directions, and edges of more than two triangles.
-fn edges(triangles: &[[u32; 3]]) -> (usize, usize) {
+/// Gives triangles the corners that theirs are the same as; what has no area any more goes.
+fn join(triangles: &mut Vec<[u32; 3]>, same: &[u32]) {
+    for triangle in triangles.iter_mut() {
+        *triangle = triangle.map(|k| same[k as usize]);
+    }
+    triangles.retain(|[a, b, c]| a != b && b != c && c != a);
+}
+
+/// Joins corners of open edges that lie within [`WELD`] of the mesh's size: what other programs lose when they round.
+fn weld_open(points: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) {
+    let corners = || triangles.iter().flatten().map(|k| points[*k as usize]);
+    let low: [f64; 3] = std::array::from_fn(|d| corners().map(|p| p[d]).fold(f64::INFINITY, f64::min));
+    let high: [f64; 3] = std::array::from_fn(|d| corners().map(|p| p[d]).fold(f64::NEG_INFINITY, f64::max));
+    let near = WELD * length(minus(high, low));
+    if near <= 0.0 || !near.is_finite() {
+        return;
+    }
+    let mut border: Vec<u32> = edges(triangles).open.into_iter().flatten().collect();
+    border.sort_unstable();
+    border.dedup();
+    let mut same: Vec<u32> = (0..points.len() as u32).collect();
+    let place = |point: [f64; 3]| -> [i64; 3] { std::array::from_fn(|d| ((point[d] - low[d]) / near).floor() as i64) };
+    let mut seen: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    for k in border {
+        let point = points[k as usize];
+        let [x, y, z] = place(point);
+        let around = (0..27).map(|n| [x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1]);
+        let is_near = |other: &u32| length(minus(points[*other as usize], point)) <= near;
+        let found = around.filter_map(|cell| seen.get(&cell)?.iter().copied().find(is_near)).next();
+        match found {
+            Some(first) => same[k as usize] = first,
+            None => seen.entry([x, y, z]).or_default().push(k),
+        }
+    }
+    join(triangles, &same);
+}
+
+/// Edges that make a surface none.
+#[derive(Debug, Default)]
+struct Edges {
+    /// Those that are not run through equally often in both directions, by their corners.
+    open: Vec<[u32; 2]>,
+    /// How many belong to more than two triangles.
+    crowded: usize,
+}
+
+fn edges(triangles: &[[u32; 3]]) -> Edges {
     let mut uses: HashMap<[u32; 2], [u32; 2]> = HashMap::with_capacity(2 * triangles.len());
     for [a, b, c] in triangles {
         for (from, to) in [(a, b), (b, c), (c, a)] {
@@ -90,8 +133,23 @@ fn edges(triangles: &[[u32; 3]]) -> (usize, usize) {
             uses.entry([*from.min(to), *from.max(to)]).or_default()[direction] += 1;
         }
     }
-    let open = uses.values().filter(|[there, back]| there != back).count();
-    (open, uses.values().filter(|[there, back]| there + back > 2).count())
+    let open = uses.iter().filter(|(_, [there, back])| there != back).map(|(edge, _)| *edge);
+    let mut open: Vec<[u32; 2]> = open.collect();
+    open.sort_unstable();
+    Edges { open, crowded: uses.values().filter(|[there, back]| there + back > 2).count() }
+}
+
+/// How many edges are open, and where.
+fn open_text(open: &[[u32; 2]], points: &[[f64; 3]]) -> String {
+    let corners = || open.iter().flatten().map(|k| points[*k as usize]);
+    let low: [f64; 3] = std::array::from_fn(|d| corners().map(|p| p[d]).fold(f64::INFINITY, f64::min));
+    let high: [f64; 3] = std::array::from_fn(|d| corners().map(|p| p[d]).fold(f64::NEG_INFINITY, f64::max));
+    let [from, to] = open[0].map(|k| points[k as usize]);
+    format!(
+        "the surface is open, or its triangles face both ways, at {} edges between {low:?} and {high:?}, such as the one from \
+         {from:?} to {to:?}",
+        open.len()
+    )
 }
 
 /// Places at triangles whose winding numbers on both sides are not 1 and 0: how many, of how many, and one of them.

@@ -1,4 +1,4 @@
-//! Mesh files: Wavefront OBJ, STL, PLY; glTF has a file of its own.
+//! Mesh files: Wavefront OBJ and PLY; STL and glTF have files of their own.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -6,25 +6,33 @@ use std::path::Path;
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
 
-use super::{MeshFolder, Surface, gltf};
+use super::{MAX_BYTES, MAX_TRIANGLES, MeshFolder, Surface, Up, gltf, stl};
 
 /// What is wrong, and what to do.
 pub(super) type Problem = (String, String);
 
-/// Reads a file by its extension.
-pub(super) fn surface(path: &str, place: MeshFolder<'_>) -> Result<Surface, Problem> {
+/// Reads a file by its extension; the second is the direction that its format calls up, if it does.
+pub(super) fn surface(path: &str, node: Option<&str>, place: MeshFolder<'_>) -> Result<(Surface, Option<Up>), Problem> {
     let end = Path::new(path).extension().map(|end| end.to_string_lossy().to_lowercase()).unwrap_or_default();
     let read = match end.as_str() {
         "obj" => obj,
-        "stl" => stl,
+        "stl" => stl::read,
         "ply" => ply,
-        "gltf" | "glb" => return gltf::read(&place.bytes(place.folder, path)?, path, place),
+        "gltf" | "glb" => {
+            let surface = gltf::read(&place.bytes(place.folder, path, MAX_BYTES)?, path, node, place)?;
+            return Ok((surface, Some(Up::Y)));
+        }
         _ => {
             let help = "give a file that ends in .obj, .stl, .ply, .gltf or .glb";
             return Err((format!("`{path}` is no mesh file"), help.to_owned()));
         }
     };
-    read(&place.bytes(place.folder, path)?).map_err(|message| damaged(path, &message))
+    if node.is_some() {
+        let help = "leave `node` out, or write the mesh as .glb";
+        return Err((format!("`{path}` has no named nodes"), help.to_owned()));
+    }
+    let surface = read(&place.bytes(place.folder, path, MAX_BYTES)?).map_err(|message| damaged(path, &message))?;
+    Ok((surface, None))
 }
 
 /// A file that does not hold what its name says.
@@ -32,31 +40,45 @@ pub(super) fn damaged(path: &str, message: &str) -> Problem {
     (format!("`{path}` cannot be read: {message}"), "write the mesh again, as triangles".to_owned())
 }
 
+/// Only corners and faces count; materials lie in other files, which nobody asked for.
 fn obj(bytes: &[u8]) -> Result<Surface, String> {
-    let options = tobj::LoadOptions { triangulate: true, single_index: false, ..tobj::LoadOptions::default() };
-    // materials lie in other files, which nobody asked for
-    let refuse = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let (models, _) =
-        tobj::load_obj_buf(&mut Cursor::new(bytes), &options, refuse).map_err(|error| error.to_string())?;
+    let text = String::from_utf8_lossy(bytes).replace("\\\r\n", " ").replace("\\\n", " ");
     let mut surface = Surface::default();
-    for model in models {
-        let first = surface.points.len() as u32;
-        let points = model.mesh.positions.chunks_exact(3).map(|p| [p[0], p[1], p[2]].map(f64::from));
-        surface.points.extend(points);
-        let triangles = model.mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|k| k.saturating_add(first)));
-        surface.triangles.extend(triangles);
+    for line in text.lines() {
+        let mut words = line.split_ascii_whitespace();
+        match words.next() {
+            Some("v") => surface.points.push(three_numbers(&mut words).ok_or_else(|| unreadable(line))?),
+            Some("f") => {
+                let count = surface.points.len();
+                let corners = words.map(|word| obj_corner(word, count)).collect::<Option<Vec<u32>>>();
+                surface.add_polygon(&corners.ok_or_else(|| unreadable(line))?)?;
+            }
+            _ => {}
+        }
     }
     Ok(surface)
 }
 
-fn stl(bytes: &[u8]) -> Result<Surface, String> {
-    let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|error| error.to_string())?;
-    let point = |vertex: &stl_io::Vertex| [vertex[0], vertex[1], vertex[2]].map(f64::from);
-    let triangles = mesh.faces.iter().map(|face| face.vertices.map(|k| u32::try_from(k).unwrap_or(u32::MAX)));
-    Ok(Surface { points: mesh.vertices.iter().map(point).collect(), triangles: triangles.collect() })
+/// The first number of `5/2/7`, from 1; -1 is the last corner so far.
+fn obj_corner(word: &str, count: usize) -> Option<u32> {
+    let number: i64 = word.split('/').next()?.parse().ok()?;
+    let index = if number < 0 { i64::try_from(count).ok()?.checked_add(number)? } else { number.checked_sub(1)? };
+    u32::try_from(index).ok()
+}
+
+/// The next three words as numbers.
+pub(super) fn three_numbers<'w>(words: &mut impl Iterator<Item = &'w str>) -> Option<[f64; 3]> {
+    let mut next = || words.next()?.parse().ok();
+    Some([next()?, next()?, next()?])
+}
+
+/// A line that says something else than its first word.
+pub(super) fn unreadable(line: &str) -> String {
+    format!("`{}` makes no sense", line.trim().chars().take(60).collect::<String>())
 }
 
 fn ply(bytes: &[u8]) -> Result<Surface, String> {
+    ply_counts(bytes)?;
     let parsed =
         Parser::<DefaultElement>::new().read_ply(&mut Cursor::new(bytes)).map_err(|error| error.to_string())?;
     let list = |name: &str| parsed.payload.get(name).ok_or_else(|| format!("it has no element `{name}`"));
@@ -67,10 +89,38 @@ fn ply(bytes: &[u8]) -> Result<Surface, String> {
     }
     for face in list("face")? {
         let corners = face.get("vertex_indices").or_else(|| face.get("vertex_index")).and_then(indices);
-        let corners = corners.ok_or("a face has no `vertex_indices`")?;
-        surface.triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]));
+        surface.add_polygon(&corners.ok_or("a face has no `vertex_indices`")?)?;
     }
     Ok(surface)
+}
+
+/// Elements that the head promises: each must have properties, and room in the file.
+fn ply_counts(bytes: &[u8]) -> Result<(), String> {
+    let mut promised: Vec<(String, u64, u64)> = Vec::new();
+    for line in bytes.split(|byte| *byte == b'\n').take(1000) {
+        let line = String::from_utf8_lossy(line);
+        let words: Vec<&str> = line.split_ascii_whitespace().collect();
+        match words[..] {
+            ["element", name, count] => {
+                promised.push((name.to_owned(), count.parse().map_err(|_| unreadable(&line))?, 0));
+            }
+            ["property", ..] => promised.iter_mut().next_back().into_iter().for_each(|element| element.2 += 1),
+            ["end_header"] => break,
+            _ => {}
+        }
+    }
+    for (name, count, properties) in promised {
+        if properties == 0 && count > 0 {
+            return Err(format!("its head promises {count} elements `{name}` without properties"));
+        }
+        if count.saturating_mul(properties) > bytes.len() as u64 {
+            return Err(format!("its head promises {count} elements `{name}`, more than the file has room for"));
+        }
+        if count > MAX_TRIANGLES as u64 {
+            return Err(format!("{count} elements `{name}`; give at most {MAX_TRIANGLES}, simplify the mesh"));
+        }
+    }
+    Ok(())
 }
 
 fn number(property: &Property) -> Option<f64> {

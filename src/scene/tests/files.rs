@@ -33,7 +33,9 @@ fn every_scene_loads() {
         assert_eq!(scene.seed_particles().is_empty(), scene.bodies.is_empty(), "{}", path.display());
         let text = std::fs::read_to_string(path).expect("it was read before");
         assert!(
-            text.starts_with("# ") && text.contains("\n# Reference: ") && text.contains("\n[expect]"),
+            text.starts_with("#:schema ../../docs/scene.schema.json\n# ")
+                && text.contains("\n# Reference: ")
+                && text.contains("\n[expect]"),
             "{}",
             path.display()
         );
@@ -134,6 +136,13 @@ fn every_key_is_documented() {
     for key in ["smooth_union", "von_mises", "yield_stress", "b2b1", "outlet", "tolerance"] {
         assert!(found.iter().any(|other| other == key), "the schema lost {key}");
     }
+    let written =
+        std::fs::read_to_string(root().join("docs/scene.schema.json")).expect("docs/scene.schema.json exists");
+    assert_eq!(
+        written.trim_end(),
+        crate::scene::schema().trim_end(),
+        "write it again: brisance schema > docs/scene.schema.json"
+    );
     let missing = found.iter().filter(|key| !text.contains(&format!("`{key}`"))).collect::<Vec<_>>();
     assert!(missing.is_empty(), "docs/scenes.md does not mention {missing:?}");
 }

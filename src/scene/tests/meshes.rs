@@ -7,10 +7,10 @@ use std::path::Path;
 use super::{BASE, owned};
 use crate::scene::Scene;
 
-type Surface = (Vec<[f64; 3]>, Vec<[usize; 3]>);
+pub(super) type Surface = (Vec<[f64; 3]>, Vec<[usize; 3]>);
 
 /// A ball of radius 0.3 from an octahedron whose triangles are divided `times` times.
-fn ball(times: u32) -> Surface {
+pub(super) fn ball(times: u32) -> Surface {
     let mut triangles: Vec<[[f64; 3]; 3]> = Vec::new();
     for k in 0..8 {
         let sign = |d: u32| if k >> d & 1 == 1 { -1.0 } else { 1.0 };
@@ -33,7 +33,7 @@ fn ball(times: u32) -> Surface {
     (points, (0..triangles.len()).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect())
 }
 
-fn obj((points, triangles): &Surface) -> Vec<u8> {
+pub(super) fn obj((points, triangles): &Surface) -> Vec<u8> {
     // a material library that must not be opened
     let mut text = "mtllib ../../secret.mtl\n".to_owned();
     for [x, y, z] in points {
@@ -45,7 +45,7 @@ fn obj((points, triangles): &Surface) -> Vec<u8> {
     text.into_bytes()
 }
 
-fn ply((points, triangles): &Surface) -> Vec<u8> {
+pub(super) fn ply((points, triangles): &Surface) -> Vec<u8> {
     let mut text = format!(
         "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\nelement face {}\n\
          property list uchar int vertex_indices\nend_header\n",
@@ -65,7 +65,7 @@ fn floats(values: impl IntoIterator<Item = f64>) -> Vec<u8> {
     values.into_iter().flat_map(|x| (x as f32).to_le_bytes()).collect()
 }
 
-fn stl((points, triangles): &Surface) -> Vec<u8> {
+pub(super) fn stl((points, triangles): &Surface) -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes.extend((triangles.len() as u32).to_le_bytes());
     for t in triangles {
@@ -77,14 +77,14 @@ fn stl((points, triangles): &Surface) -> Vec<u8> {
 }
 
 /// A glTF whose buffer is the file `ball.bin`; a node moves the ball by (0.5, 0.5, 0.5). `claimed`: points it says it has.
-fn gltf((points, triangles): &Surface, claimed: usize, uri: &str) -> (String, Vec<u8>) {
+pub(super) fn gltf((points, triangles): &Surface, claimed: usize, uri: &str) -> (String, Vec<u8>) {
     let mut bytes = floats(points.iter().copied().flatten());
     let start = bytes.len();
     bytes.extend(triangles.iter().flatten().flat_map(|k| (*k as u32).to_le_bytes()));
     let (length, rest, indices) = (bytes.len(), bytes.len() - start, 3 * triangles.len());
     let text = format!(
         r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
-        "nodes": [{{"mesh": 0, "translation": [0.5, 0.5, 0.5]}}],
+        "nodes": [{{"mesh": 0, "name": "ball", "translation": [0.5, 0.5, -0.5]}}],
         "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1}}]}}],
         "buffers": [{{"byteLength": {length}, "uri": "{uri}"}}],
         "bufferViews": [{{"buffer": 0, "byteOffset": 0, "byteLength": {start}}}, {{"buffer": 0, "byteOffset": {start}, "byteLength": {rest}}}],
@@ -95,7 +95,7 @@ fn gltf((points, triangles): &Surface, claimed: usize, uri: &str) -> (String, Ve
 }
 
 /// A scene with a body from a mesh file in `folder`.
-fn load(folder: &Path, mesh: &str, overrides: &[&str]) -> Result<Scene, String> {
+pub(super) fn load(folder: &Path, mesh: &str, overrides: &[&str]) -> Result<Scene, String> {
     let base = BASE.replace("dimension = 2", "dimension = 3").replace("[20, 10]", "[32, 32, 32]");
     let base = base.replace("[2.0, 1.0]", "[1.0, 1.0, 1.0]");
     let body =
@@ -105,7 +105,7 @@ fn load(folder: &Path, mesh: &str, overrides: &[&str]) -> Result<Scene, String> 
     Scene::load(&path, &owned(overrides)).map_err(|error| error.to_string())
 }
 
-fn volume(scene: &Scene) -> f64 {
+pub(super) fn volume(scene: &Scene) -> f64 {
     scene.seed_particles().iter().map(|seed| seed.volume).sum()
 }
 
@@ -141,7 +141,7 @@ fn a_ball_has_its_volume_in_every_format() {
 }
 
 /// The report of a mesh that must be refused.
-fn refused(folder: &Path, mesh: &str, words: &[&str]) {
+pub(super) fn refused(folder: &Path, mesh: &str, words: &[&str]) {
     let report = load(folder, mesh, &[]).map(|_| ()).expect_err(mesh);
     for word in words {
         assert!(report.contains(word), "no `{word}` in\n{report}");

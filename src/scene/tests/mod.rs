@@ -2,7 +2,9 @@
 
 mod errors;
 mod files;
+mod foreign;
 mod geometry;
+mod hostile;
 mod meshes;
 mod sampling;
 

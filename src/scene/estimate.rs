@@ -1,0 +1,74 @@
+//! What a run of a scene will take, about: speeds of the start, the step, the number of steps, bytes on the disk.
+
+use super::{Boundary, GasState, Scene};
+
+/// Runs of more steps will hardly end.
+const MANY_STEPS: f64 = 1e6;
+/// Share of the raw pixels that a PNG takes.
+const PNG: f64 = 0.25;
+/// Bytes of a cell and of a particle in VTK files and states, before they are compressed.
+const CELL: f64 = 32.0;
+const PARTICLE: f64 = 160.0;
+
+/// The estimate.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Estimate {
+    /// Largest speed of sound at the start and at the sides `[m s^-1]`.
+    pub gas_sound_speed: f64,
+    /// Largest speed of pressure waves in the bodies `[m s^-1]`; 0 without bodies.
+    pub solid_sound_speed: f64,
+    /// Step at the start `[s]`.
+    pub step: f64,
+    /// Steps of the run, if they stay as long.
+    pub steps: f64,
+    /// Bytes of pictures, fields and states.
+    pub disk_bytes: f64,
+}
+
+impl Estimate {
+    /// Why the run will not end, if it will not.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        (self.steps > MANY_STEPS).then(|| {
+            format!("about {:.1e} steps: the run will hardly end; choose larger cells, a shorter time.until or softer bodies", self.steps)
+        })
+    }
+}
+
+impl Scene {
+    /// What a run will take, with so many particles.
+    #[must_use]
+    pub fn estimate(&self, particles: usize) -> Estimate {
+        let (mut sound, mut speed) = (0f64, 0f64);
+        let mut see = |state: &GasState| {
+            sound = sound.max(state.sound_speed(self.gas.gamma));
+            speed = speed.max(state.velocity.iter().map(|u| u * u).sum::<f64>().sqrt());
+        };
+        see(&self.gas.ambient);
+        self.gas.regions.iter().for_each(|region| see(&region.state));
+        for rule in self.boundary.sides().into_iter().flat_map(Boundary::rules) {
+            if let Boundary::Inlet(state) | Boundary::FarField(state) = rule {
+                see(state);
+            }
+        }
+        let moving = self.bodies.iter().map(|body| body.velocity.iter().map(|u| u * u).sum::<f64>().sqrt());
+        let speed = moving.fold(speed, f64::max);
+        let wave = |body: &super::Body| Some(self.materials.get(&body.material)?.wave_speed(body.density));
+        let solid = self.bodies.iter().filter_map(wave).fold(0.0, f64::max);
+        let (time, spacing) = (&self.time, self.domain.spacing());
+        // gas that expands from rest becomes about as fast as its sound
+        let carried = time.cfl * spacing / speed.max(sound);
+        let heard = time.max_courant * spacing / sound;
+        let strained = self.numerics.elastic_cfl * spacing * f64::from(self.numerics.max_substeps) / solid;
+        let step = time.fixed_step.unwrap_or(carried.min(heard).min(strained));
+        let frames = f64::from(time.frames) + 1.0;
+        let pixels = f64::from(self.render.size[0]) * f64::from(self.render.size[1]);
+        let pictures = (1 + self.render.views.len()) as f64 * self.output.fields.len().max(1) as f64;
+        let formats = f64::from(u8::from(self.output.vtk)) + f64::from(u8::from(self.output.states));
+        let stored = formats * (CELL * self.domain.cell_count() as f64 + PARTICLE * particles as f64);
+        let steps = time.until / step;
+        // one row of the table of steps has about 600 bytes
+        let disk_bytes = frames * (PNG * 3.0 * pixels * pictures + stored) + 600.0 * steps;
+        Estimate { gas_sound_speed: sound, solid_sound_speed: solid, step, steps, disk_bytes }
+    }
+}

@@ -1,0 +1,47 @@
+//! Regions of gas: a shape and the state inside, whose keys stand side by side in a file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{GasState, Shape, vector};
+
+/// A part of the domain with its own gas state at the start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "RegionKeys", into = "RegionKeys")]
+pub struct Region {
+    /// Where.
+    pub shape: Shape,
+    /// The state inside; its keys stand next to `shape` in the file.
+    pub state: GasState,
+}
+
+/// The keys of a [`Region`] as they stand in the file.
+#[derive(Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Region")]
+struct RegionKeys {
+    /// Where.
+    shape: Shape,
+    /// Density `[kg m^-3]`, positive.
+    density: f64,
+    /// Velocity `[m s^-1]`.
+    #[serde(default, deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    velocity: [f64; 3],
+    /// Pressure `[Pa]`, positive.
+    pressure: f64,
+}
+
+impl From<RegionKeys> for Region {
+    fn from(keys: RegionKeys) -> Self {
+        let state = GasState { density: keys.density, velocity: keys.velocity, pressure: keys.pressure };
+        Region { shape: keys.shape, state }
+    }
+}
+
+impl From<Region> for RegionKeys {
+    fn from(region: Region) -> Self {
+        let GasState { density, velocity, pressure } = region.state;
+        RegionKeys { shape: region.shape, density, velocity, pressure }
+    }
+}

@@ -1,0 +1,164 @@
+//! A run and its folder, its signals and its children.
+#![cfg(unix)]
+
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::cli::{brisance, err, fails, report, run, succeeds, table, write_small_scene};
+use crate::common::gpu_or_skip;
+
+const SHORT: [&str; 7] = ["run", "sod", "--until", "0.01", "--frames", "1", "--out"];
+
+#[test]
+fn a_run_is_replaced_by_force_only_and_nothing_else_with_it() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    let out = target.to_str().unwrap();
+    let arguments = [&SHORT[..], &[out]].concat();
+    succeeds(&arguments);
+    assert_eq!(report(&target)["status"], "finished");
+    std::fs::write(target.join("frames/mine.txt"), "x").unwrap();
+    assert!(fails(2, &arguments).contains("--force"));
+    let again = [&SHORT[..], &[out, "--force", "--set", "render.size=[64, 64]", "--no-frames"]].concat();
+    succeeds(&again);
+    assert!(target.join("frames/mine.txt").exists() && !target.join("frames/0000.png").exists());
+    std::fs::write(target.join(".brisance.lock"), "1\n0\nelsewhere\n").unwrap();
+    assert!(fails(2, &again).contains("belongs to another run"));
+}
+
+#[test]
+fn a_report_tells_of_what_was_killed_and_a_stale_lock_is_none() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    let out = target.to_str().unwrap();
+    let long = ["run", "sod", "--until", "1000", "--frames", "100000", "--no-expect", "--out", out];
+    let mut child = brisance(&long).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let start = Instant::now();
+    while !target.join("frames/0003.png").exists() {
+        assert!(start.elapsed() < Duration::from_secs(120), "no frame");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert!(fails(2, &long).contains("belongs to another run"));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(report(&target)["status"], "running");
+    assert!(report(&target)["steps"].as_u64().unwrap() > 0);
+    succeeds(&[&SHORT[..], &[out, "--force"]].concat());
+}
+
+#[test]
+fn output_that_goes_away_ends_no_run() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    let arguments = [&SHORT[..], &[target.to_str().unwrap()]].concat();
+    let mut child = brisance(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop((child.stdout.take(), child.stderr.take()));
+    assert!(child.wait().unwrap().success());
+    assert_eq!(report(&target)["status"], "finished");
+    let script = format!("{} list | head -n 1", env!("CARGO_BIN_EXE_brisance"));
+    let list = Command::new("sh").args(["-c", &script]).output().unwrap();
+    assert!(list.status.success() && list.stderr.is_empty(), "{}", err(&list));
+}
+
+/// Puts a program of that name and text in front of all others.
+fn with_program(folder: &Path, name: &str, text: &str) -> String {
+    let bin = folder.join("bin");
+    std::fs::create_dir_all(&bin).unwrap();
+    std::fs::write(bin.join(name), text).unwrap();
+    std::fs::set_permissions(bin.join(name), std::fs::Permissions::from_mode(0o755)).unwrap();
+    format!("{}:{}", bin.display(), std::env::var("PATH").unwrap_or_default())
+}
+
+#[test]
+fn an_encoder_that_fails_costs_the_film_alone() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    let film = folder.path().join("film.mp4");
+    let talks = "#!/bin/sh\n[ \"$1\" = -version ] && exit 0\nyes error | head -c 1000000 >&2\ncat >/dev/null\nexit 1\n";
+    let path = with_program(folder.path(), "ffmpeg", talks);
+    let arguments = [&SHORT[..], &[target.to_str().unwrap(), "--video", film.to_str().unwrap()]].concat();
+    let output = brisance(&arguments).env("PATH", path).output().unwrap();
+    assert_eq!(output.status.code(), Some(9), "{}", err(&output));
+    assert!(err(&output).contains("warning: no film"), "{}", err(&output));
+    assert!(target.join("frames/0001.png").exists() && !film.exists());
+    let report = report(&target);
+    assert_eq!(report["status"], "finished");
+    assert!(report["outcome"].as_str().unwrap().starts_with("no film"), "{}", report["outcome"]);
+}
+
+#[test]
+fn scenes_come_by_name_by_pipe_and_from_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("scenes")).unwrap();
+    std::fs::write(folder.path().join("scenes/broken.toml"), "title = ").unwrap();
+    let at = |arguments: &[&str]| brisance(arguments).current_dir(folder.path()).output().unwrap();
+    assert!(at(&["list"]).status.success() && at(&["check", "sod"]).status.success());
+    let told = err(&at(&["check", "sodd"]));
+    assert!(told.contains("did you mean `sod`") && told.len() < 300, "{told}");
+    assert!(at(&["show", "sod"]).stdout.starts_with(b"#:schema"));
+    for (name, options) in [("a", &[][..]), ("b.toml", &["--3d"]), ("c", &["--shock-tube"]), ("d", &["--from", "lax"])]
+    {
+        let made = at(&[&["init", name], options].concat());
+        assert!(made.status.success(), "{}", err(&made));
+        let file = format!("{}.toml", name.trim_end_matches(".toml"));
+        let checked = at(&["check", &file]);
+        assert!(checked.status.success(), "{}", err(&checked));
+        assert_eq!(at(&["init", name]).status.code(), Some(2), "it stays");
+    }
+    let picture = at(&["check", "a.toml", "--picture", "a.toml"]);
+    assert!(err(&picture).contains("is an input"), "{}", err(&picture));
+    let script = format!("{} check - < a.toml", env!("CARGO_BIN_EXE_brisance"));
+    assert!(Command::new("sh").args(["-c", &script]).current_dir(folder.path()).status().unwrap().success());
+    Command::new("mkfifo").arg(folder.path().join("fifo.toml")).status().unwrap();
+    assert!(err(&at(&["check", "fifo.toml"])).contains("no regular file"));
+    assert!(err(&run(&["check", folder.path().to_str().unwrap()])).contains("is a folder"));
+}
+
+#[test]
+fn interruption_leaves_complete_files() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("small.toml");
+    write_small_scene(&scene);
+    let target = folder.path().join("result");
+    let long = ["--until", "1000", "--frames", "100000", "--out", target.to_str().unwrap()];
+    let arguments = [&["run", scene.to_str().unwrap()], &long[..]].concat();
+    let mut child = brisance(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let start = Instant::now();
+    while !target.join("frames/0003.png").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "ended early");
+        assert!(start.elapsed() < Duration::from_secs(60), "no frame in a minute");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let report = report(&target);
+    assert!(report["outcome"].as_str().unwrap().starts_with("interrupted"), "{}", report["outcome"]);
+    assert_eq!(report["status"], "stopped");
+    assert!(!target.join(".brisance.lock").exists());
+    let frames = report["frames"].as_u64().unwrap();
+    for index in 0..frames {
+        let picture = std::fs::read(target.join(format!("frames/{index:04}.png"))).unwrap();
+        assert!(picture.ends_with(b"IEND\xaeB`\x82"), "frame {index} is cut");
+    }
+    assert!(!target.join(format!("frames/{frames:04}.png")).exists());
+    let (_, steps) = table(&target.join("diagnostics.csv"));
+    assert_eq!(steps.len() as u64, report["steps"].as_u64().unwrap());
+}
