@@ -146,7 +146,6 @@ mod tests {
             ghost_pressure: 0.0,
             plastic_strain: 0.0,
             deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            driven: false,
             body,
             material: 0,
         };

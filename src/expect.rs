@@ -88,7 +88,9 @@ impl Budget {
             let ghost = f64::from(particle.ghost_pressure);
             let start = scene.gas.ambient.pressure;
             let material = materials.get(particle.material as usize);
-            let stored = material.filter(|_| !particle.driven);
+            // A body that moves as prescribed as a whole keeps its volume while its ghost pressure follows the gas: it stores nothing.
+            let body = &scene.bodies[particle.body as usize];
+            let stored = material.filter(|_| body.motion.is_none() || body.clamped.is_some());
             let energy = stored.map_or(0.0, |material| material.ghost_energy(ghost, start));
             self.solid_mass += mass;
             self.energy += f64::from(particle.kinetic_energy) + f64::from(particle.volume0) * energy;

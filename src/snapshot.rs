@@ -69,8 +69,6 @@ pub struct ParticleSample {
     pub plastic_strain: f32,
     /// Deformation gradient, columns.
     pub deformation: [[f32; 3]; 3],
-    /// Whether it is held or moves as prescribed: then its ghost pressure follows the gas though its volume stays, and stores no energy.
-    pub driven: bool,
     /// Index of the body in the scene.
     pub body: u32,
     /// Index of the material in the scene.
@@ -141,7 +139,6 @@ fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
         ghost_pressure: affine[3 * p][3],
         plastic_strain: affine[3 * p + 1][3],
         deformation: [xyz(deformation[3 * p]), xyz(deformation[3 * p + 1]), xyz(deformation[3 * p + 2])],
-        driven: deformation[3 * p + 1][3] == 2.0,
         body: deformation[3 * p][3].to_bits(),
         material: affine[3 * p + 2][3].to_bits(),
     };

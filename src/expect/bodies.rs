@@ -186,7 +186,6 @@ order = [{ quantity = "moved_x", bodies = ["near", "far"] }, { quantity = "moved
             ghost_pressure: 0.0,
             plastic_strain: 0.3,
             deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            driven: false,
             body: seed.body,
             material: 0,
         };

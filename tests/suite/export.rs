@@ -24,7 +24,6 @@ fn snapshot(dimension: u32) -> Snapshot {
         ghost_pressure: -4.0,
         plastic_strain: 0.125,
         deformation: [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.5]],
-        driven: false,
         body: index as u32,
         material: 1,
     };
