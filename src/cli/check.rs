@@ -11,7 +11,7 @@ use crate::export::png;
 use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::render::{Renderer, SceneBuffers};
-use crate::scene::{Overlap, Scene, ThinBody};
+use crate::scene::{Estimate, Overlap, Scene, ThinBody};
 use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -73,6 +73,13 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     if let Some(largest) = plan.largest() {
         say!("#   largest buffer: {}, {}", largest.name, size(largest.bytes));
     }
+    say_estimate(&estimate);
+    say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
+    Ok(())
+}
+
+/// What a run will take, for people.
+fn say_estimate(estimate: &Estimate) {
     let solid = match estimate.solid_sound_speed {
         0.0 => String::new(),
         speed => format!(", {} m/s in bodies", plain(speed)),
@@ -80,8 +87,6 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     say!("# sound      {} m/s in gas{solid}", plain(estimate.gas_sound_speed));
     say!("# steps      about {} of {} s, as at the start", plain(estimate.steps.ceil()), plain(estimate.step));
     say!("# disk       about {}", size(estimate.disk_bytes as u64));
-    say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
-    Ok(())
 }
 
 /// An overlap for people.

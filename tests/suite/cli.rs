@@ -222,7 +222,7 @@ fn too_large_scenes_are_refused_before_allocation() {
 #[test]
 fn the_memory_plan_is_what_is_allocated() {
     for (name, cells, per_cell) in
-        [("sod", 400, 152.0), ("fig16_convergence", 96, 162.0), ("bursting_shell_3d", 36, 195.0)]
+        [("sod", 400, 152.0), ("fig16_convergence", 96, 162.0), ("bursting_shell_3d", 36, 233.0)]
     {
         let Some(gpu) = gpu_or_skip() else { return };
         let shipped = succeeds(&["list", "--json"]);
@@ -240,7 +240,7 @@ fn the_memory_plan_is_what_is_allocated() {
     let large = Scene::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/demos/bursting_shell_3d.toml"), &[]);
     let large = large.unwrap().with_resolution(128).unwrap();
     let plan = MemoryPlan::new(&large, large.seed_particles().len());
-    assert!(plan.per_cell() <= 174.0, "{}", plan.per_cell());
+    assert!(plan.per_cell() <= 207.0, "{}", plan.per_cell());
     let gas = Scene::shipped("paper/fig16_convergence.toml", &[]).unwrap().with_resolution(512).unwrap();
     let plan = MemoryPlan::new(&gas, 0);
     assert!(plan.per_cell() <= 134.0, "{}", plan.per_cell());

@@ -49,18 +49,7 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
     problem.gamma = scene.gas.gamma;
     problem.gravity = scene.gravity;
     problem.ambient = (scene.gas.ambient.density, scene.gas.ambient.pressure);
-    let material = |m: &brisance::scene::Material| {
-        let params = m.params(scene.volume_share());
-        Material {
-            mu: m.mu(),
-            lambda: m.lambda(),
-            ghost: params.ghost_modulus.into(),
-            elastic_lambda: params.elastic_lambda.into(),
-            start: scene.gas.ambient.pressure,
-            yield_stress: m.yield_stress(),
-        }
-    };
-    problem.materials = scene.materials.values().map(material).collect();
+    problem.materials = scene.materials.values().map(|material| material_of(scene, material)).collect();
     problem.numerics.pair = match scene.numerics.pair {
         Pair::B2b1 => twin::Pair::B2b1,
         Pair::B1b0 => twin::Pair::B1b0,
@@ -89,6 +78,18 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
 
 /// Floor of entropy under random gas, over that of the scene.
 const LOW_FLOOR: f32 = 0.1;
+
+fn material_of(scene: &Scene, material: &brisance::scene::Material) -> Material {
+    let params = material.params(scene.volume_share());
+    Material {
+        mu: material.mu(),
+        lambda: material.lambda(),
+        ghost: params.ghost_modulus.into(),
+        elastic_lambda: params.elastic_lambda.into(),
+        start: scene.gas.ambient.pressure,
+        yield_stress: material.yield_stress(),
+    }
+}
 
 /// A simulation and its twin.
 pub(crate) struct Twins {
