@@ -172,10 +172,7 @@ impl Gpu {
                 self.info.name,
                 self.allocated_bytes() as f64 / GIB
             ))),
-            Some(Fault::Other(text)) => Err(Error::Shader(format!(
-                "a bug in brisance: the graphics library refused what it was asked to do; please report it with the scene and `brisance \
-                 devices`. It said: {text}"
-            ))),
+            Some(Fault::Other(text)) => Err(Error::Gpu(text)),
         }
     }
 
