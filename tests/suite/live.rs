@@ -63,8 +63,8 @@ fn a_blast_gives_what_was_asked_for_and_the_books_close() {
             let last = records.last().unwrap();
             let stored = f64::from(last.elastic_energy) + f64::from(last.plastic_heat);
             let drift = Budget::read(&simulation, &scene, stored).unwrap().energy - books;
-            // a body whose ghost pressure is softer than the blast is compressed by it within a step
-            let allowed = if scene.bodies.is_empty() { 1e-4 } else { 3e-2 };
+            // bodies that strain leave the error of explicit elastic steps
+            let allowed = if scene.bodies.is_empty() { 1e-4 } else { 2e-3 };
             assert!(drift.abs() < allowed * asked, "{dimension}D {more}: {drift} J are missing later");
             assert!(last.given.energy > 0.99 * asked as f32 && last.gas_speed > 10.0, "{last:?}");
         }
