@@ -26,8 +26,29 @@
 // More than this times the load is never taken for the reaction to it.
 const MOST_REACTION = 2.0;
 
+// A node of a body has all of its own velocity from this share of the mass around it on.
+const OWN_MASS = 1e-4;
+
 // Nodes without mass, and those that are driven, have no forces.
 fn is_free(slot: u32) -> bool { return node[slot].w > 0.0 && !(DRIVEN && has(cells[slot], NODE_DRIVEN)); }
+
+// Velocity of a node, and its mass. A node of a body moves with the nodes around it as far as it has no mass of its own: as particles leave,
+// its velocity would lose its digits first, then be 0, and the solve, which takes velocities by volume, would see a wall.
+fn velocity_with_around(slot: u32) -> vec4f {
+    let own = node[slot];
+    let word = cells[slot];
+    if !has(word, NODE_SOLID) || (DRIVEN && has(word, NODE_DRIVEN)) { return own; }
+    var around = vec4f(0.0);
+    for (var k = 0u; k < block_size(); k++) {
+        let near = cell_of(slot) + block_offset(k);
+        if !in_ring(near) { continue; }
+        let other = node[slot_of(near)];
+        around += other.w * vec4f(other.xyz, 1.0);
+    }
+    let lacking = OWN_MASS * around.w - own.w;
+    if lacking <= 0.0 { return own; }
+    return vec4f((own.w * own.xyz + lacking * around.xyz / around.w) / (own.w + lacking), own.w);
+}
 
 @compute @workgroup_size(WORKGROUP)
 fn reaction_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
@@ -35,7 +56,16 @@ fn reaction_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     elastic[slot] = vec4f(work[params.slots + slot].xyz, 0.0);
-    elastic[params.slots + slot] = node[slot];
+    elastic[params.slots + slot] = velocity_with_around(slot);
+}
+
+// Nodes of bodies with next to no mass of their own. What has all of its mass, or is driven, stays as it is.
+@compute @workgroup_size(WORKGROUP)
+fn reaction_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, groups, lane);
+    if slot >= params.slots || !has(cells[slot], NODE_SOLID) { return; }
+    node[slot] = elastic[params.slots + slot];
 }
 
 // Velocity of the particles at a node of the ring, and its mass.
@@ -44,28 +74,29 @@ fn start_of(c: vec3i) -> vec4f {
     return elastic[params.slots + slot_of(c)];
 }
 
-// (V . grad) V from nodes with mass: central differences, one-sided at the edge of a body.
-fn carried_away(c: vec3i, own: vec3f) -> vec3f {
+// (V . grad) V: central differences, one-sided at the edge of a body. A lighter node counts by its mass: what has none has no velocity.
+fn carried_away(c: vec3i, own: vec4f) -> vec3f {
     var sum = vec3f(0.0);
     for (var n = 0u; n < DIM; n++) {
         let above = start_of(c + axis(n));
         let below = start_of(c - axis(n));
-        let has_mass = select(vec2f(0.0), vec2f(1.0), vec2f(above.w, below.w) > vec2f(0.0));
-        let change = has_mass.x * (above.xyz - own) + has_mass.y * (own - below.xyz);
-        sum += own[n] * change / (max(has_mass.x + has_mass.y, 1.0) * params.spacing);
+        let weight = min(vec2f(above.w, below.w) / own.w, vec2f(1.0));
+        let change = weight.x * (above.xyz - own.xyz) + weight.y * (own.xyz - below.xyz);
+        sum += own[n] * change / (max(weight.x + weight.y, 1.0) * params.spacing);
     }
     return sum;
 }
 
-// Reaction of a free node of a body, before walls.
+// Reaction of a free node of a body, before walls. What a node has less than the inertia of the solve bears nothing.
 fn reaction_of(slot: u32, here: vec3f) -> vec3f {
-    let force = elastic[slot].xyz / inertia[slot];
-    if SHARED_VOLUME { return force; }
-    let start = elastic[params.slots + slot].xyz;
-    let load = (here - start) / control.dt - work[params.slots + slot].xyz;
+    let force = elastic[slot].xyz;
+    if SHARED_VOLUME { return force / inertia[slot]; }
+    let start = elastic[params.slots + slot];
+    let load = (here - start.xyz) / control.dt - work[params.slots + slot].xyz;
     let size = dot(load, load);
     if size == 0.0 { return vec3f(0.0); }
-    return -clamp(-dot(force - carried_away(cell_of(slot), start), load) / size, 0.0, MOST_REACTION) * load;
+    let seen = (force - start.w * carried_away(cell_of(slot), start)) / inertia[slot];
+    return -clamp(-dot(seen, load) / size, 0.0, MOST_REACTION) * load;
 }
 
 // Between the forces of X* and the velocities that enter the solve.

@@ -43,9 +43,10 @@ fn solid_inertia(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let mass = node[slot].w;
     // No floor is above that of the heaviest body.
     var least = params.mass_floor;
-    if mass > 0.0 && mass < least {
+    if mass < least {
         let c = cell_of(slot);
-        least = min(least, min(LIGHTEST_NODE * cell_volume() * least_density(c), LIGHTEST_BESIDE[DIM - 1u] * heaviest(c)));
+        let most = heaviest(c);
+        if most > 0.0 { least = min(least, min(LIGHTEST_NODE * cell_volume() * least_density(c), LIGHTEST_BESIDE[DIM - 1u] * most)); }
     }
     inertia[slot] = max(mass, least);
 }

@@ -12,6 +12,7 @@ use crate::state::State;
 #[derive(Debug)]
 pub struct ElasticReaction {
     start: Bound,
+    fill: Bound,
     before: Bound,
     /// The power of the pressures goes without the reaction; not with a shared volume.
     aside: Option<Bound>,
@@ -33,6 +34,7 @@ impl ElasticReaction {
         let aside = (scene.numerics.ghost == Ghost::Absorbs).then(|| bind("reaction_aside"));
         Ok(Some(Self {
             start: bind("reaction_start")?,
+            fill: bind("reaction_fill")?,
             before: bind("reaction_before")?,
             aside: aside.transpose()?,
             after: bind("reaction_after")?,
@@ -40,9 +42,10 @@ impl ElasticReaction {
         }))
     }
 
-    /// Keeps the velocity of the nodes and the elastic force that `p2g` has left.
+    /// Keeps the velocity of the nodes and the elastic force that `p2g` has left; nodes with next to no mass move with those around them.
     pub fn record_start(&self, pass: &mut Pass, state: &State) {
         pass.dispatch(&self.start, &slots(state, "BEGIN"));
+        pass.dispatch(&self.fill, &slots(state, "BEGIN"));
     }
 
     /// The velocities that enter the solve, from its load without them, in a phase.

@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, Mat4};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::Source;
 use gltf::mesh::Mode;
-use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
+use gltf::{Accessor, Document, Gltf, Node, Primitive, Semantic};
 
 use super::read::{Problem, damaged};
 use super::{MAX_BYTES, MAX_TRIANGLES, MeshFolder, Surface};
@@ -22,7 +22,7 @@ const MOST_BUFFERS: usize = 1000;
 
 /// Reads a `.gltf` or `.glb`: all of it, or one node by its name.
 pub(super) fn read(bytes: &[u8], path: &str, wanted: Option<&str>, place: MeshFolder<'_>) -> Result<Surface, Problem> {
-    let file = Gltf::from_slice(bytes).map_err(|error| damaged(path, &error.to_string()))?;
+    let file = valid(bytes).map_err(|message| damaged(path, &message))?;
     let buffers = buffers(&file, path, place)?;
     let scene = file.document.default_scene().or_else(|| file.document.scenes().next());
     let mut adding = Adding { buffers, wanted, names: Vec::new(), visits: 0, surface: Surface::default() };
@@ -38,6 +38,19 @@ pub(super) fn read(bytes: &[u8], path: &str, wanted: Option<&str>, place: MeshFo
             Err((format!("`{path}` has no node `{wanted}`{like}"), format!("it has {some}")))
         }
     }
+}
+
+/// The file as the standard wants it. The check of `gltf` reads the accessors of positions before it knows that they are there.
+fn valid(bytes: &[u8]) -> Result<Gltf, String> {
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(|error| error.to_string())?;
+    let root = document.into_json();
+    let parts = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    if let Some(accessor) = parts.flat_map(|part| part.attributes.values()).find(|a| a.value() >= root.accessors.len())
+    {
+        return Err(format!("a part uses accessor {accessor} of {}", root.accessors.len()));
+    }
+    let document = Document::from_json(root).map_err(|error| error.to_string())?;
+    Ok(Gltf { document, blob })
 }
 
 /// The bytes of all buffers; those of other files count, too, and all together are limited.

@@ -8,6 +8,8 @@ use super::{Problem, SOLID, interface};
 
 /// Most that is taken for the reaction to a load, and that a node takes of an impulse as its mass moves on: times that.
 const MOST: f64 = 2.0;
+/// Share of the mass around a node of a body from which on its velocity is all its own.
+const OWN_MASS: f64 = 1e-4;
 
 type Vectors = Vec<[f64; 3]>;
 
@@ -15,17 +17,39 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// (V . grad) V by differences between nodes with mass.
+/// Nodes of bodies with next to no mass move with those around them.
+pub(crate) fn fill(problem: &Problem, cells: &[u32], nodes: &mut Nodes) {
+    let grid = &problem.grid;
+    let start = nodes.velocity.clone();
+    for c in grid.all().into_iter().filter(|c| is_solid(problem, cells, *c)) {
+        let slot = grid.slot(c);
+        let near = grid.offsets(-1, 1).into_iter().map(|o| add(c, o)).filter(|at| grid.stored(*at));
+        let near: Vec<usize> = near.map(|at| grid.slot(at)).collect();
+        let around: f64 = near.iter().map(|at| nodes.mass[*at]).sum();
+        let own = (nodes.mass[slot] / (OWN_MASS * around)).min(1.0);
+        if around > 0.0 {
+            let mean = |d: usize| near.iter().map(|at| nodes.mass[*at] * start[*at][d]).sum::<f64>() / around;
+            nodes.velocity[slot] = [0, 1, 2].map(|d| own * start[slot][d] + (1.0 - own) * mean(d));
+        }
+    }
+}
+
+fn is_solid(problem: &Problem, cells: &[u32], node: [i32; 3]) -> bool {
+    interface::elements_of(problem, node).any(|(cell, _)| cells[problem.grid.slot(cell)] == SOLID)
+}
+
+/// (V . grad) V by differences between nodes, of which lighter ones count by their mass.
 fn carried_away(grid: &Grid, mass: &[f64], velocity: &[[f64; 3]], c: [i32; 3]) -> [f64; 3] {
     let own = velocity[grid.slot(c)];
     let mut sum = [0.0; 3];
     for axis in 0..grid.dimension {
         let sides = [-1, 1].map(|side| (f64::from(side), shift(c, axis, side)));
-        let near: Vec<_> = sides.into_iter().filter(|(_, at)| grid.stored(*at) && mass[grid.slot(*at)] > 0.0).collect();
-        for (side, at) in &near {
-            let other = velocity[grid.slot(*at)];
+        let near = sides.into_iter().filter(|(_, at)| grid.stored(*at)).map(|(side, at)| (side, grid.slot(at)));
+        let near: Vec<_> = near.map(|(side, at)| (side, at, (mass[at] / mass[grid.slot(c)]).min(1.0))).collect();
+        let count = near.iter().map(|(_, _, weight)| weight).sum::<f64>().max(1.0);
+        for (side, at, weight) in near {
             for d in 0..3 {
-                sum[d] += own[axis] * side * (other[d] - own[d]) / (near.len() as f64 * grid.spacing);
+                sum[d] += own[axis] * side * weight * (velocity[at][d] - own[d]) / (count * grid.spacing);
             }
         }
     }
@@ -55,20 +79,18 @@ pub(crate) fn reaction(inputs: &Inputs, start: &[[f64; 3]], inertia: &[f64]) -> 
     let mut moved = nodes.velocity.clone();
     for c in grid.all() {
         let slot = grid.slot(c);
-        let solid = interface::elements_of(problem, c).any(|(cell, _)| cells[grid.slot(cell)] == SOLID);
         let load = [0, 1, 2].map(|d| (nodes.velocity[slot][d] - start[slot][d]) / dt + push[slot][d]);
-        if !free(slot) || !solid || load == [0.0; 3] {
+        if !free(slot) || !is_solid(problem, cells, c) || load == [0.0; 3] {
             continue;
         }
         let away = carried_away(grid, &nodes.mass, start, c);
-        let seen = [0, 1, 2].map(|d| elastic(slot)[d] - away[d]);
+        let seen = [0, 1, 2].map(|d| (nodes.force[slot][d] - nodes.mass[slot] * away[d]) / inertia[slot]);
         let share = (-dot(seen, load) / dot(load, load)).clamp(0.0, MOST);
         moved[slot] = [0, 1, 2].map(|d| moved[slot][d] - dt * share * load[d]);
     }
     let before = moved.clone();
     walls(problem, cells, &mut moved);
-    let solid = |c: [i32; 3]| interface::elements_of(problem, c).any(|(cell, _)| cells[grid.slot(cell)] == SOLID);
-    for c in grid.all().into_iter().filter(|c| !solid(*c)) {
+    for c in grid.all().into_iter().filter(|c| !is_solid(problem, cells, *c)) {
         moved[grid.slot(c)] = before[grid.slot(c)];
     }
     let gain = |slot: usize| [0, 1, 2].map(|d| (moved[slot][d] - nodes.velocity[slot][d]) / dt);

@@ -30,11 +30,14 @@ pub(crate) fn inertia(problem: &Problem, bins: &Bins, mass: &[f64]) -> Vec<f64> 
     let grid = &problem.grid;
     let most = problem.numerics.mass_floor * grid.volume() * bins.density;
     let mut inertia: Vec<f64> = mass.iter().map(|mass| mass.max(most)).collect();
-    for c in grid.all().into_iter().filter(|c| mass[grid.slot(*c)] > 0.0) {
+    for c in grid.all() {
         let near = grid.offsets(-1, 1).into_iter().map(|offset| add(c, offset)).filter(|at| grid.contains(*at));
         let least = near.map(|at| bins.least_density[grid.slot(at)]).fold(f64::INFINITY, f64::min);
         let near = grid.offsets(-1, 1).into_iter().map(|offset| add(c, offset)).filter(|at| grid.stored(*at));
         let heaviest = near.map(|at| mass[grid.slot(at)]).fold(0.0, f64::max);
+        if heaviest == 0.0 {
+            continue;
+        }
         let slot = grid.slot(c);
         let floor = problem.numerics.mass_floor * grid.volume() * least;
         inertia[slot] = mass[slot].max(floor.min(problem.numerics.mass_beside[grid.dimension - 1] * heaviest));
