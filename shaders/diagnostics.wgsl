@@ -108,7 +108,7 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
         for (var a = 0u; a < DIM; a++) { turning += dot(affine[3u * p + a].xyz, affine[3u * p + a].xyz); }
         let kinetic = 0.5 * mass * (dot(v, v) + 0.25 * params.spacing * params.spacing * turning);
         heat += vec4f(kinetic, velocity[p].w * elastic_energy(material.kind, f, elastic_part(material)),
-            velocity[p].w * ghost_energy(material, q), stress[2u * p].w);
+            velocity[p].w * ghost_energy(material, swelling_of(material, f, q)), stress[2u * p].w);
         speed = max(speed, length(v));
     }
     let at = thread_index(group, groups, 0u) / WORKGROUP;

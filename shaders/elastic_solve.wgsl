@@ -10,7 +10,8 @@
 #include "shared/given.wgsl"
 #include "shared/place.wgsl"
 #include "shared/matrix.wgsl"
-#include "shared/material.wgsl"
+#include "shared/ghost.wgsl"
+#include "shared/ghost_change.wgsl"
 #include "shared/motion.wgsl"
 #include "shared/trial.wgsl"
 
@@ -21,6 +22,7 @@
 @group(0) @binding(5) var<storage, read> work: array<vec4f>;                    // second half: f(V)
 @group(0) @binding(6) var<storage, read_write> residual: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> product: array<vec4f>;
+@group(0) @binding(8) var<storage, read> ghost: array<f32>;                    // vertex change of the ghost pressure in this step
 @group(0) @binding(9) var<storage, read_write> inverse_diagonal: array<vec4f>;
 @group(0) @binding(10) var<storage, read> position: array<vec4f>;
 @group(0) @binding(11) var<storage, read> velocity: array<vec4f>;
@@ -84,18 +86,24 @@ fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let trial = trial_deformation(p, motion_at(place_at(x, vec3f(cell) + 0.5)).gradient, control.dt);
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
     let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
-    let part = elastic_part(material);
-    let tau = kirchhoff_stress(material.kind, returned.deformation, part);
+    let q = affine[3u * p].w + ghost_change(x);
+    let tau = elastic_stress(material, returned.deformation, q);
     var stiffness = stretch_of(returned.deformation);
     if returned.plastic_strain > 0.0 {
-        let before = deviator_size(kirchhoff_stress(material.kind, trial, part));
+        let before = deviator_size(kirchhoff_stress(material.kind, trial, material));
         stiffness *= clamp(deviator_size(tau) / max(before, 1e-30), SOFTEST, 1.0);
     }
     let volume = velocity[p].w;
     stress[2u * p] = vec4f(volume * vec3f(tau[0].x, tau[1].y, tau[2].z), stress[2u * p].w);
     stress[2u * p + 1u] = vec4f(volume * vec3f(tau[0].y, tau[1].z, tau[0].z), 0.0);
-    change[2u * p].w = volume * part.lambda;
+    change[2u * p].w = volume * lambda_of(material, returned.deformation, q);
     change[2u * p + 1u].w = volume * material.mu * stiffness;
+}
+
+// Volumetric stiffness of the elastic stress.
+fn lambda_of(m: MaterialParams, f: mat3x3f, q: f32) -> f32 {
+    if SHARED_VOLUME || !keeps_volume(m.kind) { return m.elastic_lambda; }
+    return m.elastic_lambda + ghost_stiffness(m, ghost_pressure_of(m, swelling_of(m, f, q)));
 }
 
 // Share of a particle in the diagonal of K: vol0 ((lambda + mu) g_a^2 + mu |g|^2), g the slope of its weight at the node.

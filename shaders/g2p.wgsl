@@ -7,7 +7,8 @@
 #include "shared/control.wgsl"
 #include "shared/place.wgsl"
 #include "shared/matrix.wgsl"
-#include "shared/material.wgsl"
+#include "shared/ghost.wgsl"
+#include "shared/ghost_change.wgsl"
 #include "shared/driven.wgsl"
 #include "shared/motion.wgsl"
 #include "shared/trial.wgsl"
@@ -29,20 +30,6 @@ fn grid_vector(slot: u32) -> vec3f { return node[slot].xyz; }
 const WALL_GAP = 1e-3;
 
 fn side_is_wall(s: u32) -> bool { return ((params.wall_sides >> s) & 1u) == 1u; }
-
-fn ghost_change(x: vec3f) -> f32 {
-    let place = (x - params.origin) / params.spacing;
-    let base = nearest_inside(vec3i(floor(place)));
-    let f = place - vec3f(base);
-    var change = 0.0;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        var w = 1.0;
-        for (var a = 0u; a < DIM; a++) { w *= select(1.0 - f[a], f[a], corner[a] == 1); }
-        change += w * ghost[slot_of(base + corner)];
-    }
-    return change;
-}
 
 // Walls hold particles back, open sides let them go. Returns false for one that has left.
 fn keep_inside(x: ptr<function, vec3f>) -> bool {
@@ -86,12 +73,10 @@ fn put_at(p: u32, place: vec3f) {
 
 // Moves a driven particle.
 fn carry(p: u32, time: f32) {
-    let x = position[p].xyz;
     let s = support_of(p);
-    affine[3u * p].w += ghost_change(x) / f32(control.substeps);
     // Shares of the step at the ends of this sub-step.
     let parts = (vec2f(f32(control.substep)) - vec2f(1.0, 0.0)) / f32(control.substeps);
-    let place = rigid_place(s, x, parts.x, parts.y, time);
+    let place = rigid_place(s, position[p].xyz, parts.x, parts.y, time);
     velocity[p] = vec4f(rigid_velocity(s, place, parts.y), velocity[p].w);
     put_at(p, place);
 }
@@ -120,7 +105,7 @@ fn strain(p: u32, f: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
         atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
         return false;
     }
-    let tau = kirchhoff_stress(material.kind, *f, elastic_part(material)) * velocity[p].w;
+    let tau = elastic_stress(material, *f, affine[3u * p].w) * velocity[p].w;
     var heat = stress[2u * p].w;
     if returned.plastic_strain > 0.0 {
         affine[3u * p + 1u].w += returned.plastic_strain;
@@ -137,13 +122,13 @@ fn strain(p: u32, f: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
 // Strains and moves a particle with velocity v; `trial` and `stored` as above. Returns false after a fault.
 fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
     var f = trial;
+    let x = position[p].xyz;
+    affine[3u * p].w += ghost_change(x) / f32(control.substeps);
     if strains(p) && !strain(p, &f, v, stored) { return false; }
     if is_driven(p) {
         carry(p, time);
         return true;
     }
-    let x = position[p].xyz;
-    affine[3u * p].w += ghost_change(x) / f32(control.substeps);
     if SHARED_VOLUME {
         let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
         affine[3u * p].w += relaxation(p, affine[3u * p].w, f, material, time);
@@ -166,11 +151,12 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     let p = thread_index(group, groups, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     let time = control.dt / f32(control.substeps);
+    let x = position[p].xyz;
     if !strains(p) {
+        affine[3u * p].w += ghost_change(x) / f32(control.substeps);
         carry(p, time);
         return;
     }
-    let x = position[p].xyz;
     let cell = cell_at(x);
     let at = place_at(x, vec3f(cell) + 0.5);
     read_rows(slot_of(cell));

@@ -11,7 +11,7 @@
 #include "shared/ars.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/extents.wgsl"
-#include "shared/material.wgsl"
+#include "shared/ghost.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -108,7 +108,7 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
 fn elastic_speed(p: u32) -> f32 {
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
     let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
-    let wave = wave_speed(material.kind, f, material, position[p].w / velocity[p].w);
+    let wave = body_wave_speed(material, f, affine[3u * p].w, position[p].w / velocity[p].w);
     let c = mat3x3f(affine[3u * p].xyz, affine[3u * p + 1u].xyz, affine[3u * p + 2u].xyz);
     let gradient = sqrt(dot(c[0], c[0]) + dot(c[1], c[1]) + dot(c[2], c[2]));
     return max(select(wave, wave * params.elastic_cfl / IMPLICIT_COURANT, IMPLICIT), gradient * params.spacing);

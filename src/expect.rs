@@ -85,13 +85,9 @@ impl Budget {
         let materials = scene.material_parameters();
         for particle in &snapshot.particles {
             let mass = f64::from(particle.mass);
-            let ghost = f64::from(particle.ghost_pressure);
-            let start = scene.gas.ambient.pressure;
+            let (volume, q) = (f64::from(particle.volume_ratio()), f64::from(particle.ghost_pressure));
             let material = materials.get(particle.material as usize);
-            // A body that moves as prescribed as a whole keeps its volume while its ghost pressure follows the gas: it stores nothing.
-            let body = &scene.bodies[particle.body as usize];
-            let stored = material.filter(|_| body.motion.is_none() || body.clamped.is_some());
-            let energy = stored.map_or(0.0, |material| material.ghost_energy(ghost, start));
+            let energy = material.map_or(0.0, |material| material.ghost_energy(volume, q, scene.gas.ambient.pressure));
             self.solid_mass += mass;
             self.energy += f64::from(particle.kinetic_energy) + f64::from(particle.volume0) * energy;
             for (sum, v) in self.momentum.iter_mut().zip(particle.velocity) {

@@ -1,24 +1,66 @@
 // The law of the ghost pressure q of a body. [eqs. 17 to 20]
+// A body starts with the ambient pressure, and has the q of its volume, q(J), as long as the solve alone moves it. Where gas and body share
+// one pressure unknown q follows the gas instead: the elastic force gives the difference, so the whole stress is that of the deformation.
 #include "shared/index.wgsl"
 #include "shared/material.wgsl"
 
 // Growth of the ghost pressure's stiffness with its pressure. [Murnaghan 1944]
 const GHOST_STIFFENING = 7.0;
 
-// Stiffness K against small changes of the volume at the ghost pressure q, dq = -K dJ / J. Bodies start with the ambient pressure. [eq. 17]
+// Stiffness K against small changes of the volume at the ghost pressure q, dq = -K dJ / J. [eq. 17]
 fn ghost_stiffness(m: MaterialParams, q: f32) -> f32 {
     return m.ghost_modulus + GHOST_STIFFENING * max(q - params.ambient_pressure, 0.0);
 }
 
-// Energy of the ghost pressure per volume at rest: the integral of q dq / K.
-fn ghost_energy(m: MaterialParams, q: f32) -> f32 {
-    let modulus = m.ghost_modulus;
-    let start = params.ambient_pressure;
-    let over = q - start;
-    if over <= 0.0 { return 0.5 * q * q / modulus; }
-    let growth = GHOST_STIFFENING * over / modulus;
-    let first = 0.5 * start * start / modulus;
-    // The first terms of the series where the logarithm would lose its digits.
-    if growth < 0.03 { return first + over / modulus * (0.5 * over * (1.0 - growth * (2.0 / 3.0)) + start * (1.0 - 0.5 * growth)); }
-    return first + over / GHOST_STIFFENING + (start - modulus / GHOST_STIFFENING) / GHOST_STIFFENING * log(1.0 + growth);
+// exp(y) - 1 - y, accurate for small y.
+fn exponential_rest(y: f32) -> f32 {
+    if abs(y) < 0.1 { return 0.5 * y * y * (1.0 + y / 3.0 * (1.0 + y / 4.0 * (1.0 + y / 5.0))); }
+    return exp(y) - 1.0 - y;
+}
+
+// J - 1 of a body, accurate where it is small. What flows by more than shear does not know its volume: its q tells.
+fn swelling_of(m: MaterialParams, f: mat3x3f, q: f32) -> f32 {
+    if keeps_volume(m.kind) {
+        let h = f - IDENTITY;
+        return max(trace(h) + nonlinear_volume(h), -0.999);
+    }
+    let over = q - params.ambient_pressure;
+    if over > 0.0 { return pow(1.0 + GHOST_STIFFENING * over / m.ghost_modulus, -1.0 / GHOST_STIFFENING) - 1.0; }
+    return exp(-over / m.ghost_modulus) - 1.0;
+}
+
+// q(J), swelling = J - 1.
+fn ghost_pressure_of(m: MaterialParams, swelling: f32) -> f32 {
+    let logarithm = log_one_plus(swelling);
+    if swelling > 0.0 { return params.ambient_pressure - m.ghost_modulus * logarithm; }
+    let y = -GHOST_STIFFENING * logarithm;
+    return params.ambient_pressure + m.ghost_modulus / GHOST_STIFFENING * (y + exponential_rest(y));
+}
+
+// Energy per volume at rest: minus the integral of q dJ from J = 1.
+fn ghost_energy(m: MaterialParams, swelling: f32) -> f32 {
+    let logarithm = log_one_plus(swelling);
+    let excess = excess_over_logarithm(swelling);
+    var shape = swelling * logarithm - excess;
+    if swelling < 0.0 {
+        const N = GHOST_STIFFENING - 1.0;
+        shape = (excess + exponential_rest(-N * logarithm) / N) / GHOST_STIFFENING;
+    }
+    return m.ghost_modulus * shape - params.ambient_pressure * swelling;
+}
+
+// Kirchhoff stress that the elastic force bears: that of the law, and what q(J) has beyond q.
+fn elastic_stress(m: MaterialParams, f: mat3x3f, q: f32) -> mat3x3f {
+    let tau = kirchhoff_stress(m.kind, f, elastic_part(m));
+    if SHARED_VOLUME || !keeps_volume(m.kind) { return tau; }
+    let swelling = swelling_of(m, f, q);
+    return tau + (1.0 + swelling) * (q - ghost_pressure_of(m, swelling)) * IDENTITY;
+}
+
+// Fastest wave [m s^-1] by the whole stress of a body, `density` that at rest.
+fn body_wave_speed(m: MaterialParams, f: mat3x3f, q: f32, density: f32) -> f32 {
+    let wave = wave_speed(m.kind, f, m, density);
+    // The law's own lambda has in it what the ghost pressure bears of it.
+    let beyond = ghost_stiffness(m, ghost_pressure_of(m, swelling_of(m, f, q))) + m.elastic_lambda - m.lambda;
+    return sqrt(wave * wave + max(beyond, 0.0) / density);
 }

@@ -30,6 +30,7 @@ pub(super) const KIND: Kind = Kind {
     name: "drucker_prager",
     summary: "Soil and sand: yields by friction and cohesion, bears no tension beyond its cohesion.",
     parameters: &[YOUNG_MODULUS, POISSON_RATIO, FRICTION_ANGLE, COHESION, GHOST_MODULUS],
+    keeps_volume: false,
     constants: |values| {
         let (sine, cosine) = values[2].to_radians().sin_cos();
         // |dev tau| <= yield_stress - friction tr(tau)

@@ -7,5 +7,6 @@ pub(super) const KIND: Kind = Kind {
     name: "hencky",
     summary: "Elastoplastic metal, linear in the logarithmic strain until the yield stress, then plastic with linear hardening.",
     parameters: &METAL,
+    keeps_volume: true,
     constants: Constants::metal,
 };

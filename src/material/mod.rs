@@ -37,6 +37,8 @@ pub struct Kind {
     pub parameters: &'static [Parameter],
     /// Constants of the law from checked parameter values.
     pub constants: fn(&[f64]) -> Constants,
+    /// Whether its plastic flow is shear alone, so that the deformation gradient knows the volume.
+    pub keeps_volume: bool,
 }
 
 /// A parameter of a law.
@@ -194,16 +196,25 @@ pub struct MaterialParams {
 }
 
 impl MaterialParams {
-    /// Energy of the ghost pressure q per volume at rest, what q does on the volume `[J m^-3]`, in a body that starts with the pressure
-    /// `start`: the integral of q dq / (K J) with K = ghost_modulus + 7 (q - start) above that pressure, and ghost_modulus below it.
+    /// Energy of the ghost pressure per volume at rest, minus the integral of q dJ, of a body that starts with the pressure `start`
+    /// \[J m^-3\]. By its volume ratio J q is start + K (J^-7 - 1) / 7 in compression and start - K ln J in tension, K = `ghost_modulus`.
+    /// Where plastic flow changes the volume, so that the deformation gradient does not know it, q tells J.
     #[must_use]
-    pub fn ghost_energy(&self, q: f64, start: f64) -> f64 {
-        let (modulus, over) = (f64::from(self.ghost_modulus), q - start);
-        if over <= 0.0 {
-            return 0.5 * q * q / modulus;
-        }
-        let n = GHOST_STIFFENING;
-        0.5 * start * start / modulus + over / n + (start - modulus / n) / n * (n * over / modulus).ln_1p()
+    pub fn ghost_energy(&self, volume_ratio: f64, q: f64, start: f64) -> f64 {
+        let keeps_volume = KINDS.get(self.kind as usize).is_some_and(|kind| kind.keeps_volume);
+        let (n, modulus) = (GHOST_STIFFENING, f64::from(self.ghost_modulus));
+        let over = (q - start) / modulus;
+        let logarithm = match keeps_volume {
+            true => volume_ratio.ln(),
+            false if over > 0.0 => -(n * over).ln_1p() / n,
+            false => -over,
+        };
+        let swelling = logarithm.exp_m1();
+        let shape = match swelling < 0.0 {
+            true => ((-(n - 1.0) * logarithm).exp_m1() / (n - 1.0) + swelling) / n,
+            false => (1.0 + swelling) * logarithm - swelling,
+        };
+        modulus * shape - start * swelling
     }
 }
 

@@ -7,5 +7,6 @@ pub(super) const KIND: Kind = Kind {
     name: "neo_hookean",
     summary: "Compressible neo-Hookean rubber: elastic at any deformation.",
     parameters: &[YOUNG_MODULUS, POISSON_RATIO, GHOST_MODULUS],
+    keeps_volume: true,
     constants: |values| Constants::elastic(values[0], values[1], values[2]),
 };

@@ -8,5 +8,6 @@ pub(super) const KIND: Kind = Kind {
     name: "von_mises",
     summary: "Elastoplastic metal: neo-Hookean until the yield stress, then plastic with linear hardening.",
     parameters: &METAL,
+    keeps_volume: true,
     constants: Constants::metal,
 };

@@ -20,6 +20,12 @@ pub fn wgsl_switch() -> String {
         // writing to a String cannot fail
         let _ = writeln!(text, "const MATERIAL_{}: u32 = {index}u;", kind.name.to_uppercase());
     }
+    let loose = KINDS.iter().filter(|kind| !kind.keeps_volume);
+    let loose: Vec<String> = loose.map(|kind| format!("kind != MATERIAL_{}", kind.name.to_uppercase())).collect();
+    text.push_str(
+        "\n// Whether plastic flow of a kind is shear alone, so that its deformation gradient knows its volume.\n",
+    );
+    let _ = writeln!(text, "fn keeps_volume(kind: u32) -> bool {{ return {}; }}\n", loose.join(" && "));
     text.push_str("override MATERIALS_USED: u32 = 0xffffffffu; // bit k: the scene uses kind k\n");
     for question in &QUESTIONS {
         let _ = writeln!(text, "\n// {}", question.summary);

@@ -2,11 +2,17 @@
 
 use super::mpm_grid_update::walls;
 use super::p2g::{Nodes, support};
+use super::particle_sort::linear_weights;
 use super::{Particle, Problem};
 use glam::{DMat3, DVec3};
 
-/// Elastic force if the nodes move with these velocities for dt.
-fn force(problem: &Problem, velocity: &[[f64; 3]], particles: &[Particle], dt: f64) -> Vec<[f64; 3]> {
+/// Elastic force if the nodes move with these velocities for dt; `change`: that of the ghost pressure at vertices.
+fn force(
+    problem: &Problem,
+    velocity: &[[f64; 3]],
+    (particles, change): (&[Particle], &[f64]),
+    dt: f64,
+) -> Vec<[f64; 3]> {
     let grid = &problem.grid;
     let mut force = vec![[0.0; 3]; grid.slots()];
     for particle in particles.iter().filter(|particle| particle.active) {
@@ -18,7 +24,9 @@ fn force(problem: &Problem, velocity: &[[f64; 3]], particles: &[Particle], dt: f
         }
         let trial = particle.deformation + gradient * particle.deformation * dt;
         let material = &problem.materials[particle.material];
-        let stress = material.stress(material.plastic_return(trial).0) * particle.volume0;
+        let rise: f64 = linear_weights(grid, particle.position).iter().map(|(v, w)| w * change[grid.slot(*v)]).sum();
+        let (f, q) = (material.plastic_return(trial).0, particle.ghost_pressure + rise);
+        let stress = problem.stress(particle, f, q) * particle.volume0;
         for s in &nodes {
             let push = stress * s.gradient;
             (0..grid.dimension).for_each(|d| force[grid.slot(s.node)][d] -= push[d]);
@@ -51,7 +59,13 @@ fn eliminate(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 }
 
 /// The stage: turns the velocities after the kick into those at the end of the step.
-pub(crate) fn elastic_solve(problem: &Problem, cells: &[u32], nodes: &mut Nodes, particles: &[Particle], dt: f64) {
+pub(crate) fn elastic_solve(
+    problem: &Problem,
+    cells: &[u32],
+    nodes: &mut Nodes,
+    particles: (&[Particle], &[f64]),
+    dt: f64,
+) {
     let (mass, kicked) = (nodes.mass.clone(), nodes.velocity.clone());
     let imbalance = |v: &[[f64; 3]]| -> Vec<[f64; 3]> {
         let force = force(problem, v, particles, dt);

@@ -38,18 +38,26 @@ impl Material {
         1.0 / (self.ghost + 7.0 * (ghost_pressure - self.start).max(0.0))
     }
 
-    /// Energy of the ghost pressure per volume at rest.
-    pub(crate) fn ghost_energy(&self, q: f64) -> f64 {
-        let (k, start, over) = (self.ghost, self.start, q - self.start);
-        if over <= 0.0 {
-            return 0.5 * q * q / k;
-        }
-        0.5 * start * start / k + over / 7.0 + (start - k / 7.0) / 7.0 * (7.0 * over / k).ln_1p()
+    /// Ghost pressure of a body that the solve alone has moved, by its volume ratio.
+    pub(crate) fn ghost_pressure(&self, j: f64) -> f64 {
+        if j > 1.0 { self.start - self.ghost * j.ln() } else { self.start + self.ghost / 7.0 * (j.powi(-7) - 1.0) }
     }
 
-    /// Kirchhoff stress.
-    pub(crate) fn stress(&self, f: DMat3) -> DMat3 {
+    /// Energy of the ghost pressure per volume at rest.
+    pub(crate) fn ghost_energy(&self, j: f64) -> f64 {
+        let shape = if j > 1.0 { j * j.ln() - j + 1.0 } else { ((j.powi(-6) - 1.0) / 6.0 - 1.0 + j) / 7.0 };
+        self.ghost * shape + self.start * (1.0 - j)
+    }
+
+    /// Kirchhoff stress of the law.
+    pub(crate) fn law_stress(&self, f: DMat3) -> DMat3 {
         (f * f.transpose() - DMat3::IDENTITY) * self.mu + DMat3::IDENTITY * (self.elastic_lambda * f.determinant().ln())
+    }
+
+    /// Kirchhoff stress of the elastic force: with the ghost pressure q it is the whole stress.
+    pub(crate) fn stress(&self, f: DMat3, q: f64) -> DMat3 {
+        let j = f.determinant();
+        self.law_stress(f) + DMat3::IDENTITY * (j * (q - self.ghost_pressure(j)))
     }
 
     /// Longitudinal wave speed in a deformed body, `density` that at rest.
@@ -57,7 +65,9 @@ impl Material {
         let squares = f * f.transpose();
         let rows = [squares.x_axis, squares.y_axis, squares.z_axis].map(|row| row.abs().element_sum());
         let bulk = self.lambda * (1.0 - f.determinant().ln()).max(0.0);
-        ((bulk + self.mu * (1.0 + rows[0].max(rows[1]).max(rows[2]))) / density).sqrt()
+        let ghost = 1.0 / self.compliance(self.ghost_pressure(f.determinant()));
+        let beyond = (ghost + self.elastic_lambda - self.lambda).max(0.0);
+        ((bulk + beyond + self.mu * (1.0 + rows[0].max(rows[1]).max(rows[2]))) / density).sqrt()
     }
 
     /// Deformation after the plastic return, and the equivalent plastic strain of it.

@@ -184,6 +184,12 @@ pub(crate) struct Problem {
 }
 
 impl Problem {
+    /// Kirchhoff stress that the elastic force of a particle has at a deformation and a ghost pressure.
+    fn stress(&self, particle: &Particle, f: DMat3, q: f64) -> DMat3 {
+        let material = &self.materials[particle.material];
+        if self.numerics.shared_volume { material.law_stress(f) } else { material.stress(f, q) }
+    }
+
     /// Is a side a plane of symmetry?
     fn mirrors(&self, side: usize) -> bool {
         self.materials.is_empty() && matches!(self.sides[side], Side::Wall)

@@ -52,7 +52,7 @@ pub(crate) fn p2g(problem: &Problem, particles: &[Particle]) -> Nodes {
     let empty = || vec![[0.0; 3]; grid.slots()];
     let mut nodes = Nodes { mass: vec![0.0; grid.slots()], velocity: empty(), force: empty() };
     for particle in particles.iter().filter(|particle| particle.active) {
-        let stress = problem.materials[particle.material].stress(particle.deformation) * particle.volume0;
+        let stress = problem.stress(particle, particle.deformation, particle.ghost_pressure) * particle.volume0;
         for s in support(grid, particle.position) {
             let slot = grid.slot(s.node);
             let share = s.weight * particle.mass;

@@ -134,7 +134,7 @@ fn elastic_substeps(
     dt: f64,
 ) -> usize {
     if problem.numerics.implicit {
-        elastic_solve::elastic_solve(problem, cells, nodes, &state.particles, dt);
+        elastic_solve::elastic_solve(problem, cells, nodes, (&state.particles, change), dt);
         g2p::g2p(problem, &nodes.velocity, change, 1.0, dt, &mut state.particles);
         return 1;
     }
