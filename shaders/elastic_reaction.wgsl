@@ -128,23 +128,24 @@ fn reaction_aside(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     work[params.slots + slot] -= vec4f(e, 0.0);
 }
 
-// After the kick of the solve: what is not elastic of the acceleration. Explicit sub-steps start from the velocity of the particles; an
-// implicit step is one sub-step.
+// After the kick of the solve: what is not elastic of the acceleration, and the velocity of the particles. Explicit sub-steps start from
+// it. An implicit step looks for its own from there, where no particle is turned inside out; it keeps the kicked velocity.
 @compute @workgroup_size(WORKGROUP)
 fn reaction_after(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                   @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let start = elastic[params.slots + slot];
+    let here = node[slot];
     elastic[params.slots + slot] = vec4f(0.0);
     if !is_free(slot) || control.dt <= 0.0 {
-        elastic[slot] = vec4f(0.0);
+        elastic[slot] = vec4f(select(vec3f(0.0), here.xyz, IMPLICIT), 0.0);
         return;
     }
-    let here = node[slot];
     let e = elastic[slot].xyz;
     if IMPLICIT {
-        node[slot] = vec4f(here.xyz - control.dt * e, here.w);
+        elastic[slot] = vec4f(here.xyz - control.dt * e, 0.0);
+        node[slot] = vec4f(start.xyz, here.w);
         return;
     }
     elastic[slot] = vec4f((here.xyz - start.xyz) / control.dt - e, here.w);

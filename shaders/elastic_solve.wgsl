@@ -26,7 +26,7 @@
 @group(0) @binding(9) var<storage, read_write> inverse_diagonal: array<vec4f>;
 @group(0) @binding(10) var<storage, read> position: array<vec4f>;
 @group(0) @binding(11) var<storage, read> velocity: array<vec4f>;
-@group(0) @binding(13) var<storage, read> affine: array<vec4f>;
+@group(0) @binding(13) var<storage, read_write> affine: array<vec4f>;
 @group(0) @binding(14) var<storage, read> deformation: array<vec4f>;
 @group(0) @binding(16) var<storage, read_write> stress: array<vec4f>;
 @group(0) @binding(17) var<storage, read_write> change: array<vec4f>;           // w: vol0 lambda and vol0 mu of now [J]
@@ -44,15 +44,23 @@ fn grid_vector(slot: u32) -> vec3f { return node[slot].xyz; }
 
 fn is_free(slot: u32) -> bool { return node[slot].w > 0.0 && !(DRIVEN && has(cells[slot], NODE_DRIVEN)); }
 
-// The first guess is what the nodes have, stopped at walls.
+// The first guess is what the nodes have, that of the particles, stopped at walls.
 @compute @workgroup_size(WORKGROUP)
 fn elastic_keep(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
                 @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, groups, lane);
     if slot >= params.slots { return; }
     let here = node[slot];
-    elastic[slot] = vec4f(here.xyz, 0.0);
     if is_free(slot) { node[slot] = vec4f(stopped_at_wall(cell_of(slot), here.xyz), here.w); }
+}
+
+// The ghost pressure of the end of the step, which the elastic stress depends on.
+@compute @workgroup_size(WORKGROUP)
+fn elastic_ghost(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
+                 @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, groups, lane);
+    if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
+    affine[3u * p].w += ghost_change(position[p].xyz);
 }
 
 fn deviator_size(a: mat3x3f) -> f32 {
@@ -86,7 +94,7 @@ fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let trial = trial_deformation(p, motion_at(place_at(x, vec3f(cell) + 0.5)).gradient, control.dt);
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
     let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
-    let q = affine[3u * p].w + ghost_change(x);
+    let q = affine[3u * p].w;
     let tau = elastic_stress(material, returned.deformation, q);
     var stiffness = stretch_of(returned.deformation);
     if returned.plastic_strain > 0.0 {

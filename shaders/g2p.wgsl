@@ -71,6 +71,11 @@ fn put_at(p: u32, place: vec3f) {
     position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
 }
 
+// A sub-step's share of the change of the ghost pressure; an implicit step has it already [elastic_ghost].
+fn follow_ghost(p: u32) {
+    if !IMPLICIT { affine[3u * p].w += ghost_change(position[p].xyz) / f32(control.substeps); }
+}
+
 // Moves a driven particle.
 fn carry(p: u32, time: f32) {
     let s = support_of(p);
@@ -123,7 +128,7 @@ fn strain(p: u32, f: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
 fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
     var f = trial;
     let x = position[p].xyz;
-    affine[3u * p].w += ghost_change(x) / f32(control.substeps);
+    follow_ghost(p);
     if strains(p) && !strain(p, &f, v, stored) { return false; }
     if is_driven(p) {
         carry(p, time);
@@ -151,12 +156,12 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     let p = thread_index(group, groups, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     let time = control.dt / f32(control.substeps);
-    let x = position[p].xyz;
     if !strains(p) {
-        affine[3u * p].w += ghost_change(x) / f32(control.substeps);
+        follow_ghost(p);
         carry(p, time);
         return;
     }
+    let x = position[p].xyz;
     let cell = cell_at(x);
     let at = place_at(x, vec3f(cell) + 0.5);
     read_rows(slot_of(cell));

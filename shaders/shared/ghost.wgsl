@@ -18,11 +18,14 @@ fn exponential_rest(y: f32) -> f32 {
     return exp(y) - 1.0 - y;
 }
 
+// Below this the ghost pressure of a volume grows no further: what is left of a trial that turns a particle inside out.
+const LEAST_SWELLING = -0.9;
+
 // J - 1 of a body, accurate where it is small. What flows by more than shear does not know its volume: its q tells.
 fn swelling_of(m: MaterialParams, f: mat3x3f, q: f32) -> f32 {
     if keeps_volume(m.kind) {
         let h = f - IDENTITY;
-        return max(trace(h) + nonlinear_volume(h), -0.999);
+        return max(trace(h) + nonlinear_volume(h), LEAST_SWELLING);
     }
     let over = q - params.ambient_pressure;
     if over > 0.0 { return pow(1.0 + GHOST_STIFFENING * over / m.ghost_modulus, -1.0 / GHOST_STIFFENING) - 1.0; }

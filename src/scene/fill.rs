@@ -11,7 +11,8 @@ impl Scene {
     /// Density, momentum and energy per volume of every cell, x fastest, without padding.
     ///
     /// A cell that the surface of a region crosses, and every cell under waves, vortices or radial flows, holds the mean over 4^dimension
-    /// points; every other cell is exact.
+    /// points; every other cell is exact. Where bodies cover some of these points the others count: a region that ends within a wall leaves
+    /// nothing on its other side.
     #[must_use]
     pub fn initial_gas(&self) -> Vec<[f64; 5]> {
         let mut cells = self.gas_without_noise();
@@ -55,31 +56,34 @@ impl Scene {
 
     /// Mean of a state over regular points of a cell.
     fn mean_over(&self, center: [f64; 3], state: impl Fn([f64; 3]) -> [f64; 5]) -> [f64; 5] {
+        self.mean_outside(center, |point| self.bodies.iter().any(|body| body.shape.distance(point) < 0.0), state)
+    }
+
+    /// Mean over those of the points that are not covered, or over all if all are.
+    fn mean_outside(
+        &self,
+        center: [f64; 3],
+        is_covered: impl Fn([f64; 3]) -> bool,
+        state: impl Fn([f64; 3]) -> [f64; 5],
+    ) -> [f64; 5] {
+        let place = |offset: [f64; 3]| std::array::from_fn(|d| center[d] + offset[d] * self.domain.spacing());
+        let points: Vec<[f64; 3]> = lattice(self.domain.axes(), SAMPLES).into_iter().map(place).collect();
+        let outside: Vec<[f64; 3]> = points.iter().copied().filter(|&point| !is_covered(point)).collect();
+        let seen = if outside.is_empty() { points } else { outside };
         let mut sum = [0.0; 5];
-        let points = lattice(self.domain.axes(), SAMPLES);
-        for offset in &points {
-            let point = std::array::from_fn(|d| center[d] + offset[d] * self.domain.spacing());
+        for &point in &seen {
             for (total, entry) in sum.iter_mut().zip(state(point)) {
                 *total += entry;
             }
         }
-        sum.map(|total| total / points.len() as f64)
+        sum.map(|total| total / seen.len() as f64)
     }
 
     /// The mean over the part of a cell that lies outside of the obstacles.
     #[must_use]
     pub fn initial_gas_beside_obstacles(&self, cell: [u32; 3]) -> [f64; 5] {
-        let center = self.domain.cell_center(cell);
-        let place = |offset: [f64; 3]| std::array::from_fn(|d| center[d] + offset[d] * self.domain.spacing());
-        let points: Vec<[f64; 3]> = lattice(self.domain.axes(), SAMPLES).into_iter().map(place).collect();
-        let outside: Vec<[f64; 3]> = points.iter().copied().filter(|&point| !self.inside_obstacle(point)).collect();
-        let seen = if outside.is_empty() { points } else { outside };
-        let mut sum = [0.0; 5];
-        for &point in &seen {
-            let state = self.gas_at(point).conserved(self.gas.gamma);
-            sum = std::array::from_fn(|k| sum[k] + state[k]);
-        }
-        sum.map(|total| total / seen.len() as f64)
+        let state = |point| self.gas_at(point).conserved(self.gas.gamma);
+        self.mean_outside(self.domain.cell_center(cell), |point| self.inside_obstacle(point), state)
     }
 
     /// Which cells are obstacle: those whose centre lies inside one. x fastest, without padding.

@@ -19,6 +19,7 @@ pub struct ElasticSolve {
     pcg: Pcg,
     round: [Bound; 3],
     keep: Bound,
+    ghost: Bound,
     trial: Bound,
     force: Force,
     diagonal: Bound,
@@ -67,6 +68,7 @@ impl ElasticSolve {
         Ok(Some(Self {
             round: [control("control_round")?, control("control_iteration")?, control("control_balanced")?],
             keep: solve("elastic_keep")?,
+            ghost: solve("elastic_ghost")?,
             trial: solve("elastic_trial")?,
             force: Force::new(parts, transfer, state.particles.stress.raw())?,
             diagonal: solve("elastic_diagonal")?,
@@ -89,6 +91,7 @@ impl ElasticSolve {
         let [round, iteration, balanced] = &self.round;
         pass.dispatch(round, &single);
         pass.dispatch(&self.keep, &extent(state, "FIRST", Entry::Slots));
+        pass.dispatch(&self.ghost, &extent(state, "FIRST", Entry::Particles));
         pass.dispatch(&self.trial, &extent(state, "ROUND", Entry::Particles));
         self.force.record(pass, state, "ROUND");
         pass.dispatch(&self.diagonal, &extent(state, "ROUND", Entry::Slots));

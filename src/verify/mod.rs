@@ -35,6 +35,7 @@ mod fragments;
 pub mod gasdynamics;
 mod jet;
 mod line_explosion;
+mod loaded_walls;
 pub mod muscl;
 pub mod muscl_plane;
 mod panel;
@@ -105,6 +106,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         cold::CASES,
         fragments::CASES,
         thin_walls::CASES,
+        loaded_walls::CASES,
     ];
     let gas = lines.into_iter().chain(blasts).chain(streams).chain([
         duct::CASES,

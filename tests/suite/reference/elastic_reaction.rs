@@ -17,8 +17,11 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Nodes of bodies with next to no mass move with those around them.
+/// Nodes of bodies with next to no mass move with those around them; not where elasticity comes first.
 pub(crate) fn fill(problem: &Problem, cells: &[u32], nodes: &mut Nodes) {
+    if problem.numerics.coupling_last {
+        return;
+    }
     let grid = &problem.grid;
     let start = nodes.velocity.clone();
     for c in grid.all().into_iter().filter(|c| is_solid(problem, cells, *c)) {

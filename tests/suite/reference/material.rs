@@ -65,9 +65,13 @@ impl Material {
         let squares = f * f.transpose();
         let rows = [squares.x_axis, squares.y_axis, squares.z_axis].map(|row| row.abs().element_sum());
         let bulk = self.lambda * (1.0 - f.determinant().ln()).max(0.0);
+        ((bulk + self.mu * (1.0 + rows[0].max(rows[1]).max(rows[2]))) / density).sqrt()
+    }
+
+    /// The same with what the ghost pressure is stiffer than the part of the law that it bears.
+    pub(crate) fn body_wave_speed(&self, f: DMat3, density: f64) -> f64 {
         let ghost = 1.0 / self.compliance(self.ghost_pressure(f.determinant()));
-        let beyond = (ghost + self.elastic_lambda - self.lambda).max(0.0);
-        ((bulk + beyond + self.mu * (1.0 + rows[0].max(rows[1]).max(rows[2]))) / density).sqrt()
+        self.wave_speed(f, density).hypot(((ghost + self.elastic_lambda - self.lambda).max(0.0) / density).sqrt())
     }
 
     /// Deformation after the plastic return, and the equivalent plastic strain of it.

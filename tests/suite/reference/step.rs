@@ -41,10 +41,7 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let kinds = interface::kinds(problem, &mut bins, &state.cells);
     ledger::change_kinds(problem, state, &kinds, &bins);
     let faces = interface::interface(problem, kinds, &bins, &nodes);
-    if !problem.numerics.coupling_last {
-        elastic_reaction::fill(problem, &faces.cells, &mut nodes);
-    }
-
+    elastic_reaction::fill(problem, &faces.cells, &mut nodes);
     if problem.numerics.two_solves {
         let (report, solution) = ars222::two_solves(problem, &faces, (&bins, &nodes), state, dt);
         return (report, Trace { solution, nodes, shared: faces.shared });

@@ -58,7 +58,9 @@ pub(crate) fn fastest_wave(problem: &Problem, state: &State) -> f64 {
     let speeds = state.particles.iter().filter(|particle| particle.active);
     let limit = |p: &super::Particle| {
         let gradient = p.affine.to_cols_array().iter().map(|c| c * c).sum::<f64>().sqrt();
-        problem.materials[p.material].wave_speed(p.deformation, p.mass / p.volume0).max(gradient * problem.grid.spacing)
+        problem.materials[p.material]
+            .body_wave_speed(p.deformation, p.mass / p.volume0)
+            .max(gradient * problem.grid.spacing)
     };
     speeds.map(limit).fold(0.0, f64::max)
 }
