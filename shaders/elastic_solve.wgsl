@@ -11,7 +11,7 @@
 #include "shared/place.wgsl"
 #include "shared/matrix.wgsl"
 #include "shared/ghost.wgsl"
-#include "shared/ghost_change.wgsl"
+#include "shared/ghost_between.wgsl"
 #include "shared/motion.wgsl"
 #include "shared/trial.wgsl"
 
@@ -60,7 +60,7 @@ fn elastic_ghost(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
                  @builtin(local_invocation_index) lane: u32) {
     let p = thread_index(group, groups, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
-    affine[3u * p].w += ghost_change(position[p].xyz);
+    affine[3u * p].w += ghost_between(position[p].xyz);
 }
 
 fn deviator_size(a: mat3x3f) -> f32 {

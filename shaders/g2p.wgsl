@@ -8,7 +8,7 @@
 #include "shared/place.wgsl"
 #include "shared/matrix.wgsl"
 #include "shared/ghost.wgsl"
-#include "shared/ghost_change.wgsl"
+#include "shared/ghost_between.wgsl"
 #include "shared/driven.wgsl"
 #include "shared/motion.wgsl"
 #include "shared/trial.wgsl"
@@ -73,7 +73,7 @@ fn put_at(p: u32, place: vec3f) {
 
 // A sub-step's share of the change of the ghost pressure; an implicit step has it already [elastic_ghost].
 fn follow_ghost(p: u32) {
-    if !IMPLICIT { affine[3u * p].w += ghost_change(position[p].xyz) / f32(control.substeps); }
+    if !IMPLICIT { affine[3u * p].w += ghost_between(position[p].xyz) / f32(control.substeps); }
 }
 
 // Moves a driven particle.

@@ -81,7 +81,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/gas_look.wgsl",
     "shared/gather.wgsl",
     "shared/ghost.wgsl",
-    "shared/ghost_change.wgsl",
+    "shared/ghost_between.wgsl",
     "shared/given.wgsl",
     "shared/grid_wall.wgsl",
     "shared/in_light.wgsl",

@@ -88,3 +88,22 @@ fn the_energy_of_the_ghost_pressure_is_the_work_done_on_it() {
     assert!(work > 8e-3, "{work}");
     assert!(missing.abs() < 0.02 * work, "{missing:e} of {work:e}");
 }
+
+/// A region of dense gas ends in the middle of a wall, whose outer cells are filled to less than a half: they start with the gas outside.
+#[test]
+fn gas_of_the_start_lies_outside_of_bodies() {
+    let keys = ["domain.cells=[32, 32]", "bodies[0].shape.shell.thickness=0.046875"].map(str::to_owned);
+    let scene = Scene::shipped("validation/loaded_ring.toml", &keys).unwrap_or_else(|error| panic!("{error}"));
+    let ring = &scene.bodies[0].shape;
+    let gas = scene.initial_gas();
+    let mut beside = 0;
+    for (index, state) in gas.iter().enumerate() {
+        let center = scene.domain.cell_center([index as u32 % 32, index as u32 / 32, 0]);
+        let outside = (center[0] - 0.5).hypot(center[1] - 0.5) > 0.28;
+        if outside && ring.distance(center) > -0.3 / 32.0 {
+            assert_eq!(state[0], 1.0, "cell {index}");
+            beside += u32::from(ring.distance(center) < 0.3 / 32.0);
+        }
+    }
+    assert!(beside > 10, "{beside} cells beside the ring");
+}

@@ -140,3 +140,12 @@ fn a_link_out_of_the_folder_is_refused_however_the_scene_is_named() {
     let told = Scene::parse(&text, "s.toml", &owned(&[])).unwrap_err().to_string();
     assert!(told.contains("no mesh file") || told.contains("lies outside"), "{told}");
 }
+
+#[test]
+fn a_part_of_a_gltf_whose_positions_are_missing_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let text =
+        "{\"asset\": {\"version\": \"2.0\"}, \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}]}";
+    std::fs::write(folder.path().join("m.gltf"), text).unwrap();
+    refused(folder.path(), "path = \"m.gltf\"", &["m.gltf", "accessor 0 of 0"]);
+}
