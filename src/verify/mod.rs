@@ -50,6 +50,7 @@ mod riemann_2d;
 mod row;
 mod session;
 mod shells;
+mod soft_bodies;
 mod solids;
 mod steady;
 mod table;
@@ -106,6 +107,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         cold::CASES,
         fragments::CASES,
         thin_walls::CASES,
+        soft_bodies::CASES,
         loaded_walls::CASES,
     ];
     let gas = lines.into_iter().chain(blasts).chain(streams).chain([

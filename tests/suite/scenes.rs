@@ -92,6 +92,7 @@ scenes! {
     colliding_discs: "validation/colliding_discs.toml", "time.until=0.5";
     spinning_disc: "validation/spinning_disc.toml", "time.until=0.02";
     thin_vessel: "validation/thin_vessel.toml", "time.until=10.0";
+    soft_bodies: "validation/soft_bodies.toml", "time.until=0.05";
     loaded_plate: "validation/loaded_plate.toml", "time.until=60.0";
     loaded_ring: "validation/loaded_ring.toml", "domain.cells=[32, 32]";
     held_disc: "validation/held_disc.toml", "time.until=0.02";
