@@ -5,17 +5,15 @@
 // thin wall, or when it holds a particle and nothing around it is that full or a wall: fragments]
 #include "shared/index.wgsl"
 #include "shared/ghost.wgsl"
-#include "shared/cell.wgsl"
 #include "shared/trial.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;
-@group(0) @binding(2) var<storage, read_write> affine: array<vec4f>;
+@group(0) @binding(2) var<storage, read> affine: array<vec4f>;
 @group(0) @binding(3) var<storage, read> deformation: array<vec4f>;
 @group(0) @binding(4) var<storage, read> velocity: array<vec4f>;
 @group(0) @binding(5) var<storage, read> order: array<u32>;
 @group(0) @binding(6) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(7) var<storage, read_write> fill: array<vec2f>; // solid volume [m^DIM], mean 1 / (lambda J) [Pa^-1], below 0: of a given motion
-@group(0) @binding(9) var<storage, read> cells: array<u32>;
 @group(0) @binding(8) var<storage, read_write> ghost: array<f32>;  // vertex mean of the particles' ghost pressure [Pa]
 
 fn volume_of(p: u32) -> f32 {
@@ -82,39 +80,4 @@ fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         }
         if k >= first && is_vertex(v) { ghost[slot_of(v)] = select(0.0, sum.y / sum.x, sum.x > 0.0); }
     }
-}
-
-// Share of that difference which goes in a step. A slab that gas drives loses energy in proportion (0.03: 2e-4 of it, 0.25: 1e-3); one at
-// rest heats itself where it is less (0.015: 1.5e-5 in 500 steps, 0: 5e-5).
-const RELAXED = 0.03;
-
-// Share of the vertices around a place that gas sees.
-fn gas_beside(x: vec3f) -> f32 {
-    let place = (x - params.origin) / params.spacing;
-    let base = nearest_inside(vec3i(floor(place)));
-    let f = place - vec3f(base);
-    var share = 0.0;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        var w = select(0.0, 1.0, has(cells[slot_of(base + corner)], VERTEX_GAS));
-        for (var a = 0u; a < DIM; a++) { w *= select(1.0 - f[a], f[a], corner[a] == 1); }
-        share += w;
-    }
-    return share;
-}
-
-// Inside a body the ghost pressure goes to that of the volume. Kept as the sum of what the solves gave it would wander off: they do not see
-// where the elastic sub-steps go, and the elastic force takes back what q has beside q(J), so nothing would hold it. At the surface, where gas
-// and body share an unknown, q is the pressure of the gas.
-@compute @workgroup_size(WORKGROUP)
-fn interface_volume(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
-    if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
-    let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
-    if SHARED_VOLUME || !keeps_volume(material.kind) { return; }
-    let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
-    let q = affine[3u * p].w;
-    let own = ghost_pressure_of(material, swelling_of(material, f, q));
-    affine[3u * p].w = mix(q, own, RELAXED * max(1.0 - 4.0 * gas_beside(position[p].xyz), 0.0));
 }

@@ -25,7 +25,6 @@ pub struct InterfaceStage {
 struct Solids {
     fill: Bound,
     ghost: Bound,
-    volume: Bound,
     walls: Bound,
     kind: Bound,
     extra: Bound,
@@ -50,7 +49,6 @@ impl InterfaceStage {
             Some(Solids {
                 fill: fill("interface_fill")?,
                 ghost: fill("interface_ghost")?,
-                volume: fill("interface_volume")?,
                 walls: mark("interface_walls")?,
                 kind: mark("interface_kind")?,
                 extra: mark("interface_extra")?,
@@ -95,13 +93,12 @@ impl InterfaceStage {
         let Some(solids) = &self.solids else { return };
         pass.stage("interface");
         pass.dispatch(&solids.fill, &slots(state, "BEGIN"));
+        pass.dispatch(&solids.ghost, &extent(state, "BEGIN", Entry::Marched));
         pass.dispatch(&solids.walls, &slots(state, "BEGIN"));
         pass.dispatch(&solids.kind, &slots(state, "BEGIN"));
         pass.dispatch(&self.flags, &slots(state, "BEGIN"));
         self.scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
         pass.dispatch(&solids.extra, &slots(state, "BEGIN"));
-        pass.dispatch(&solids.volume, &extent(state, "BEGIN", Entry::Particles));
-        pass.dispatch(&solids.ghost, &extent(state, "BEGIN", Entry::Marched));
         self.record_list(pass, state);
         for kernel in &solids.ledger {
             pass.dispatch(kernel, &slots(state, "BEGIN"));

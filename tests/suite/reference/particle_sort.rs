@@ -1,8 +1,7 @@
 //! What the particles mean for the cells they lie in, and their ghost pressure at the vertices.
 
 use super::grid::{Grid, add};
-use super::interface::touches;
-use super::{GAS, Particle, Problem};
+use super::{Particle, Problem};
 use glam::DVec3;
 
 /// Sums over the particles of each cell, and vertex means.
@@ -85,44 +84,19 @@ pub(crate) fn bin(problem: &Problem, particles: &[Particle]) -> Bins {
         bins.compliance[slot] += problem.materials[particle.material].compliance(particle.ghost_pressure);
         bins.density = bins.density.max(particle.mass / particle.volume0);
         bins.least_density[slot] = bins.least_density[slot].min(particle.mass / particle.volume0);
+        for (vertex, weight) in linear_weights(grid, particle.position) {
+            let vertex = grid.slot(vertex);
+            bins.ghost_pressure[vertex] += weight * particle.volume0 * particle.ghost_pressure;
+            bins.ghost_weight[vertex] += weight * particle.volume0;
+        }
     }
     for slot in 0..grid.slots() {
         if bins.count[slot] > 0 {
             bins.compliance[slot] /= f64::from(bins.count[slot]);
         }
-    }
-    (bins.ghost_pressure, bins.ghost_weight) = ghost_means(grid, particles);
-    bins
-}
-
-/// Ghost pressure of the vertices, and the volume that it is the mean of.
-fn ghost_means(grid: &Grid, particles: &[Particle]) -> (Vec<f64>, Vec<f64>) {
-    let (mut mean, mut sum) = (vec![0.0; grid.slots()], vec![0.0; grid.slots()]);
-    for particle in particles.iter().filter(|particle| particle.active) {
-        for (vertex, weight) in linear_weights(grid, particle.position) {
-            let vertex = grid.slot(vertex);
-            mean[vertex] += weight * particle.volume0 * particle.ghost_pressure;
-            sum[vertex] += weight * particle.volume0;
+        if bins.ghost_weight[slot] > 0.0 {
+            bins.ghost_pressure[slot] /= bins.ghost_weight[slot];
         }
     }
-    mean.iter_mut().zip(&sum).filter(|(_, sum)| **sum > 0.0).for_each(|(mean, sum)| *mean /= sum);
-    (mean, sum)
-}
-
-/// Share of its difference to that of its volume that a ghost pressure inside a body loses in a step.
-const RELAXED: f64 = 0.03;
-
-/// Inside a body the ghost pressure of particles goes to that of their volume.
-pub(crate) fn ghost_of_volume(problem: &Problem, cells: &[u32], particles: &mut [Particle], bins: &mut Bins) {
-    if problem.numerics.shared_volume {
-        return;
-    }
-    let grid = &problem.grid;
-    for particle in particles.iter_mut().filter(|particle| particle.active) {
-        let own = problem.materials[particle.material].ghost_pressure(particle.deformation.determinant());
-        let weights = linear_weights(grid, particle.position).into_iter();
-        let gas: f64 = weights.filter(|(v, _)| touches(problem, cells, *v, GAS)).map(|(_, weight)| weight).sum();
-        particle.ghost_pressure += RELAXED * (1.0 - 4.0 * gas).max(0.0) * (own - particle.ghost_pressure);
-    }
-    (bins.ghost_pressure, bins.ghost_weight) = ghost_means(grid, particles);
+    bins
 }

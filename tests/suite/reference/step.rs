@@ -39,7 +39,6 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let mut bins = particle_sort::bin(problem, &state.particles);
     let mut nodes = p2g::p2g(problem, &state.particles);
     let kinds = interface::kinds(problem, &mut bins, &state.cells);
-    particle_sort::ghost_of_volume(problem, &kinds, &mut state.particles, &mut bins);
     ledger::change_kinds(problem, state, &kinds, &bins);
     let faces = interface::interface(problem, kinds, &bins, &nodes);
     elastic_reaction::fill(problem, &faces.cells, &mut nodes);
