@@ -18,8 +18,8 @@
 // Second half: elastic force at the start of the step [N], M^-1 C X* before the solve [m s^-2], M^-1 C X after it.
 @group(0) @binding(3) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> node: array<vec4f>;
-// Elastic force, then the reaction e, then the acceleration to spread and the mass that it was for. Second half: velocity of the particles,
-// then the velocity that lighter nodes pass on in a sub-step.
+// Elastic force, then the reaction e, then the acceleration to spread and the mass that it was for, or the kicked velocity of an implicit step.
+// Second half: velocity of the particles, then the velocity that lighter nodes pass on in a sub-step.
 @group(0) @binding(5) var<storage, read_write> elastic: array<vec4f>;
 @group(0) @binding(6) var<storage, read> inertia: array<f32>;
 

@@ -3,9 +3,7 @@
 // one pressure unknown q follows the gas instead: the elastic force gives the difference, so the whole stress is that of the deformation.
 #include "shared/index.wgsl"
 #include "shared/material.wgsl"
-
-// Growth of the ghost pressure's stiffness with its pressure. [Murnaghan 1944]
-const GHOST_STIFFENING = 7.0;
+#include "materials/neo_hookean.wgsl"
 
 // Stiffness K against small changes of the volume at the ghost pressure q, dq = -K dJ / J. [eq. 17]
 fn ghost_stiffness(m: MaterialParams, q: f32) -> f32 {
@@ -18,7 +16,7 @@ fn exponential_rest(y: f32) -> f32 {
     return exp(y) - 1.0 - y;
 }
 
-// Below this the ghost pressure of a volume grows no further: what is left of a trial that turns a particle inside out.
+// Below this the ghost pressure of a volume grows no further: a trial may turn a particle inside out.
 const LEAST_SWELLING = -0.9;
 
 // J - 1 of a body, accurate where it is small. What flows by more than shear does not know its volume: its q tells.

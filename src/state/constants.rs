@@ -227,6 +227,7 @@ pub fn source_for(shader: &str) -> String {
     let mut text = source();
     if MATERIAL_SHADERS.contains(&shader) {
         let _ = writeln!(text, "const MAX_MATERIALS = {}u;", super::MAX_MATERIALS);
+        let _ = writeln!(text, "const GHOST_STIFFENING = {:?};", material::GHOST_STIFFENING);
         let _ = writeln!(text, "@group(0) @binding(15) var<uniform> materials: array<MaterialParams, MAX_MATERIALS>;");
         text.push_str(&material::wgsl_includes());
         text.push_str(&material::wgsl_switch());
