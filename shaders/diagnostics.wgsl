@@ -100,15 +100,15 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
         let v = velocity[p].xyz;
         let mass = position[p].w;
         let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
-        let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
+        let h = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
         let q = affine[3u * p].w;
         body += mass * vec4f(1.0, v);
         // The affine motion around a particle is motion, too: m dx^2 / 8 |C|^2. [Jiang et al. 2015]
         var turning = 0.0;
         for (var a = 0u; a < DIM; a++) { turning += dot(affine[3u * p + a].xyz, affine[3u * p + a].xyz); }
         let kinetic = 0.5 * mass * (dot(v, v) + 0.25 * params.spacing * params.spacing * turning);
-        heat += vec4f(kinetic, velocity[p].w * elastic_energy(material.kind, f, elastic_part(material)),
-            velocity[p].w * ghost_energy(material, swelling_of(material, f, q)), stress[2u * p].w);
+        heat += vec4f(kinetic, velocity[p].w * elastic_energy(material.kind, h, elastic_part(material)),
+            velocity[p].w * ghost_energy(material, swelling_of(material, h, q)), stress[2u * p].w);
         speed = max(speed, length(v));
     }
     let at = thread_index(group, groups, 0u) / WORKGROUP;

@@ -71,7 +71,8 @@ fn deviator_size(a: mat3x3f) -> f32 {
 }
 
 // Largest sum of a row of F F^T: what a law in F F^T is stiffer by where it is stretched.
-fn stretch_of(f: mat3x3f) -> f32 {
+fn stretch_of(h: mat3x3f) -> f32 {
+    let f = IDENTITY + h;
     let b = f * transpose(f);
     let rows = vec3f(dot(abs(b[0]), vec3f(1.0)), dot(abs(b[1]), vec3f(1.0)), dot(abs(b[2]), vec3f(1.0)));
     return max(1.0, max(rows.x, max(rows.y, rows.z)));
@@ -109,9 +110,9 @@ fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
 }
 
 // Volumetric stiffness of the elastic stress.
-fn lambda_of(m: MaterialParams, f: mat3x3f, q: f32) -> f32 {
+fn lambda_of(m: MaterialParams, h: mat3x3f, q: f32) -> f32 {
     if SHARED_VOLUME || !keeps_volume(m.kind) { return m.elastic_lambda; }
-    return m.elastic_lambda + ghost_stiffness(m, ghost_pressure_of(m, swelling_of(m, f, q)));
+    return m.elastic_lambda + ghost_stiffness(m, ghost_pressure_of(m, swelling_of(m, h, q)));
 }
 
 // Share of a particle in the diagonal of K: vol0 ((lambda + mu) g_a^2 + mu |g|^2), g the slope of its weight at the node.

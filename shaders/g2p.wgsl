@@ -54,10 +54,10 @@ fn affine_of(motion: Motion, at: Place) -> mat3x3f {
     return (4.0 / params.spacing) * (motion.moment - outer_product(motion.velocity, at.center));
 }
 
-fn store_deformation(p: u32, f: mat3x3f) {
-    deformation[3u * p] = vec4f(f[0], deformation[3u * p].w);
-    deformation[3u * p + 1u] = vec4f(f[1], deformation[3u * p + 1u].w);
-    deformation[3u * p + 2u] = vec4f(f[2], 0.0);
+fn store_deformation(p: u32, h: mat3x3f) {
+    deformation[3u * p] = vec4f(h[0], deformation[3u * p].w);
+    deformation[3u * p + 1u] = vec4f(h[1], deformation[3u * p + 1u].w);
+    deformation[3u * p + 2u] = vec4f(h[2], 0.0);
 }
 
 fn put_at(p: u32, place: vec3f) {
@@ -89,36 +89,36 @@ fn carry(p: u32, time: f32) {
 // Shared volume: the ghost pressure goes to what the volumetric part of the law says, as fast as an elastic wave passes this many cells.
 const RELAXED_CELLS = 10.0;
 
-fn relaxation(p: u32, q: f32, f: mat3x3f, material: MaterialParams, time: f32) -> f32 {
+fn relaxation(p: u32, q: f32, h: mat3x3f, material: MaterialParams, time: f32) -> f32 {
     var volumetric = material;
     volumetric.mu = 0.0;
-    let tau = kirchhoff_stress(material.kind, f, volumetric);
-    let swollen = params.ambient_pressure - (tau[0].x + tau[1].y + tau[2].z) / (3.0 * determinant(f));
-    let speed = wave_speed(material.kind, f, material, position[p].w / velocity[p].w);
+    let tau = kirchhoff_stress(material.kind, h, volumetric);
+    let swollen = params.ambient_pressure - (tau[0].x + tau[1].y + tau[2].z) / (3.0 * (1.0 + swelling(h)));
+    let speed = wave_speed(material.kind, h, material, position[p].w / velocity[p].w);
     return (1.0 - exp(-time * speed / (RELAXED_CELLS * params.spacing))) * (swollen - q);
 }
 
-// Stress of a particle from `f`, its deformation gradient before plastic flow and then after it; `stored` where it is in memory already.
+// Stress of a particle from `h`, its displacement gradient before plastic flow and then after it; `stored` where it is in memory already.
 // Returns false after a fault.
-fn strain(p: u32, f: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
+fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
-    let trial = *f;
+    let trial = *h;
     let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
-    *f = returned.deformation;
-    let volume = determinant(*f);
+    *h = returned.deformation;
+    let volume = 1.0 + swelling(*h);
     if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {
         atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
         return false;
     }
-    let tau = elastic_stress(material, *f, affine[3u * p].w) * velocity[p].w;
+    let tau = elastic_stress(material, *h, affine[3u * p].w) * velocity[p].w;
     var heat = stress[2u * p].w;
     if returned.plastic_strain > 0.0 {
         affine[3u * p + 1u].w += returned.plastic_strain;
         let part = elastic_part(material);
-        let lost = elastic_energy(material.kind, trial, part) - elastic_energy(material.kind, *f, part);
+        let lost = elastic_energy(material.kind, trial, part) - elastic_energy(material.kind, *h, part);
         heat += velocity[p].w * lost;
     }
-    if !stored || returned.plastic_strain > 0.0 { store_deformation(p, *f); }
+    if !stored || returned.plastic_strain > 0.0 { store_deformation(p, *h); }
     stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, heat);
     stress[2u * p + 1u] = vec4f(tau[0].y, tau[1].z, tau[0].z, 0.0);
     return true;
@@ -126,17 +126,17 @@ fn strain(p: u32, f: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
 
 // Strains and moves a particle with velocity v; `trial` and `stored` as above. Returns false after a fault.
 fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
-    var f = trial;
+    var h = trial;
     let x = position[p].xyz;
     follow_ghost(p);
-    if strains(p) && !strain(p, &f, v, stored) { return false; }
+    if strains(p) && !strain(p, &h, v, stored) { return false; }
     if is_driven(p) {
         carry(p, time);
         return true;
     }
     if SHARED_VOLUME {
         let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
-        affine[3u * p].w += relaxation(p, affine[3u * p].w, f, material, time);
+        affine[3u * p].w += relaxation(p, affine[3u * p].w, h, material, time);
     }
     put_at(p, x + time * v);
     return true;

@@ -17,8 +17,7 @@
 @group(0) @binding(8) var<storage, read_write> ghost: array<f32>;  // vertex mean of the particles' ghost pressure [Pa]
 
 fn volume_of(p: u32) -> f32 {
-    let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
-    return velocity[p].w * determinant(f);
+    return velocity[p].w * (1.0 + swelling(deformation_of(p)));
 }
 
 @compute @workgroup_size(WORKGROUP)

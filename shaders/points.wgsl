@@ -32,9 +32,9 @@ const MAX_REACH: f32 = 400.0;
 
 // Norm of the deviatoric part of the Cauchy stress [Pa].
 fn deviatoric_stress(p: u32) -> f32 {
-    let a = deformation[3u * p].xyz;
-    let b = deformation[3u * p + 1u].xyz;
-    let c = deformation[3u * p + 2u].xyz;
+    let a = deformation[3u * p].xyz + vec3f(1.0, 0.0, 0.0);     // columns of F
+    let b = deformation[3u * p + 1u].xyz + vec3f(0.0, 1.0, 0.0);
+    let c = deformation[3u * p + 2u].xyz + vec3f(0.0, 0.0, 1.0);
     let volume = velocity[p].w * dot(a, cross(b, c));
     let normal = stress[2u * p].xyz;
     let shear = stress[2u * p + 1u].xyz;

@@ -107,8 +107,8 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
 // those that single precision cannot tell from rounding.
 fn elastic_speed(p: u32) -> f32 {
     let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
-    let f = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
-    let wave = body_wave_speed(material, f, affine[3u * p].w, position[p].w / velocity[p].w);
+    let h = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
+    let wave = body_wave_speed(material, h, affine[3u * p].w, position[p].w / velocity[p].w);
     let c = mat3x3f(affine[3u * p].xyz, affine[3u * p + 1u].xyz, affine[3u * p + 2u].xyz);
     let gradient = sqrt(dot(c[0], c[0]) + dot(c[1], c[1]) + dot(c[2], c[2]));
     return max(select(wave, wave * params.elastic_cfl / IMPLICIT_COURANT, IMPLICIT), gradient * params.spacing);

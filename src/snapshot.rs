@@ -138,7 +138,10 @@ fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
         volume0: velocity[p][3],
         ghost_pressure: affine[3 * p][3],
         plastic_strain: affine[3 * p + 1][3],
-        deformation: [xyz(deformation[3 * p]), xyz(deformation[3 * p + 1]), xyz(deformation[3 * p + 2])],
+        deformation: std::array::from_fn(|column| {
+            let unit = |row: usize| if row == column { 1.0 } else { 0.0 };
+            std::array::from_fn(|row| unit(row) + deformation[3 * p + column][row])
+        }),
         body: deformation[3 * p][3].to_bits(),
         material: affine[3 * p + 2][3].to_bits(),
     };

@@ -8,24 +8,26 @@ struct Logarithmic {
     axes: mat3x3f,
 }
 
-fn logarithmic_strain(f: mat3x3f) -> Logarithmic {
-    let eigen = symmetric_eigen(strain_neo_hookean(f));
+fn logarithmic_strain(h: mat3x3f) -> Logarithmic {
+    let eigen = symmetric_eigen(strain_neo_hookean(h));
     // rounding can push a strongly flattened axis below zero
     let stretch = max(eigen.values, vec3f(1e-12 - 1.0));
     return Logarithmic(0.5 * vec3f(log_one_plus(stretch.x), log_one_plus(stretch.y), log_one_plus(stretch.z)), eigen.vectors);
 }
 
 // F' = U diag(exp(change)) U^T F keeps the rotation of F.
-fn stretched(f: mat3x3f, l: Logarithmic, change: vec3f) -> mat3x3f {
-    return l.axes * diagonal(exp(change)) * transpose(l.axes) * f;
+fn stretched(h: mat3x3f, l: Logarithmic, change: vec3f) -> mat3x3f {
+    let growth = vec3f(exp_minus_one(change.x), exp_minus_one(change.y), exp_minus_one(change.z));
+    let stretch = l.axes * diagonal(growth) * transpose(l.axes);
+    return h + stretch + stretch * h;
 }
 
-// Elastic part of F after plastic flow: the deviator of the strain is cut back, its trace, the volume, stays; soil beyond the tip
+// Elastic part of a deformation after plastic flow: the deviator of the strain is cut back, its trace, the volume, stays; soil beyond the tip
 // of its cone opens instead. The deviator divides by 3 in every dimension: plane strain has a third principal axis.
-fn plastic_flow(f: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn {
+fn plastic_flow(h: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn {
     // an inverted F has no logarithmic strain; the caller reports it
-    if determinant(f) <= 0.0 { return PlasticReturn(f, 0.0); }
-    let l = logarithmic_strain(f);
+    if swelling(h) <= -1.0 { return PlasticReturn(h, 0.0); }
+    let l = logarithmic_strain(h);
     let volume = l.strain.x + l.strain.y + l.strain.z;
     let deviator = l.strain - vec3f(volume / 3.0);
     let size = length(deviator);
@@ -34,9 +36,9 @@ fn plastic_flow(f: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn {
     let limit = (m.yield_stress + m.hardening * hardened - m.friction * bulk * volume) / (2.0 * m.mu);
     if limit < 0.0 {
         let tip = m.yield_stress / (m.friction * bulk);
-        return PlasticReturn(stretched(f, l, vec3f(tip / 3.0) - l.strain), share * size);
+        return PlasticReturn(stretched(h, l, vec3f(tip / 3.0) - l.strain), share * size);
     }
-    if size <= limit { return PlasticReturn(f, 0.0); }
+    if size <= limit { return PlasticReturn(h, 0.0); }
     let excess = (size - limit) / (1.0 + share * m.hardening / (2.0 * m.mu));
-    return PlasticReturn(stretched(f, l, -excess / size * deviator), share * excess);
+    return PlasticReturn(stretched(h, l, -excess / size * deviator), share * excess);
 }

@@ -10,21 +10,12 @@ fn ghost_stiffness(m: MaterialParams, q: f32) -> f32 {
     return m.ghost_modulus + GHOST_STIFFENING * max(q - params.ambient_pressure, 0.0);
 }
 
-// exp(y) - 1 - y, accurate for small y.
-fn exponential_rest(y: f32) -> f32 {
-    if abs(y) < 0.1 { return 0.5 * y * y * (1.0 + y / 3.0 * (1.0 + y / 4.0 * (1.0 + y / 5.0))); }
-    return exp(y) - 1.0 - y;
-}
-
 // Below this the ghost pressure of a volume grows no further: a trial may turn a particle inside out.
 const LEAST_SWELLING = -0.9;
 
 // J - 1 of a body, accurate where it is small. What flows by more than shear does not know its volume: its q tells.
-fn swelling_of(m: MaterialParams, f: mat3x3f, q: f32) -> f32 {
-    if keeps_volume(m.kind) {
-        let h = f - IDENTITY;
-        return max(trace(h) + nonlinear_volume(h), LEAST_SWELLING);
-    }
+fn swelling_of(m: MaterialParams, h: mat3x3f, q: f32) -> f32 {
+    if keeps_volume(m.kind) { return max(swelling(h), LEAST_SWELLING); }
     let over = q - params.ambient_pressure;
     if over > 0.0 { return pow(1.0 + GHOST_STIFFENING * over / m.ghost_modulus, -1.0 / GHOST_STIFFENING) - 1.0; }
     return exp(-over / m.ghost_modulus) - 1.0;
@@ -51,17 +42,17 @@ fn ghost_energy(m: MaterialParams, swelling: f32) -> f32 {
 }
 
 // Kirchhoff stress that the elastic force bears: that of the law, and what q(J) has beyond q.
-fn elastic_stress(m: MaterialParams, f: mat3x3f, q: f32) -> mat3x3f {
-    let tau = kirchhoff_stress(m.kind, f, elastic_part(m));
+fn elastic_stress(m: MaterialParams, h: mat3x3f, q: f32) -> mat3x3f {
+    let tau = kirchhoff_stress(m.kind, h, elastic_part(m));
     if SHARED_VOLUME || !keeps_volume(m.kind) { return tau; }
-    let swelling = swelling_of(m, f, q);
+    let swelling = swelling_of(m, h, q);
     return tau + (1.0 + swelling) * (q - ghost_pressure_of(m, swelling)) * IDENTITY;
 }
 
 // Fastest wave [m s^-1] by the whole stress of a body, `density` that at rest.
-fn body_wave_speed(m: MaterialParams, f: mat3x3f, q: f32, density: f32) -> f32 {
-    let wave = wave_speed(m.kind, f, m, density);
+fn body_wave_speed(m: MaterialParams, h: mat3x3f, q: f32, density: f32) -> f32 {
+    let wave = wave_speed(m.kind, h, m, density);
     // The law's own lambda has in it what the ghost pressure bears of it.
-    let beyond = ghost_stiffness(m, ghost_pressure_of(m, swelling_of(m, f, q))) + m.elastic_lambda - m.lambda;
+    let beyond = ghost_stiffness(m, ghost_pressure_of(m, swelling_of(m, h, q))) + m.elastic_lambda - m.lambda;
     return sqrt(wave * wave + max(beyond, 0.0) / density);
 }

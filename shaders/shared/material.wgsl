@@ -18,8 +18,8 @@ fn elastic_part(m: MaterialParams) -> MaterialParams {
     return part;
 }
 
-// What plastic flow leaves of a deformation gradient.
+// What plastic flow leaves of a deformation.
 struct PlasticReturn {
-    deformation: mat3x3f,  // the elastic part
-    plastic_strain: f32,   // equivalent plastic strain that the flow added
+    deformation: mat3x3f,   // of the elastic part, F - I
+    plastic_strain: f32,    // equivalent plastic strain that the flow added
 }

@@ -1,6 +1,6 @@
 //! states/NNNN.state: what pictures are drawn from, bit by bit, so that they can be drawn again without simulating.
 //!
-//! A file is the line `brisance state 1`, a line of JSON (time, step, scene, and per array its name, the bytes of an element and its
+//! A file is the line `brisance state 2`, a line of JSON (time, step, scene, and per array its name, the bytes of an element and its
 //! stored bytes), then the arrays. Each is a zlib stream of its bytes in little-endian order, sorted by their place in an element: first
 //! all first bytes, then all second ones. [RFC 1950]
 
@@ -18,7 +18,7 @@ use crate::render::{Stored, StoredParticles};
 use crate::{Error, Result, input};
 
 /// First line of every file; the number is that of the format.
-const MAGIC: &str = "brisance state 1";
+const MAGIC: &str = "brisance state 2";
 
 /// Bytes of a number in all arrays but the kinds.
 const WORD: usize = 4;
@@ -251,7 +251,7 @@ mod tests {
             std::fs::write(&path, bytes).unwrap();
             read(&path, 1 << 20).unwrap_err().to_string()
         };
-        assert!(told(b"P6 2 2").contains("brisance state 1"));
+        assert!(told(b"P6 2 2").contains("brisance state 2"));
         assert!(told(&whole[..whole.len() - 9]).contains("the file is cut"));
         assert!(told(&whole[..30]).contains("second line"));
         let mut broken = whole.clone();

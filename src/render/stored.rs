@@ -32,7 +32,7 @@ pub struct StoredParticles {
     pub velocity: Vec<[f32; 4]>,
     /// Affine velocity, three rows per particle.
     pub affine: Vec<[f32; 4]>,
-    /// Deformation gradient, three rows per particle.
+    /// Deformation gradient less the identity, three columns per particle.
     pub deformation: Vec<[f32; 4]>,
     /// Kirchhoff stress times volume at rest, two rows per particle.
     pub stress: Vec<[f32; 4]>,

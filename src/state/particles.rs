@@ -15,7 +15,7 @@ pub struct Particles {
     pub velocity: Buffer<[f32; 4]>,
     /// Columns of the affine matrix \[s^-1\]; w: ghost pressure \[Pa\], plastic strain, material index.
     pub affine: Buffer<[f32; 4]>,
-    /// Columns of the deformation gradient; w: body index, 1 while inside the domain or 2 if driven, unused.
+    /// Columns of the deformation gradient less the identity; w: body index, 1 while inside the domain or 2 if driven, unused.
     pub deformation: Buffer<[f32; 4]>,
     /// Kirchhoff stress times volume at rest \[J\]: xx, yy, zz; then xy, yz, zx.
     pub stress: Buffer<[f32; 4]>,
@@ -57,7 +57,7 @@ impl ParticleStart {
             let ghost = scene.gas.ambient.pressure as f32;
             let [x, y, z] = seed.spin.map(|rate| rate as f32);
             start.affine.extend([[0.0, z, -y, ghost], [-z, 0.0, x, 0.0], [y, -x, 0.0, bits(seed.material)]]);
-            start.deformation.extend([[1.0, 0.0, 0.0, bits(seed.body)], [0.0, 1.0, 0.0, word], [0.0, 0.0, 1.0, 0.0]]);
+            start.deformation.extend([[0.0, 0.0, 0.0, bits(seed.body)], [0.0, 0.0, 0.0, word], [0.0; 4]]);
             start.max_density = start.max_density.max(seed.density);
         }
         start

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use crate::common::{Random, with_shaders};
 use crate::reference::material::eigen;
 
-/// Asks a law for everything it knows of given deformation gradients.
+/// Asks a law for everything it knows of given displacement gradients F - I.
 const ASK: &str = r#"
 #include "shared/thread.wgsl"
 struct Answer { stress: mat3x3f, kept: mat3x3f, energy: f32, plastic_strain: f32, wave_speed: f32 }
@@ -69,7 +69,7 @@ fn ask(gpu: &Gpu, material: &Material, given: &[DMat3]) -> Vec<Answer> {
     let matrices = Buffer::<f32>::new(gpu, "given", 12 * given.len()).expect("memory");
     let answers = Buffer::<f32>::new(gpu, "answers", 28 * given.len()).expect("memory");
     params.write(gpu, 0, &[material.params(VolumeShare::Split(0.0))]);
-    matrices.write(gpu, 0, &given.iter().flat_map(|f| columns(*f)).collect::<Vec<_>>());
+    matrices.write(gpu, 0, &given.iter().flat_map(|f| columns(*f - DMat3::IDENTITY)).collect::<Vec<_>>());
     let names = [("material", params.raw()), ("given", matrices.raw()), ("answers", answers.raw())];
     let mut pass = Pass::new(gpu, "ask");
     pass.dispatch(&kernel.bind(gpu, &names).expect("all names"), &Extent::Threads(given.len() as u64));
@@ -81,7 +81,7 @@ fn ask(gpu: &Gpu, material: &Material, given: &[DMat3]) -> Vec<Answer> {
     };
     let answer = |at: &[f32]| Answer {
         stress: matrix(at),
-        kept: matrix(&at[12..]),
+        kept: DMat3::IDENTITY + matrix(&at[12..]),
         energy: at[24].into(),
         plastic_strain: at[25].into(),
         wave_speed: at[26].into(),

@@ -65,7 +65,7 @@ impl State {
         let volume = (0.5 * spacing).powi(dimension as i32);
         let deformation = points.iter().flat_map(|point| {
             let body = f32::from_bits(u32::from(point[0] > BLOB[0]));
-            [[1.0, 0.0, 0.0, body], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]]
+            [[0.0, 0.0, 0.0, body], [0.0, 0.0, 0.0, 1.0], [0.0; 4]]
         });
         let affine = points.iter().flat_map(|point| [[0.0; 4], [0.0, 0.0, 0.0, point[1].powi(4)], [0.0; 4]]);
         Self {

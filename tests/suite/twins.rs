@@ -345,7 +345,7 @@ fn particles(gpu: &Gpu, simulation: &Simulation) -> Vec<Particle> {
         position: xyz(position[p]),
         velocity: xyz(velocity[p]),
         affine: matrix(&affine[3 * p..]),
-        deformation: matrix(&deformation[3 * p..]),
+        deformation: DMat3::IDENTITY + matrix(&deformation[3 * p..]),
         mass: f64::from(position[p][3]),
         volume0: f64::from(velocity[p][3]),
         ghost_pressure: f64::from(affine[3 * p][3]),
