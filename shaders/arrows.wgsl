@@ -9,9 +9,8 @@
 @group(0) @binding(3) var<storage, read_write> arrows: array<vec4f>;
 
 @compute @workgroup_size(WORKGROUP)
-fn sample_arrows(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn sample_arrows(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= view.arrows.x * view.arrows.y) {
         return;
     }

@@ -81,9 +81,8 @@ fn interior_average(at: u32, n: u32) -> f32 {
 fn stays(slot: u32) -> bool { return !CUT && !SOLVED && is_still(slot); }
 
 @compute @workgroup_size(WORKGROUP)
-fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
@@ -139,9 +138,8 @@ fn cut_divergence(slot: u32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                      @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) || stays(slot) { return; }
@@ -181,10 +179,9 @@ fn mean_of(a: f32, u: f32, b: f32, v: f32) -> f32 { return (a * u + b * v) / (a 
 
 // Average and divergence at once, deep inside the gas in 2D: a column of params.march slots, each row of three read once.
 @compute @workgroup_size(WORKGROUP)
-fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
+fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let s = params.stride.x;
-    let thread = thread_index(group, groups, lane);
+    let thread = thread_index(group, lane);
     let first = march_start(thread);
     if first >= params.slots { return; }
     let awake = awake_rows(thread);

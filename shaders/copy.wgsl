@@ -6,7 +6,7 @@
 @group(0) @binding(1) var<storage, read_write> to_there: array<vec4f>;
 
 @compute @workgroup_size(WORKGROUP)
-fn copy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let i = thread_index(group, groups, lane);
+fn copy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = thread_index(group, lane);
     if i < arrayLength(&to_there) { to_there[i] = from_here[i]; }
 }

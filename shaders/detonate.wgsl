@@ -33,20 +33,18 @@ fn share_in_ball(slot: u32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn detonate_volume(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
+fn detonate_volume(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var sum = 0.0;
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+    for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         sum += share_in_ball(slot);
     }
     sum = workgroup_sum(lane, sum);
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = vec4f(sum, 0.0, 0.0, 0.0); }
+    if lane == 0u { partials[group_index(group)] = vec4f(sum, 0.0, 0.0, 0.0); }
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn detonate_heat(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn detonate_heat(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     if slot == 0u { control.woken = 1u; }    // the gas there was asleep, perhaps
     if share_in_ball(slot) > 0.0 { energy[slot] += blast.rise; }

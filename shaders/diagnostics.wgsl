@@ -35,8 +35,7 @@ fn put(block: u32, at: u32, lane: u32, value: vec4f) {
 const PLACES_PER_TURN = 5u;
 
 @compute @workgroup_size(WORKGROUP)
-fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
+fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var gas = vec4f(0.0);
     var owed = vec4f(0.0);
     var crossed = vec4f(0.0);
@@ -44,8 +43,8 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     var extremes = vec4f(-3e38);
     var speed = vec2f(0.0); // of the gas, of sound, squared
     let volume = cell_volume();
-    let threads = groups.x * groups.y * WORKGROUP;
-    var place = thread_index(group, groups, lane);
+    let threads = striding_threads();
+    var place = thread_index(group, lane);
     for (var first = 0u; first < params.slots; first += threads) {
         let slot = first + place;
         place = select(place + PLACES_PER_TURN, place + PLACES_PER_TURN - threads, place + PLACES_PER_TURN >= threads);
@@ -75,12 +74,12 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
             heat.z += volume * (owed_energy[slot] + u.energy);
         }
     }
-    for (var k = thread_index(group, groups, lane); RING_BOOKS && k < ring_count(); k += groups.x * groups.y * WORKGROUP) {
+    for (var k = thread_index(group, lane); RING_BOOKS && k < ring_count(); k += striding_threads()) {
         crossed += volume * owed_flow[k];
         heat.z += volume * owed_energy[k];
     }
     speed = sqrt(speed);
-    let at = thread_index(group, groups, 0u) / WORKGROUP;
+    let at = group_index(group);
     put(0u, at, lane, workgroup_sum4(lane, gas));
     put(1u, at, lane, workgroup_sum4(lane, owed));
     put(2u, at, lane, workgroup_sum4(lane, crossed));
@@ -90,12 +89,11 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                    @builtin(local_invocation_index) lane: u32) {
+fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var body = vec4f(0.0);
     var heat = vec4f(0.0);
     var speed = 0.0;
-    for (var p = thread_index(group, groups, lane); p < params.particles; p += groups.x * groups.y * WORKGROUP) {
+    for (var p = thread_index(group, lane); p < params.particles; p += striding_threads()) {
         if deformation[3u * p + 1u].w == 0.0 { continue; }
         let v = velocity[p].xyz;
         let mass = position[p].w;
@@ -111,7 +109,7 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
             velocity[p].w * ghost_energy(material, swelling_of(material, h, q)), stress[2u * p].w);
         speed = max(speed, length(v));
     }
-    let at = thread_index(group, groups, 0u) / WORKGROUP;
+    let at = group_index(group);
     put(6u, at, lane, workgroup_sum4(lane, body));
     put(7u, at, lane, workgroup_sum4(lane, heat));
     put(8u, at, lane, workgroup_max4(lane, vec4f(speed, 0.0, 0.0, 0.0)));

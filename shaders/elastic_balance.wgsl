@@ -28,9 +28,8 @@ fn takes(p: u32) -> bool { return deformation[3u * p + 1u].w != 0.0 && !is_drive
 
 // Of the particles of a portion of a body.
 @compute @workgroup_size(WORKGROUP)
-fn elastic_missing(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    for (var k = group.x; k < arrayLength(&portions); k += groups.x) {
+fn elastic_missing(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    for (var k = group.x; k < arrayLength(&portions); k += params.groups) {
         let portion = portions[k];
         var sum = vec4f(0.0);
         for (var p = portion.x + lane; p < portion.y; p += WORKGROUP) {
@@ -58,9 +57,8 @@ fn elastic_missing_bodies(@builtin(local_invocation_index) lane: u32) {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn elastic_give(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn elastic_give(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p >= params.particles || !takes(p) { return; }
     let body = bitcast<u32>(deformation[3u * p].w);
     velocity[p] += vec4f(missing[arrayLength(&portions) + body].xyz, 0.0);

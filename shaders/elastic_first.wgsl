@@ -16,18 +16,16 @@
 fn is_free(slot: u32) -> bool { return node[slot].w > 0.0 && !(DRIVEN && has(cells[slot], NODE_DRIVEN)); }
 
 @compute @workgroup_size(WORKGROUP)
-fn elastic_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn elastic_start(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let mass = node[slot].w;
     elastic[slot] = vec4f(select(vec3f(0.0), work[params.slots + slot].xyz / mass, mass > 0.0), 0.0);
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn elastic_before(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn elastic_before(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || !is_free(slot) { return; }
     let v = node[slot].xyz + control.dt * elastic[slot].xyz;
     node[slot] = vec4f(velocity_at_wall(cell_of(slot), v), node[slot].w);
@@ -35,9 +33,8 @@ fn elastic_before(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 
 // What is left of the only sub-step.
 @compute @workgroup_size(WORKGROUP)
-fn elastic_walls(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn elastic_walls(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || !is_free(slot) { return; }
     node[slot] = vec4f(velocity_at_wall(cell_of(slot), node[slot].xyz), node[slot].w);
 }

@@ -24,9 +24,8 @@
 fn grid_vector(slot: u32) -> vec3f { return direction[slot].xyz; }
 
 @compute @workgroup_size(WORKGROUP)
-fn elastic_strain(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn elastic_strain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p >= params.particles { return; }
     let lambda = change[2u * p].w;
     let mu = change[2u * p + 1u].w;
@@ -42,10 +41,9 @@ fn elastic_strain(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn elastic_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                    @builtin(local_invocation_index) lane: u32) {
+fn elastic_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var sum = 0.0;
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+    for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         let x = direction[slot].xyz;
         let y = node[slot].w * x - control.dt * control.dt * work[params.slots + slot].xyz;
         // Components that are no unknowns have no diagonal.
@@ -54,13 +52,12 @@ fn elastic_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
         sum += dot(x, own);
     }
     let part = workgroup_sum4(lane, vec4f(sum, 0.0, 0.0, 0.0));
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = part; }
+    if lane == 0u { partials[group_index(group)] = part; }
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn elastic_add(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn elastic_add(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     node[slot] = vec4f(node[slot].xyz + solution[slot].xyz + pcg.alpha * direction[slot].xyz, node[slot].w);
 }

@@ -51,9 +51,8 @@ fn velocity_with_around(slot: u32) -> vec4f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn reaction_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn reaction_start(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     elastic[slot] = vec4f(work[params.slots + slot].xyz, 0.0);
     elastic[params.slots + slot] = velocity_with_around(slot);
@@ -61,9 +60,8 @@ fn reaction_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 
 // Nodes of bodies with next to no mass of their own. What has all of its mass, or is driven, stays as it is.
 @compute @workgroup_size(WORKGROUP)
-fn reaction_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn reaction_fill(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || !has(cells[slot], NODE_SOLID) { return; }
     node[slot] = elastic[params.slots + slot];
 }
@@ -101,9 +99,8 @@ fn reaction_of(slot: u32, here: vec3f) -> vec3f {
 
 // Between the forces of X* and the velocities that enter the solve.
 @compute @workgroup_size(WORKGROUP)
-fn reaction_before(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn reaction_before(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let here = node[slot];
     if !is_free(slot) || !(SHARED_VOLUME || has(cells[slot], NODE_SOLID)) || control.dt <= 0.0 {
@@ -119,9 +116,8 @@ fn reaction_before(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
 
 // After the solve: the power of the pressures counts no reaction, so node and the kick of the solve go without it; their sum is the same.
 @compute @workgroup_size(WORKGROUP)
-fn reaction_aside(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn reaction_aside(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || !has(cells[slot], NODE_SOLID) || node[slot].w <= 0.0 { return; }
     let e = elastic[slot].xyz;
     node[slot] = vec4f(node[slot].xyz - control.dt * e, node[slot].w);
@@ -131,9 +127,8 @@ fn reaction_aside(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 // After the kick of the solve: what is not elastic of the acceleration, and the velocity of the particles. Explicit sub-steps start from
 // it. An implicit step looks for its own from there, where no particle is turned inside out; it keeps the kicked velocity.
 @compute @workgroup_size(WORKGROUP)
-fn reaction_after(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn reaction_after(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let start = elastic[params.slots + slot];
     let here = node[slot];
@@ -155,9 +150,8 @@ fn reaction_after(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 // As a body moves, nodes at its surface lose mass from sub-step to sub-step: what one can no longer take of its impulse goes to the free
 // nodes around it, as a velocity.
 @compute @workgroup_size(WORKGROUP)
-fn reaction_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn reaction_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let push = elastic[slot];
     let left = push.w - MOST_SPREAD * select(0.0, node[slot].w, is_free(slot));

@@ -46,9 +46,8 @@ fn is_free(slot: u32) -> bool { return node[slot].w > 0.0 && !(DRIVEN && has(cel
 
 // The first guess is what the nodes have, that of the particles, stopped at walls.
 @compute @workgroup_size(WORKGROUP)
-fn elastic_keep(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn elastic_keep(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let here = node[slot];
     if is_free(slot) { node[slot] = vec4f(stopped_at_wall(cell_of(slot), here.xyz), here.w); }
@@ -56,9 +55,8 @@ fn elastic_keep(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
 
 // The ghost pressure of the end of the step, which the elastic stress depends on.
 @compute @workgroup_size(WORKGROUP)
-fn elastic_ghost(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn elastic_ghost(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     affine[3u * p].w += ghost_between(position[p].xyz);
 }
@@ -80,9 +78,8 @@ fn stretch_of(h: mat3x3f) -> f32 {
 
 // Stress at the end of the step if the nodes move as they do now, and the Lame constants of a small change of it.
 @compute @workgroup_size(WORKGROUP)
-fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p >= params.particles { return; }
     if deformation[3u * p + 1u].w == 0.0 || !strains(p) {
         change[2u * p].w = 0.0;
@@ -128,9 +125,8 @@ fn diagonal_share(p: u32, middle: vec3f, offset: vec3i) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn elastic_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                    @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn elastic_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     var sum = vec3f(0.0);
@@ -153,9 +149,8 @@ fn imbalance(slot: u32) -> vec3f {
 // Right-hand side. Components that a wall stops are no unknowns: they have no diagonal, and what the wall bears stays in `residual`.
 // What the tolerance refers to is left in `product`.
 @compute @workgroup_size(WORKGROUP)
-fn elastic_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                    @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn elastic_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     var r = vec3f(0.0);
     var scale = vec3f(0.0);
@@ -185,10 +180,9 @@ fn elastic_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
 
 // Walls: what they stop, the rubbing that goes with it, and the books.
 @compute @workgroup_size(WORKGROUP)
-fn elastic_finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
+fn elastic_finish(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var given = vec4f(0.0);
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+    for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         if !is_free(slot) { continue; }
         let here = node[slot];
         let c = cell_of(slot);
@@ -199,5 +193,5 @@ fn elastic_finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         node[slot] = vec4f(v, here.w);
         given += given_to(here.w, v - here.xyz - reaction, elastic[slot].xyz, v);
     }
-    add_given(thread_index(group, groups, 0u) / WORKGROUP, lane, given, false);
+    add_given(group_index(group), lane, given, false);
 }

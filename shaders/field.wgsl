@@ -86,9 +86,8 @@ fn value(cell: vec3i, slot: u32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= cell_count()) {
         return;
     }
@@ -109,11 +108,10 @@ fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn find_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
+fn find_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     var low = -NO_VALUE;
     var high = NO_VALUE;
-    for (var i = thread_index(workgroup, groups, local); i < cell_count(); i += groups.x * WORKGROUP) {
+    for (var i = thread_index(workgroup, local); i < cell_count(); i += RANGE_GROUPS * WORKGROUP) {
         let seen = field[i];
         if (seen != NO_VALUE) {
             low = min(low, seen);
@@ -171,9 +169,8 @@ fn corner_cell(cube: vec3i, corner: u32) -> vec3i {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= cube_count()) {
         return;
     }
@@ -188,9 +185,8 @@ fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn pack_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn pack_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= cube_count()) {
         return;
     }
@@ -222,9 +218,8 @@ fn widened(bounds: vec2f, packed: vec2u) -> vec2f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     let grid = (view.cells + BRICK) / BRICK;
     if (i >= grid.x * grid.y * grid.z) {
         return;

@@ -56,18 +56,16 @@ fn mean_light(i: u32, behind: bool) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn finish_deep(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn finish_deep(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i < band_pixels()) {
         deep[i] = vec4f(mean_light(i, TONED), 1.0);
     }
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn finish(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-          @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn finish(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= band_pixels()) {
         return;
     }

@@ -89,9 +89,8 @@ fn interior_heat(slot: u32, here: vec4f) -> f32 {
 
 // Calls with c in GAS; slots of other kinds see the same face from the other side.
 @compute @workgroup_size(WORKGROUP)
-fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = busy_slot(thread_index(group, groups, lane));
+fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = busy_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     if !LISTED {
         if has(cells[slot], INTERIOR) {
@@ -188,9 +187,8 @@ fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     if !LISTED {
         if has(cells[slot], INTERIOR) {

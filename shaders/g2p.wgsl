@@ -151,9 +151,8 @@ fn store_motion(p: u32, motion: Motion, at: Place) {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-       @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     let time = control.dt / f32(control.substeps);
     if !strains(p) {
@@ -172,9 +171,8 @@ fn g2p(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
 
 // Velocity, affine velocity and trial deformation of the particles of a cell.
 @compute @workgroup_size(WORKGROUP)
-fn g2p_cells(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn g2p_cells(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let first = cell_start[slot];
     let end = cell_start[slot + 1u];
@@ -194,9 +192,8 @@ fn g2p_cells(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) group
 
 // What follows from them, particle by particle.
 @compute @workgroup_size(WORKGROUP)
-fn g2p_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn g2p_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p >= params.particles || deformation[3u * p + 1u].w == 0.0 { return; }
     let time = control.dt / f32(control.substeps);
     _ = advance(p, velocity[p].xyz, deformation_of(p), true, time);

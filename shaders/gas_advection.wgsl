@@ -191,9 +191,8 @@ fn is_served(c: vec3i) -> bool {
 
 // One slot of the list.
 @compute @workgroup_size(WORKGROUP)
-fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     let beyond = !inside(c);
@@ -209,11 +208,10 @@ fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
 
 // A column of params.march slots along the last axis: each state there is read once, each face computed once.
 @compute @workgroup_size(WORKGROUP)
-fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
+fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let n = DIM - 1u;
     let s = step_of(n);
-    let thread = thread_index(group, groups, lane);
+    let thread = thread_index(group, lane);
     let first = march_start(thread);
     let last = params.slots - 1u;
     if first > last { return; }
@@ -265,9 +263,8 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
 
 // Only where the limiter acted somewhere: the slots whose faces carry less than the full flux once more.
 @compute @workgroup_size(WORKGROUP)
-fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     if !inside(c) || is_alias(c) || stays(slot) { return; }

@@ -38,9 +38,8 @@ fn coarse_cell(i: u32) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn gather_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn gather_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= GLOW_CELLS * GLOW_CELLS * GLOW_CELLS) {
         return;
     }
@@ -68,9 +67,8 @@ fn block_edges() -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn block_bodies(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let p = thread_index(workgroup, groups, local);
+fn block_bodies(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let p = thread_index(workgroup, local);
     if (p >= view.particles || balls[2u * p].w == 0.0) {
         return;
     }
@@ -84,9 +82,8 @@ fn block_bodies(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn block_walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn block_walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= BLOCK_CELLS * BLOCK_CELLS * BLOCK_CELLS) {
         return;
     }
@@ -113,9 +110,8 @@ fn passing(here: vec3f, there: vec3f) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn spread_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn spread_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     let count = GLOW_CELLS * GLOW_CELLS * GLOW_CELLS;
     if (i >= count) {
         return;

@@ -21,9 +21,8 @@ fn volume_of(p: u32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || !inside(cell_of(slot)) { return; } // the ring keeps what open faces know
     let first = cell_start[slot];
     let end = cell_start[slot + 1u];
@@ -45,9 +44,8 @@ fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 
 // A march along the last axis over the four cells around each vertex: particles are read four times, not eight.
 @compute @workgroup_size(WORKGROUP)
-fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, groups, lane);
+fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
     let n = DIM - 1u;
     let step = step_of(n);
     let first = thread / step * params.march;

@@ -24,9 +24,8 @@ fn fill_at(c: vec3i) -> f32 {
 
 // Volume of what closes the cell: its own where it is full, that of a thin wall; else 0.
 @compute @workgroup_size(WORKGROUP)
-fn interface_walls(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn interface_walls(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     var volume = 0.0;
     let own = fill[slot].x;
@@ -46,9 +45,8 @@ fn blocked_fraction(volume: f32) -> f32 {
 
 // After `interface_walls`.
 @compute @workgroup_size(WORKGROUP)
-fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     let before = kind_of(cells[slot]);
@@ -94,9 +92,8 @@ fn kind_near(c: vec3i) -> u32 { return kind_of(cells[slot_of(nearest_ring(c))]);
 
 // Flags follow from kinds alone. A flag set here is read by other slots only in later kernels.
 @compute @workgroup_size(WORKGROUP)
-fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     if slot == 0u { atomicStore(&extra[2u * params.slots + 1u], 0u); }
@@ -169,9 +166,8 @@ fn shares_pressure(v: vec3i) -> bool {
 
 // After the scan of `wanted`.
 @compute @workgroup_size(WORKGROUP)
-fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     var at = NO_EXTRA;
     if wanted[slot] == 1u { at = place[slot]; }
@@ -187,9 +183,8 @@ fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
 // so do the next ones up: gas in the 4^DIM cells around the vertex and two cells along each axis.
 // `wanted` from here on: the slots whose stencils take by far the longest, those between gas and body or obstacle.
 @compute @workgroup_size(WORKGROUP)
-fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     // Of the six cells around a face only the outermost may be an image.
@@ -232,9 +227,8 @@ fn on_frontier(slot: u32) -> bool {
 // After the scans of `edge` and `wanted`: the mark and the list of all slots that are not INTERIOR, mixed ones first so that threads that
 // run in step have the same to do; the frontier in any order; and the lengths of both.
 @compute @workgroup_size(WORKGROUP)
-fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let interior = edge[slot] == 0u && !is_alias(cell_of(slot));
     let last = params.slots - 1u;

@@ -118,9 +118,8 @@ fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     if !LISTED && !has(word, INTERIOR) { return; }

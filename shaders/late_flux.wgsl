@@ -15,9 +15,8 @@
 @group(0) @binding(8) var<storage, read> work: array<vec4f>;    // second half: kick of the solve per time
 
 @compute @workgroup_size(WORKGROUP)
-fn late_flux(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn late_flux(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots || kind_of(cells[slot]) != SOLID || !has(cells[slot], NODE_GAS) { return; }
     let c = cell_of(slot);
     var flow = vec4f(0.0);

@@ -79,18 +79,16 @@ fn trapped_gas(c: vec3i, slot: u32) -> Gas {
 
 // At the start bodies cover no gas.
 @compute @workgroup_size(WORKGROUP)
-fn ledger_start(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn ledger_start(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || kind_of(cells[slot]) != SOLID { return; }
     conserved[slot] = vec4f(0.0);
     energy[slot] = 0.0;
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let word = cells[slot];
     if kind_of(word) != GAS || previous_kind_of(word) != SOLID { return; }
@@ -200,9 +198,8 @@ fn handed_by_solid(slot: u32, c: vec3i) -> Handed {
 
 // To each of the receivers. Loops of no turn let threads that run in step skip what none of them has to do.
 @compute @workgroup_size(WORKGROUP)
-fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let kind = kind_of(cells[slot]);
     let owes = kind == GAS && (any(owed_flow[slot] != vec4f(0.0)) || owed_energy[slot] != 0.0);
@@ -225,7 +222,7 @@ fn incoming(slot: u32, kind: u32) -> Sum {
             var takes = kind_there == GAS || kind_there == SOLID;
             if kind == SOLID {
                 let receivers = energy[2u * params.slots + other];
-                takes = kind_there == SOLID && (receivers == TO_SOLID || receivers == TO_SURFACE && surface);
+                takes = kind_there == SOLID && (receivers == TO_SOLID || (receivers == TO_SURFACE && surface));
             }
             if !takes { continue; }
             sum.flow += work[other];
@@ -236,9 +233,8 @@ fn incoming(slot: u32, kind: u32) -> Sum {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let kind = kind_of(cells[slot]);
     let c = cell_of(slot);

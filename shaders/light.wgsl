@@ -30,18 +30,16 @@ fn from_light(place: vec3f) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn clear_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn clear_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i < SHADOW_TEXELS * SHADOW_TEXELS) {
         atomicStore(&shadow_bits[i], bitcast<u32>(FAR));
     }
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn splat_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let p = thread_index(workgroup, groups, local);
+fn splat_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let p = thread_index(workgroup, local);
     if (p >= view.particles || balls[2u * p].w == 0.0) {
         return;
     }
@@ -68,9 +66,8 @@ fn splat_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn trace_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn trace_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= SHADOW_TEXELS * SHADOW_TEXELS) {
         return;
     }
@@ -83,9 +80,8 @@ fn trace_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn cast_light(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn cast_light(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= LIGHT_CELLS * LIGHT_CELLS) {
         return;
     }

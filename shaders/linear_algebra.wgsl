@@ -94,16 +94,15 @@ fn begin(i: u32) -> vec4f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn pcg_begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, groups, lane);
+fn pcg_begin(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
     let own = runs_of(thread);
     var sum = vec4f(0.0);
     for (var run = own.x; run < own.y; run++) {
         let i = unknown_in(run, thread);
         if i < pcg.length { sum += begin(i); }
     }
-    for (var i = pcg.apart + thread; i < pcg.length; i += groups.x * groups.y * WORKGROUP) { sum += begin(i); }
+    for (var i = pcg.apart + thread; i < pcg.length; i += pcg.groups_partial * WORKGROUP) { sum += begin(i); }
     let part = workgroup_sum4(lane, sum);
     if lane == 0u { partials[thread / WORKGROUP] = part; }
 }
@@ -153,9 +152,8 @@ fn update(i: u32, alpha: f32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, groups, lane);
+fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
     let alpha = pcg.alpha;
     let own = runs_of(thread);
     var sum = vec4f(0.0);
@@ -163,16 +161,15 @@ fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         let i = unknown_in(run, thread);
         if i < pcg.length { sum.x += update(i, alpha); }
     }
-    for (var i = pcg.apart + thread; i < pcg.length; i += groups.x * groups.y * WORKGROUP) { sum.x += update(i, alpha); }
+    for (var i = pcg.apart + thread; i < pcg.length; i += pcg.groups_partial * WORKGROUP) { sum.x += update(i, alpha); }
     let part = workgroup_sum4(lane, sum);
     if lane == 0u { partials[thread / WORKGROUP] = part; }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
-    if pcg.outcome != PCG_RUNNING { return; } // dispatched always: it writes the table that gates the others
     let sum = total(lane);
-    if lane != 0u { return; }
+    if lane != 0u || pcg.outcome != PCG_RUNNING { return; } // dispatched always: it writes the table that gates the others
     let rho = sum.x + sum.z;
     if takes_joined() { pcg.alpha = 0.0; } // the solution has it
     else { pcg.beta = select(0.0, rho / pcg.rho, pcg.rho > 0.0); }
@@ -189,9 +186,8 @@ fn turn(i: u32, alpha: f32, beta: f32) {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, groups, lane);
+fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
     let alpha = pcg.alpha;
     let beta = pcg.beta;
     let own = runs_of(thread);
@@ -199,7 +195,7 @@ fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         let i = unknown_in(run, thread);
         if i < pcg.length { turn(i, alpha, beta); }
     }
-    for (var i = pcg.apart + thread; i < pcg.length; i += groups.x * groups.y * WORKGROUP) { turn(i, alpha, beta); }
+    for (var i = pcg.apart + thread; i < pcg.length; i += pcg.groups_partial * WORKGROUP) { turn(i, alpha, beta); }
 }
 
 // Update and direction at once, joined.
@@ -214,9 +210,8 @@ fn step(i: u32, alpha: f32, beta: f32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn pcg_step(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-            @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, groups, lane);
+fn pcg_step(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
     let alpha = pcg.alpha;
     let beta = pcg.beta;
     let own = runs_of(thread);
@@ -225,7 +220,7 @@ fn pcg_step(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups
         let i = unknown_in(run, thread);
         if i < pcg.length { sum.x += step(i, alpha, beta); }
     }
-    for (var i = pcg.apart + thread; i < pcg.length; i += groups.x * groups.y * WORKGROUP) { sum.x += step(i, alpha, beta); }
+    for (var i = pcg.apart + thread; i < pcg.length; i += pcg.groups_partial * WORKGROUP) { sum.x += step(i, alpha, beta); }
     let part = workgroup_sum4(lane, sum);
     if lane == 0u { partials[thread / WORKGROUP] = part; }
 }

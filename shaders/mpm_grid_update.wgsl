@@ -29,10 +29,9 @@ fn spread_kick(slot: u32, mass: f32) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn mpm_grid_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
+fn mpm_grid_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var given = vec4f(0.0);
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+    for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         let here = node[slot];
         if here.w <= 0.0 || (DRIVEN && has(cells[slot], NODE_DRIVEN)) { continue; }
         let free = here.xyz + spread_kick(slot, here.w) + substep_time() * work[params.slots + slot].xyz / here.w;
@@ -40,5 +39,5 @@ fn mpm_grid_update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         node[slot] = vec4f(v, here.w);
         given += given_to(here.w, v - free, here.xyz, v);
     }
-    add_given(thread_index(group, groups, 0u) / WORKGROUP, lane, given, false);
+    add_given(group_index(group), lane, given, false);
 }

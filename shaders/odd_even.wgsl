@@ -100,9 +100,8 @@ fn mixed_at(v: vec3i, c: vec3i, slot: u32) -> Gas {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     var change = Gas(vec4f(0.0), 0.0);
     if kind_of(cells[slot]) == GAS {
@@ -125,9 +124,8 @@ fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn odd_even_remove(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn odd_even_remove(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     conserved[slot] += work[slot];
     energy[slot] += energy[params.slots + slot];

@@ -34,9 +34,8 @@ fn excess_at(place: vec3f) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn integrate_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn integrate_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= view.size.x * view.size.y) {
         return;
     }
@@ -78,12 +77,11 @@ fn signal(place: vec2i) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn measure_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) local: u32) {
+fn measure_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     var squares = 0.0;
     var count = 0.0;
     let total = view.size.x * view.size.y;
-    for (var i = thread_index(workgroup, groups, local); i < total; i += groups.x * WORKGROUP) {
+    for (var i = thread_index(workgroup, local); i < total; i += RANGE_GROUPS * WORKGROUP) {
         let value = signal(vec2i(vec2u(i % view.size.x, i / view.size.x)));
         if (value != 0.0) {
             squares += value * value;
@@ -98,9 +96,8 @@ fn measure_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroup
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn draw_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn draw_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= band_rays()) {
         return;
     }

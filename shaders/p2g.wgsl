@@ -90,17 +90,15 @@ fn add_layer(slot: u32, layer: Layer) {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn p2g_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn p2g_clear(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     if WITH_FORCE { work[params.slots + slot] = vec4f(0.0); } else { node[slot] = vec4f(0.0); }
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn p2g_gather(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let thread = octet_index(group, groups, lane);
+fn p2g_gather(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = octet_index(group, lane, color_marches());
     let across = columns_across();
     let wide = columns_of_color();
     let column = 3u * vec2u(thread % wide.x, (thread / wide.x) % wide.y) + color.xy;
@@ -148,9 +146,8 @@ fn p2g_gather(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
 
 // Momentum becomes velocity.
 @compute @workgroup_size(WORKGROUP)
-fn p2g_finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn p2g_finish(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let sum = node[slot];
     node[slot] = vec4f(select(vec3f(0.0), sum.xyz / sum.w, sum.w > 0.0), sum.w);

@@ -21,10 +21,9 @@
 const FULL = 1073741824.0;  // 2^30: half of what an i32 holds
 
 @compute @workgroup_size(WORKGROUP)
-fn scatter_bounds(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
+fn scatter_bounds(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var bound = vec4f(0.0);
-    for (var p = thread_index(group, groups, lane); p < params.particles; p += groups.x * groups.y * WORKGROUP) {
+    for (var p = thread_index(group, lane); p < params.particles; p += striding_threads()) {
         let gradient = dot(affine[3u * p].xyz, affine[3u * p].xyz) + dot(affine[3u * p + 1u].xyz, affine[3u * p + 1u].xyz)
             + dot(affine[3u * p + 2u].xyz, affine[3u * p + 2u].xyz);
         let speed = length(velocity[p].xyz) + 2.6 * params.spacing * sqrt(gradient); // a node is at most sqrt(3) 1.5 dx away
@@ -32,7 +31,7 @@ fn scatter_bounds(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
         bound = max(bound, vec4f(position[p].w, position[p].w * speed, 2.0 * sqrt(size) / params.spacing, 0.0));
     }
     let largest = workgroup_max4(lane, bound);
-    if lane == 0u { bounds[thread_index(group, groups, 0u) / WORKGROUP] = largest; }
+    if lane == 0u { bounds[group_index(group)] = largest; }
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -44,9 +43,8 @@ fn scatter_units(@builtin(local_invocation_index) lane: u32) {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn scatter_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn scatter_clear(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     for (var k = 0u; k < 4u; k++) {
         if WITH_MASS { atomicStore(&sums[4u * slot + k], 0); }
@@ -105,12 +103,11 @@ fn hand_over(n: u32, node: vec3i) {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn scatter_add(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
+fn scatter_add(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let size = tile_cells();
     let nodes = size + 2u * vec3u(reach());
     let tiles = (params.cells + size - 1u) / size;
-    for (var t = thread_index(group, groups, 0u) / WORKGROUP; t < tiles.x * tiles.y * tiles.z; t += groups.x * groups.y) {
+    for (var t = group_index(group); t < tiles.x * tiles.y * tiles.z; t += params.groups) {
         let first = vec3i(place_in(tiles, t) * size);
         let c = first + vec3i(place_in(size, lane));
         if inside(c) { add_cell(c, first - reach(), nodes); }
@@ -137,9 +134,8 @@ fn crowd_at(c: vec3i) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn scatter_resolve(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn scatter_resolve(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let unit = bounds[PARTIALS];
     // A wrapped sum must not pass for a result: a broken node value raises the fault of the next stage.

@@ -14,25 +14,22 @@ fn is_active(p: u32) -> bool { return deformation[3u * p + 1u].w > 0.0; }
 fn slot_of_particle(p: u32) -> u32 { return slot_of(cell_at(position[p].xyz)); }
 
 @compute @workgroup_size(WORKGROUP)
-fn sort_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn sort_clear(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot < params.slots { atomicStore(&count[slot], 0u); }
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn sort_count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn sort_count(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p < params.particles && is_active(p) { atomicAdd(&count[slot_of_particle(p)], 1u); }
 }
 
 // After the scan of `count` into `cell_start`: count runs down to zero while the particles take their places, from the first on:
 // threads that run in order leave little to sort.
 @compute @workgroup_size(WORKGROUP)
-fn sort_place(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn sort_place(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p >= params.particles || !is_active(p) { return; }
     let slot = slot_of_particle(p);
     order[cell_start[slot + 1u] - atomicSub(&count[slot], 1u)] = p;
@@ -40,9 +37,8 @@ fn sort_place(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
 
 // Insertion sort inside each cell: a handful of entries.
 @compute @workgroup_size(WORKGROUP)
-fn sort_within_cells(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                     @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn sort_within_cells(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let first = cell_start[slot];
     let end = cell_start[slot + 1u];

@@ -51,9 +51,8 @@ fn surplus(v: vec3i) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn parting_surplus(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn parting_surplus(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     if !LISTED && !has(cells[slot], INTERIOR) { return; }
     let v = cell_of(slot);

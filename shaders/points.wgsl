@@ -61,9 +61,8 @@ fn gas_around(p: u32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn measure(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-           @builtin(local_invocation_index) local: u32) {
-    let p = thread_index(workgroup, groups, local);
+fn measure(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let p = thread_index(workgroup, local);
     if (p >= view.particles) {
         return;
     }
@@ -82,11 +81,10 @@ fn measure(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) gro
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn find_particle_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                       @builtin(local_invocation_index) local: u32) {
+fn find_particle_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     var low = -NO_VALUE;
     var high = NO_VALUE;
-    for (var p = thread_index(workgroup, groups, local); p < view.particles; p += groups.x * WORKGROUP) {
+    for (var p = thread_index(workgroup, local); p < view.particles; p += RANGE_GROUPS * WORKGROUP) {
         let seen = quantity[p];
         if (seen != NO_VALUE) {
             low = min(low, seen);
@@ -101,9 +99,8 @@ fn find_particle_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wor
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) local: u32) {
-    let p = thread_index(workgroup, groups, local);
+fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let p = thread_index(workgroup, local);
     if (p >= view.particles) {
         return;
     }
@@ -168,9 +165,8 @@ fn depth_in(mark: Footprint, place: vec2u) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) local: u32) {
-    let p = thread_index(workgroup, groups, local);
+fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let p = thread_index(workgroup, local);
     if (p >= view.particles) {
         return;
     }
@@ -188,9 +184,8 @@ fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups)
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn splat_nearest(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) local: u32) {
-    let p = thread_index(workgroup, groups, local);
+fn splat_nearest(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let p = thread_index(workgroup, local);
     if (p >= view.particles) {
         return;
     }

@@ -7,6 +7,8 @@
 struct ReduceParams {
     // Number of values.
     count: u32,
+    // Threads of the dispatch.
+    threads: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: ReduceParams;
@@ -17,10 +19,9 @@ struct ReduceParams {
 const LARGEST: f32 = 3.4028234e38;
 
 @compute @workgroup_size(WORKGROUP)
-fn reduce_sum(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
+fn reduce_sum(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     var sum = 0.0;
-    for (var i = workgroup.x * WORKGROUP + local; i < params.count; i += groups.x * WORKGROUP) {
+    for (var i = workgroup.x * WORKGROUP + local; i < params.count; i += params.threads) {
         sum += values[i];
     }
     sum = workgroup_sum(local, sum);
@@ -30,10 +31,9 @@ fn reduce_sum(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn reduce_min(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
+fn reduce_min(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     var smallest = LARGEST;
-    for (var i = workgroup.x * WORKGROUP + local; i < params.count; i += groups.x * WORKGROUP) {
+    for (var i = workgroup.x * WORKGROUP + local; i < params.count; i += params.threads) {
         smallest = min(smallest, values[i]);
     }
     smallest = workgroup_min(local, smallest);
@@ -43,10 +43,9 @@ fn reduce_min(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn reduce_max(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
+fn reduce_max(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     var largest = -LARGEST;
-    for (var i = workgroup.x * WORKGROUP + local; i < params.count; i += groups.x * WORKGROUP) {
+    for (var i = workgroup.x * WORKGROUP + local; i < params.count; i += params.threads) {
         largest = max(largest, values[i]);
     }
     largest = workgroup_max(local, largest);

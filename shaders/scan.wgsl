@@ -33,9 +33,8 @@ fn input_at(i: u32) -> u32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn scan_blocks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) local: u32) {
-    let thread = thread_index(workgroup, groups, local);
+fn scan_blocks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let thread = thread_index(workgroup, local);
     let block = thread / WORKGROUP;
     let first = thread * SCAN_ITEMS;
     var own = 0u;
@@ -68,9 +67,8 @@ fn scan_blocks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups)
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn scan_offsets(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let thread = thread_index(workgroup, groups, local);
+fn scan_offsets(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let thread = thread_index(workgroup, local);
     let block = thread / WORKGROUP;
     if (block >= params.blocks) {
         return;

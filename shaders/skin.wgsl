@@ -44,9 +44,8 @@ fn samples_across(length: f32, depth: f32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn smooth_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn smooth_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     let grid = sample_grid();
     if (i >= grid.x * grid.y) {
         return;
@@ -121,9 +120,8 @@ fn first_sample(i: u32) -> vec2u {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn list_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn list_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= band_rays()) {
         return;
     }
@@ -141,9 +139,8 @@ fn list_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) g
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn shade_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
-    let entry = thread_index(workgroup, groups, local);
+fn shade_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let entry = thread_index(workgroup, local);
     if (entry >= atomicLoad(&covered[0])) {
         return;
     }

@@ -80,9 +80,8 @@ fn gas_color(place: vec2f, reach: f32) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn draw_slice(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn draw_slice(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= band_rays()) {
         return;
     }

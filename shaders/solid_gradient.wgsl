@@ -43,9 +43,8 @@ fn solid_share(c: vec3i) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn solid_gradient(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn solid_gradient(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || !has(cells[slot], NODE_SOLID) || has(cells[slot], NODE_FILM) { return; }
     let c = cell_of(slot);
     let solid = kind_of(cells[slot]) == SOLID;

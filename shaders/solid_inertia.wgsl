@@ -36,9 +36,8 @@ fn heaviest(c: vec3i) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn solid_inertia(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn solid_inertia(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let mass = node[slot].w;
     // No floor is above that of the heaviest body.

@@ -19,9 +19,8 @@ override ASIDE: bool;   // the reaction was set aside
 @group(0) @binding(7) var<storage, read_write> ghost: array<f32>;   // Q* before, Q - Q* after
 
 @compute @workgroup_size(WORKGROUP)
-fn solid_kick(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn solid_kick(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let word = cells[slot];
     if has(word, NODE_SOLID) && node[slot].w > 0.0 {
@@ -31,9 +30,8 @@ fn solid_kick(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     var left = vec3f(0.0);
     if has(cells[slot], NODE_SOLID) {
@@ -45,9 +43,8 @@ fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn solid_kick_share(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                    @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn solid_kick_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || node[slot].w <= 0.0 || (DRIVEN && has(cells[slot], NODE_DRIVEN)) { return; }
     node[slot] = vec4f(node[slot].xyz + gain_around(slot, block_size()), node[slot].w);
 }
@@ -61,9 +58,8 @@ fn has_particles_near(v: vec3i) -> bool {
 
 // Particles in GAS cells: a vertex without a solid cell takes the mean change of the solid vertices in its 5^DIM block.
 @compute @workgroup_size(WORKGROUP)
-fn solid_kick_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                     @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn solid_kick_spread(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || has(cells[slot], VERTEX_SOLID) { return; }
     let v = cell_of(slot);
     if !is_vertex(v) { return; }

@@ -85,9 +85,8 @@ fn walls_of(v: vec3i) -> u32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn film_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn film_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || !has(cells[slot], VERTEX_SOLID) { return; }
     let v = cell_of(slot);
     let walls = walls_of(v);
@@ -133,9 +132,8 @@ fn film_kick(slot: u32) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn film_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn film_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     var left = vec3f(0.0);
     if has(cells[slot], NODE_FILM) && !(DRIVEN && has(cells[slot], NODE_DRIVEN)) { left = share_left(slot) * film_kick(slot); }
@@ -143,15 +141,14 @@ fn film_left(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) group
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn solid_predictor(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
+fn solid_predictor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var given = vec4f(0.0);
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+    for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         let here = node[slot];
         if here.w <= 0.0 || (DRIVEN && has(cells[slot], NODE_DRIVEN)) { continue; }
         let change = control.dt * params.gravity + film_kick(slot) + gain_around(slot, block_size());
         node[slot] = vec4f(here.xyz + change, here.w);
         given += given_to(here.w, change, here.xyz, here.xyz + change);
     }
-    add_given(thread_index(group, groups, 0u) / WORKGROUP, lane, given, true);
+    add_given(group_index(group), lane, given, true);
 }

@@ -40,9 +40,8 @@ fn floor_coverage(point: vec3f) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= band_rays()) {
         return;
     }

@@ -75,34 +75,32 @@ fn block_count() -> u32 {
 
 // P^T r of the first level.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
+fn coarse_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var product = 0.0;
-    for (var at = thread_index(group, groups, lane); at < block_count(); at += groups.x * groups.y * WORKGROUP) {
+    for (var at = thread_index(group, lane); at < block_count(); at += level_threads(level.number)) {
         let v = vertex_of(level.own[0], at);
         let block = block_residual(v);
         product += put_residual(level.own[0].first + at, block.plain) + put_layers(level.own[1], v, 2u, block.xy);
         if DIM > 2u { product += put_layers(level.own[2], v, 0u, block.yz) + put_layers(level.own[3], v, 1u, block.xz); }
     }
     let sum = workgroup_sum4(lane, vec4f(0.0, 0.0, product, 0.0));
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }
+    if lane == 0u { partials[group_index(group)] += sum; }
 }
 
 fn value_below(fine: Grid, v: vec3u) -> vec2f { return levels[place_of(fine, v)]; }
 
 // P^T r of another level.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_down(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
+fn coarse_down(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var product = 0.0;
-    for (var at = thread_index(group, groups, lane); at < level.length; at += groups.x * groups.y * WORKGROUP) {
+    for (var at = thread_index(group, lane); at < level.length; at += level_threads(level.number)) {
         let place = level.own[0].first + at;
         let space = space_of(place);
         let own = level.own[space];
         product += put_residual(place, gathered(own, level.below[space], vertex_of(own, place - own.first)).y);
     }
     let sum = workgroup_sum4(lane, vec4f(0.0, 0.0, product, 0.0));
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }
+    if lane == 0u { partials[group_index(group)] += sum; }
 }
 
 // The coarse vertex beyond a place along every axis.
@@ -139,10 +137,9 @@ fn add_square(grid: Grid, v: vec3u, a: vec3u, b: vec3u, more: vec4f) {
 
 // Up: each level becomes D_l^-1 r and what the one above it has, unless that is not in use. `level` is the one above.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_up(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) lane: u32) {
+fn coarse_up(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let keep = f32(level.number <= pcg.levels);
-    for (var at = thread_index(group, groups, lane); at < level.length; at += groups.x * groups.y * WORKGROUP) {
+    for (var at = thread_index(group, lane); at < level.length; at += level_threads(level.number - 1u)) {
         let place = level.own[0].first + at;
         let space = space_of(place);
         let grid = level.own[space];
@@ -181,9 +178,8 @@ fn add_layer(v: vec3u, more: vec4f) {
 
 // The new direction's share of all levels.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                    @builtin(local_invocation_index) lane: u32) {
-    for (var at = thread_index(group, groups, lane); at < block_count(); at += groups.x * groups.y * WORKGROUP) {
+fn coarse_direction(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    for (var at = thread_index(group, lane); at < block_count(); at += level_threads(level.number - 1u)) {
         let v = vertex_of(level.own[0], at);
         var lower = square(level.own[0], v, X, Y, 1.0);
         var upper = lower;

@@ -64,17 +64,16 @@ fn push_at(slot: u32) -> f32 { return max(1.0 / inverse_diagonal[slot] - stiffne
 
 // Largest squares of the Courant number (dt / dx)^2 / (S^-1 M): deep in the gas; anywhere, bodies included.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_measure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
+fn coarse_measure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var largest = vec4f(0.0);
-    for (var slot = thread_index(group, groups, lane); slot < params.slots; slot += groups.x * groups.y * WORKGROUP) {
+    for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         if !(inverse_diagonal[slot] > 0.0 && stiffness[slot] > 0.0) { continue; }
         let word = cells[slot];
         let square = push_at(slot) / (stiffness[slot] * own_stiffness(stencil(word)));
         largest = max(largest, vec4f(select(0.0, square, has(word, INTERIOR)), square, 0.0, 0.0));
     }
     let part = workgroup_max4(lane, largest);
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] = part; }
+    if lane == 0u { partials[group_index(group)] = part; }
 }
 
 // One workgroup, dispatched always: opens the table of the preparation, or closes it outside of the phase.
@@ -94,12 +93,13 @@ fn coarse_choose(@builtin(local_invocation_index) lane: u32) {
     let nodes = select(vec4u(pcg.frontier_wide, pcg.frontier_high, 1u, 0u), vec4u(pcg.groups_wide, pcg.groups_high, 1u, 0u), QUADRATIC);
     coarse_extents[0] = nodes * keep;
     coarse_extents[1] = vec4u(pcg.listed_wide, pcg.listed_high, 1u, 0u) * keep;
+    coarse_extents[2] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
     let all = params.cells + vec3u(reach());
     var half = all;
     for (var k = 0u; k < PCG_LEVELS; k++) {
-        let wanted = (entries(all, half) + WORKGROUP - 1u) / WORKGROUP;
+        let wanted = groups_of(entries(all, half));
         let number = min(wanted, pcg.groups_partial) * u32(count > 0u && k <= count);
-        coarse_extents[2u + k] = vec4u(number, 1u, 1u, 0u);
+        coarse_extents[3u + k] = vec4u(number, 1u, 1u, 0u);
         if on { pcg.level_groups[k] = number; }
         half = half / 2u + vec3u(1u);
     }
@@ -113,10 +113,9 @@ fn entries(all: vec3u, hats: vec3u) -> u32 {
 
 // The function whose row sums are asked for: 1 or alternating, in what takes part.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_ones(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
+fn coarse_ones(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let unknowns = params.slots + 2u * params.extra_capacity;
-    for (var i = thread_index(group, groups, lane); i < unknowns; i += groups.x * groups.y * WORKGROUP) {
+    for (var i = thread_index(group, lane); i < unknowns; i += striding_threads()) {
         var value = 0.0;
         if i < params.slots && takes_part(i) { value = sign_at(vec3u(cell_of(i))); }
         direction[i] = value;
@@ -147,18 +146,16 @@ fn put_sums(space: u32, place: u32) {
 
 // On the first level, of one space.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_first_sums(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                     @builtin(local_invocation_index) lane: u32) {
+fn coarse_first_sums(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let own = level.own[SPACE];
     let end = own.count.x * own.count.y * own.count.z;
-    for (var at = thread_index(group, groups, lane); at < end; at += groups.x * groups.y * WORKGROUP) { put_sums(SPACE, own.first + at); }
+    for (var at = thread_index(group, lane); at < end; at += level_threads(1u)) { put_sums(SPACE, own.first + at); }
 }
 
 // On another one, of all spaces.
 @compute @workgroup_size(WORKGROUP)
-fn coarse_sums(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
-    for (var at = thread_index(group, groups, lane); at < level.length; at += groups.x * groups.y * WORKGROUP) {
+fn coarse_sums(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    for (var at = thread_index(group, lane); at < level.length; at += level_threads(level.number)) {
         let place = level.own[0].first + at;
         put_sums(space_of(place), place);
     }
@@ -176,9 +173,8 @@ fn inverse_of(sums: vec2f, space: u32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn coarse_invert(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    for (var at = thread_index(group, groups, lane); at < level.length; at += groups.x * groups.y * WORKGROUP) {
+fn coarse_invert(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    for (var at = thread_index(group, lane); at < level.length; at += level_threads(level.number)) {
         let place = level.own[0].first + at;
         levels[place] = vec2f(inverse_of(levels[place], space_of(place)), 0.0);
     }

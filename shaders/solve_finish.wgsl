@@ -13,13 +13,12 @@
 fn add(i: u32) { pressure[i] += solution[i] + pcg.alpha * direction[i]; }
 
 @compute @workgroup_size(WORKGROUP)
-fn solve_add(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-             @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, groups, lane);
+fn solve_add(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
     let runs = runs_of(thread);
     for (var run = runs.first; run < runs.end; run += runs.step) {
         let own = run_slot(run, thread);
         if own.any { add(own.slot); }
     }
-    for (var k = thread; k < 2u * params.extra_capacity; k += groups.x * groups.y * WORKGROUP) { add(params.slots + k); }
+    for (var k = thread; k < 2u * params.extra_capacity; k += striding_threads()) { add(params.slots + k); }
 }

@@ -207,9 +207,8 @@ fn mixed_force(c: vec3i, count: u32) -> Forces {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let slot = frontier_slot(spread_index(group, groups, lane));
+fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = frontier_slot(spread_index(group, lane, frontier_threads()));
     if slot >= params.slots { return; }
     let word = cells[slot];
     let c = cell_of(slot);

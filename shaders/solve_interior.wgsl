@@ -80,9 +80,8 @@ fn deep_slot(run: u32, thread: u32) -> RunSlot {
 
 // Right-hand side dt C^T (V* - dt M^-1 C X*).
 @compute @workgroup_size(WORKGROUP)
-fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, groups, lane);
+fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
     if SLEEPS && thread / RUN_LANES >= extra[params.runs_at + octets()] { return; }
     let own = deep_slot(thread / RUN_LANES, thread);
     if !own.deep { return; }
@@ -93,10 +92,9 @@ fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
 // y = S^-1 x + dt^2 C^T M^-1 C x; adds to the partial sums of x . y that the listed form has left. Without bodies also those of
 // y . D^-1 y, of the listed vertices, too: they have their y by now.
 @compute @workgroup_size(WORKGROUP)
-fn interior_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                     @builtin(local_invocation_index) lane: u32) {
+fn interior_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let scale = control.dt * face_area();
-    let thread = thread_index(group, groups, lane);
+    let thread = thread_index(group, lane);
     let runs = runs_of(thread);
     var product = 0.0;
     var image = 0.0;

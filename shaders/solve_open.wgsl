@@ -61,9 +61,8 @@ fn note_open_face(c: vec3i, slot: u32) {
 
 // While `pressure` still holds what the last solve left.
 @compute @workgroup_size(WORKGROUP)
-fn open_faces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn open_faces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot < params.slots && kind_of(cells[slot]) == GHOST { note_open_face(cell_of(slot), slot); }
 }
 
@@ -71,9 +70,8 @@ fn open_faces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
 fn on_side(v: vec3i) -> bool { return any(((v == vec3i(0)) | (v == vec3i(params.cells))) & (reach() == vec3i(1))); }
 
 @compute @workgroup_size(WORKGROUP)
-fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let v = cell_of(slot);
     var flow = 0.0;

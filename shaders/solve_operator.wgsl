@@ -19,11 +19,10 @@
 @group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
 
 @compute @workgroup_size(WORKGROUP)
-fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
+fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let scale = control.dt * control.dt * face_area();
     var product = 0.0;
-    let thread = thread_index(group, groups, lane);
+    let thread = thread_index(group, lane);
     let runs = listed_runs(thread);
     for (var run = runs.first; run < runs.end; run += runs.step) {
         let slot = slot_in(run, thread);

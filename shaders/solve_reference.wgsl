@@ -17,14 +17,13 @@
 @group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
 
 @compute @workgroup_size(WORKGROUP)
-fn solve_reference(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
+fn solve_reference(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let scale = control.dt * face_area();
     // Of the diagonal of C^T M^-1 C, in units of face_area()^2: a node gives every vertex that it rests on as much.
     let square = scale * scale * f32(DIM) / f32(1u << (2u * (DIM - 1u)));
     let end = params.slots + 2u * params.extra_capacity;
     var sum = 0.0;
-    for (var i = thread_index(group, groups, lane); i < end; i += groups.x * groups.y * WORKGROUP) {
+    for (var i = thread_index(group, lane); i < end; i += striding_threads()) {
         let own = stiffness[i];
         var inverse: f32;
         if !QUADRATIC && i < params.slots && has(cells[min(i, params.slots - 1u)], INTERIOR) {
@@ -37,5 +36,5 @@ fn solve_reference(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups)
         sum += inverse * whole * whole;
     }
     let part = workgroup_sum4(lane, vec4f(0.0, sum, 0.0, 0.0));
-    if lane == 0u { partials[PARTIALS + thread_index(group, groups, 0u) / WORKGROUP] = part; }
+    if lane == 0u { partials[PARTIALS + group_index(group)] = part; }
 }

@@ -61,9 +61,8 @@ fn gas_density(c: vec3i) -> f32 {
 
 // Lumped mass of a gas node from the gas cells around it.
 @compute @workgroup_size(WORKGROUP)
-fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots || (!LISTED && !has(cells[slot], INTERIOR)) { return; }
     var mass = 0.0;
     if !LISTED { mass = interior_mass(slot); }
@@ -117,9 +116,8 @@ fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
 
 // work: M^-1 C X* becomes V* - dt M^-1 C X*.
 @compute @workgroup_size(WORKGROUP)
-fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                    @builtin(local_invocation_index) lane: u32) {
-    let slot = frontier_slot(thread_index(group, groups, lane));
+fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = frontier_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     if !LISTED {
@@ -139,9 +137,8 @@ fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     if !LISTED && !has(word, INTERIOR) { return; }

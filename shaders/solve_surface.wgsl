@@ -119,9 +119,8 @@ fn coupling(v: vec3i, w: vec3i, kinds: u32) -> f32 {
 fn surface_begin() { atomicStore(&bound, 0u); }
 
 @compute @workgroup_size(WORKGROUP)
-fn surface_rows(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn surface_rows(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let row = extra[slot];
     let v = cell_of(slot);
@@ -165,8 +164,7 @@ fn image_at(first: u32, direction_place: u32) -> f32 {
 
 // One term of the polynomial; the last one adds z . r to the partial sums.
 @compute @workgroup_size(WORKGROUP)
-fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
+fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let high = 1.01 * bitcast<f32>(atomicLoad(&bound));
     let low = high / SPREAD;
     let middle = 0.5 * (high + low);
@@ -181,7 +179,7 @@ fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let then = DIRECTION + 1u - (turn.number & 1u);
     let last = turn.number + 1u == turn.count;
     var product = 0.0;
-    for (var at = thread_index(group, groups, lane); at < row_count(); at += groups.x * groups.y * WORKGROUP) {
+    for (var at = thread_index(group, lane); at < row_count(); at += striding_threads()) {
         let first = at * row_length();
         let inverse = rows[first + INVERSE];
         let given = residual[params.slots + at];
@@ -201,14 +199,13 @@ fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     }
     if !last { return; }
     let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
-    if lane == 0u { partials[thread_index(group, groups, 0u) / WORKGROUP] += sum; }
+    if lane == 0u { partials[group_index(group)] += sum; }
 }
 
 // The new direction's share of h, whose inverse diagonal is 0.
 @compute @workgroup_size(WORKGROUP)
-fn surface_direction(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                     @builtin(local_invocation_index) lane: u32) {
-    for (var at = thread_index(group, groups, lane); at < row_count(); at += groups.x * groups.y * WORKGROUP) {
+fn surface_direction(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    for (var at = thread_index(group, lane); at < row_count(); at += striding_threads()) {
         direction[params.slots + at] += rows[at * row_length() + RESULT];
     }
 }

@@ -49,10 +49,9 @@ fn rests(slot: u32) -> bool {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn still_find(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let total = groups.x * groups.y * WORKGROUP;
-    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
+fn still_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let total = striding_threads();
+    for (var block = thread_index(group, lane); block < blocks(); block += total) {
         // What slept stays as it was.
         let awake = row_span(select(block_rows(block) >> 16u, all_rows(), control.woken_before == 1u));
         let corner = march_start(STILL_BLOCK * block);
@@ -102,10 +101,9 @@ fn rows_along(block: u32, span: i32, before: bool) -> u32 {
 
 // Behind the first part of busy: rows to be computed by the advection, and from bit 16 on those that are awake, as far as one line tells.
 @compute @workgroup_size(WORKGROUP)
-fn still_along(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
-    let total = groups.x * groups.y * WORKGROUP;
-    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
+fn still_along(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let total = striding_threads();
+    for (var block = thread_index(group, lane); block < blocks(); block += total) {
         var moving = all_rows();
         var awake = moving;
         if params.still != STILL_NONE { moving = rows_along(block, ADVECTION_SPAN, false); }
@@ -129,10 +127,9 @@ fn rows_across(block: u32, span: i32) -> u32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    let total = groups.x * groups.y * WORKGROUP;
-    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) {
+fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let total = striding_threads();
+    for (var block = thread_index(group, lane); block < blocks(); block += total) {
         var rows = busy[blocks() + block];
         if DIM == 3u { rows = (rows_across(block, ADVECTION_SPAN) & 0xffffu) | (rows_across(block, step_span()) & 0xffff0000u); }
         extra[params.still_at + block] = select(rows | (all_rows() << 16u), rows, SLEEPS);
@@ -141,10 +138,9 @@ fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
 
 // The solve goes on for longer than it may while some sleep.
 @compute @workgroup_size(WORKGROUP)
-fn still_wake(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let total = groups.x * groups.y * WORKGROUP;
-    for (var block = thread_index(group, groups, lane); block < blocks(); block += total) { extra[params.still_at + block] |= all_rows() << 16u; }
+fn still_wake(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let total = striding_threads();
+    for (var block = thread_index(group, lane); block < blocks(); block += total) { extra[params.still_at + block] |= all_rows() << 16u; }
 }
 
 // Runs of the whole grid.
@@ -203,9 +199,8 @@ fn runs_in_list() -> u32 { return (list_length() + RUN_LANES - 1u) / RUN_LANES; 
 
 // Every octet counts its runs.
 @compute @workgroup_size(WORKGROUP)
-fn still_count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
-    let octet = thread_index(group, groups, lane);
+fn still_count(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let octet = thread_index(group, lane);
     if octet >= octets() { return; }
     var count = vec2u(0u);
     let all = runs_in_all();
@@ -250,9 +245,8 @@ fn still_places(@builtin(local_invocation_index) lane: u32) {
 
 // Every octet writes its runs.
 @compute @workgroup_size(WORKGROUP)
-fn still_list(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let octet = thread_index(group, groups, lane);
+fn still_list(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let octet = thread_index(group, lane);
     if octet >= octets() { return; }
     var at = params.runs_at + octets() + 1u + 2u * extra[params.runs_at + octet];
     let all = runs_in_all();

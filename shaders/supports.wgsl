@@ -19,9 +19,8 @@
 @group(0) @binding(9) var<storage, read_write> node: array<vec4f>;
 
 @compute @workgroup_size(WORKGROUP)
-fn supports_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                      @builtin(local_invocation_index) lane: u32) {
-    let p = thread_index(group, groups, lane);
+fn supports_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let p = thread_index(group, lane);
     if p >= params.particles || !is_driven(p) { return; }
     let s = support_of(p);
     let c = turning(s.spin);
@@ -60,9 +59,8 @@ fn held_at(c: vec3i) -> Held {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn supports_nodes(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                  @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn supports_nodes(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     var word = cells[slot] & ~NODE_DRIVEN;
     let here = node[slot];

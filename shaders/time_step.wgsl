@@ -74,14 +74,13 @@ fn listed_rate(c: vec3i, gas: Gas, p: f32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                 @builtin(local_invocation_index) lane: u32) {
-    let total = groups.x * groups.y * WORKGROUP;
+fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let total = striding_threads();
     // The runs are of the step before: what slept in it stands still, and control.sound knows how fast sound is there.
     let all = control.woken == 1u;
     let end = select(awake_threads(), select(params.slots, list_length(), LISTED), all);
     var bound = vec2f(0.0);
-    for (var k = thread_index(group, groups, lane); k < end; k += total) {
+    for (var k = thread_index(group, lane); k < end; k += total) {
         var slot = 0u;
         if all { slot = every_slot(k); } else { slot = listed_slot(k); }
         if slot >= params.slots { continue; }
@@ -98,7 +97,7 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
     if lane != 0u { return; }
     // The listed form comes first; the plain one adds to what it left.
-    let at = thread_index(group, groups, 0u) / WORKGROUP;
+    let at = group_index(group);
     if LISTED { maxima[at] = largest; } else { maxima[at] = max(maxima[at], largest); }
 }
 
@@ -115,11 +114,10 @@ fn elastic_speed(p: u32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn time_step_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                       @builtin(local_invocation_index) lane: u32) {
-    let total = groups.x * groups.y * WORKGROUP;
+fn time_step_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let total = striding_threads();
     var speed = vec2f(0.0); // of particles; of elastic waves, or what strains as fast
-    for (var p = thread_index(group, groups, lane); p < params.particles; p += total) {
+    for (var p = thread_index(group, lane); p < params.particles; p += total) {
         let state = deformation[3u * p + 1u].w;
         if state == 0.0 { continue; }
         // A driven particle carries no wave.
@@ -129,7 +127,7 @@ fn time_step_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgro
     }
     let largest = workgroup_max4(lane, vec4f(0.0, 0.0, speed));
     if lane == 0u {
-        let at = thread_index(group, groups, 0u) / WORKGROUP;
+        let at = group_index(group);
         maxima[at] = max(maxima[at], largest);
     }
 }

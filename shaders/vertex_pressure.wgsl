@@ -20,9 +20,8 @@
 
 // Unknowns behind the grid that no vertex uses in this step must be zero everywhere.
 @compute @workgroup_size(WORKGROUP)
-fn vertex_clear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                @builtin(local_invocation_index) lane: u32) {
-    for (var i = thread_index(group, groups, lane); i < 2u * params.extra_capacity; i += groups.x * groups.y * WORKGROUP) {
+fn vertex_clear(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    for (var i = thread_index(group, lane); i < 2u * params.extra_capacity; i += striding_threads()) {
         pressure[params.slots + i] = 0.0;
         stiffness[params.slots + i] = 0.0;
         residual[params.slots + i] = 0.0;
@@ -121,9 +120,8 @@ fn meets_free_node(v: vec3i) -> bool {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-                   @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     if !LISTED {

@@ -158,9 +158,8 @@ fn slice_color(pixel: vec2f, ray: Ray, s: f32, plane: vec4f) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, groups, local);
+fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
     if (i >= band_rays()) {
         return;
     }

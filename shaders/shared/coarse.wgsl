@@ -15,6 +15,10 @@ struct Grid {
 struct Level { own: array<Grid, SPACES>, below: array<Grid, SPACES>, length: u32, number: u32 }
 
 const SPACES = 4u;
+
+// Threads of the kernels of a level. Needs the binding pcg.
+fn level_threads(number: u32) -> u32 { return pcg.level_groups[number] * WORKGROUP; }
+
 fn space_count() -> u32 { return select(2u, 4u, DIM == 3u); }
 
 // Which space an entry belongs to, among those of one level.

@@ -1,27 +1,20 @@
 // The table of indirect dispatches: a zero entry makes every dispatch that uses it a no-op. The device steers the step with it.
+#include "shared/thread.wgsl"
 #include "shared/columns.wgsl"
-#include "shared/blocks.wgsl"
 
 @group(0) @binding(9) var<storage, read_write> extents: array<vec4u>;
 
 fn groups_for(threads: u32) -> vec4u {
-    let groups = (threads + WORKGROUP - 1u) / WORKGROUP;
-    let x = min(groups, MAX_GROUPS);
-    return vec4u(x, (groups + MAX_GROUPS - 1u) / MAX_GROUPS, 1u, 0u);
+    let groups = groups_of(threads);
+    return vec4u(min(groups, MAX_GROUPS), (groups + MAX_GROUPS - 1u) / MAX_GROUPS, 1u, 0u);
 }
 
 // Threads that march along the last axis.
 fn marches() -> u32 { return blocks_across() * STILL_BLOCK * layers(); }
 
-// Marches over the columns of one color, the ring's layers included.
-fn color_marches() -> u32 {
-    let columns = columns_of_color();
-    return columns.x * columns.y * layers();
-}
-
 fn surface_groups() -> vec4u {
     let rows = min(control.extra, params.surface_rows);
-    return vec4u(min((rows + WORKGROUP - 1u) / WORKGROUP, params.groups), 1u, 1u, 0u);
+    return vec4u(min(groups_of(rows), params.groups), 1u, 1u, 0u);
 }
 
 // Opens the dispatches over slots that are awake in a phase that is open.

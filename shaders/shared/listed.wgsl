@@ -57,6 +57,12 @@ fn busy_slot(thread: u32) -> u32 {
 // The same for kernels whose results only listed slots read, so that the plain form visits the frontier alone.
 fn frontier_slot(thread: u32) -> u32 {
     if LISTED || QUADRATIC { return listed_slot(thread); }
-    if thread < extra[2u * params.slots + 1u] { return extra[2u * params.slots - 1u - thread]; }
+    if thread < frontier_threads() { return extra[2u * params.slots - 1u - thread]; }
     return params.slots;
+}
+
+// Threads of such kernels.
+fn frontier_threads() -> u32 {
+    if LISTED || QUADRATIC { return awake_threads(); }
+    return extra[2u * params.slots + 1u];
 }

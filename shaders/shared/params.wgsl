@@ -65,3 +65,6 @@ struct Params {
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
+
+// Threads of all groups that leave partial results: how far a kernel with as many strides.
+fn striding_threads() -> u32 { return params.groups * WORKGROUP; }

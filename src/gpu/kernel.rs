@@ -13,6 +13,9 @@ use crate::error::{Error, Result};
 /// Threads of a workgroup, flat along x; every shader sees it as `const WORKGROUP`.
 pub const WORKGROUP: u32 = 64;
 
+/// Workgroups along one axis at most, on every device; every shader sees it as `const MAX_GROUPS`.
+pub const MAX_GROUPS: u32 = 65_535;
+
 /// The override that tells the two forms of a kernel apart, in its name too.
 const LISTED: &str = "LISTED";
 
@@ -57,14 +60,12 @@ pub enum Extent<'a> {
     Indirect(&'a Buffer<u32>, u64),
 }
 
-/// Workgroups for `groups` in a row, at most `limit` per axis: x first, then y, then z. The product is at least `groups`.
+/// Workgroups for `groups`: rows of [`MAX_GROUPS`] along x, as many as needed along y. The product is at least `groups`, and
+/// `thread_index` in `shaders/shared/thread.wgsl` counts the same way.
 #[must_use]
-pub fn group_counts(groups: u64, limit: u32) -> [u32; 3] {
-    let limit = u64::from(limit);
-    let z = groups.div_ceil(limit * limit).max(1);
-    let y = groups.div_ceil(limit * z).max(1);
-    let x = groups.div_ceil(y * z);
-    [x as u32, y as u32, z as u32]
+pub fn group_counts(groups: u64) -> [u32; 3] {
+    let limit = u64::from(MAX_GROUPS);
+    [groups.min(limit) as u32, groups.div_ceil(limit) as u32, 1]
 }
 
 impl Kernel {

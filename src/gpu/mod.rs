@@ -16,7 +16,7 @@ mod sources;
 
 pub use buffer::Buffer;
 pub use device::{AdapterSummary, Gpu, GpuOptions};
-pub use kernel::{Bound, Constants, Extent, Kernel, WORKGROUP, group_counts};
+pub use kernel::{Bound, Constants, Extent, Kernel, MAX_GROUPS, WORKGROUP, group_counts};
 pub use pass::{Detail, Pass, Times, add_time};
 pub use reflect::{Access, Binding, Compiled, MAX_STORAGE_BUFFERS};
 pub use shader::{Folder, Shader};

@@ -111,7 +111,6 @@ impl Pass {
 
     /// Records one dispatch. Extents of no threads record nothing.
     pub fn dispatch(&mut self, bound: &Bound, extent: &Extent<'_>) {
-        let limit = self.gpu.limits.max_compute_workgroups_per_dimension;
         let each = self.clock.as_ref().is_some_and(|clock| clock.detail == Detail::Kernels);
         if each {
             self.close_group();
@@ -122,7 +121,7 @@ impl Pass {
         pass.set_bind_group(0, &bound.group, &[]);
         match extent {
             Extent::Threads(threads) => {
-                let [x, y, z] = group_counts(threads.div_ceil(u64::from(bound.threads_per_group)), limit);
+                let [x, y, z] = group_counts(threads.div_ceil(u64::from(bound.threads_per_group)));
                 if x > 0 {
                     pass.dispatch_workgroups(x, y, z);
                 }

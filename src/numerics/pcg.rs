@@ -238,7 +238,7 @@ impl Pcg {
         let dots = layout.dots;
         let length = vectors.solution.len();
         let control = Buffer::new(gpu, "pcg", 1)?;
-        let [wide, high, _] = group_counts((layout.threads as u64).div_ceil(u64::from(WORKGROUP)), 65_535);
+        let [wide, high, _] = group_counts((layout.threads as u64).div_ceil(u64::from(WORKGROUP)));
         let start = PcgControl {
             tolerance: limits.0,
             max_iterations: limits.1,

@@ -41,13 +41,13 @@ impl Reduce {
         let groups = count.div_ceil(WORKGROUP).clamp(1, MAX_GROUPS);
         let partial = Buffer::<f32>::new(gpu, "reduce partial results", groups as usize)?;
         let result = Buffer::<f32>::new(gpu, "reduce result", 1)?;
-        let bind = |count: u32, values: &Buffer<f32>, result: &Buffer<f32>| {
-            let params = Buffer::<u32>::uniform(gpu, "reduce count", 1)?;
-            params.write(gpu, 0, &[count]);
+        let bind = |count: u32, groups: u32, values: &Buffer<f32>, result: &Buffer<f32>| {
+            let params = Buffer::<u32>::uniform(gpu, "reduce count", 2)?;
+            params.write(gpu, 0, &[count, groups * WORKGROUP]);
             kernel.bind(gpu, &[("params", params.raw()), ("values", values.raw()), ("result", result.raw())])
         };
-        let many = bind(count, values, &partial)?;
-        let one = bind(groups, &partial, &result)?;
+        let many = bind(count, groups, values, &partial)?;
+        let one = bind(groups, 1, &partial, &result)?;
         Ok(Reduce { result, many, one, groups })
     }
 

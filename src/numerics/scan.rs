@@ -9,9 +9,6 @@ const BLOCK: u32 = SCAN_ITEMS * WORKGROUP;
 /// Consecutive elements of one thread; `scan.wgsl` gets it from here.
 const SCAN_ITEMS: u32 = 16;
 
-/// Groups per axis that every device allows; the shape of dispatches must not depend on the device.
-const MAX_GROUPS: u32 = 65_535;
-
 /// Scans one buffer into another: blocks, then the totals of the blocks, and so on up; then the offsets down again.
 #[derive(Debug)]
 pub struct Scan {
@@ -49,7 +46,7 @@ impl Scan {
         let mut inputs = n;
         for (level, &length) in level_lengths(outputs).iter().enumerate() {
             let blocks = length.div_ceil(BLOCK).max(1);
-            let groups = group_counts(u64::from(blocks), MAX_GROUPS);
+            let groups = group_counts(u64::from(blocks));
             let params = Buffer::<u32>::uniform(gpu, "scan level", 4)?;
             params.write(gpu, 0, &[inputs, length, blocks, 0]);
             scan.scratch.push(Buffer::new(gpu, "scan totals", blocks as usize)?);
@@ -77,7 +74,7 @@ impl Scan {
     #[must_use]
     pub fn plan(outputs: u32) -> Vec<[u32; 3]> {
         let blocks = level_lengths(outputs).into_iter().map(|length| length.div_ceil(BLOCK).max(1));
-        let up: Vec<_> = blocks.map(|blocks| group_counts(u64::from(blocks), MAX_GROUPS)).collect();
+        let up: Vec<_> = blocks.map(|blocks| group_counts(u64::from(blocks))).collect();
         let down = up.iter().rev().filter(|groups| **groups != [1, 1, 1]).copied();
         up.iter().copied().chain(down.collect::<Vec<_>>()).collect()
     }

@@ -48,6 +48,7 @@ pub fn constants() -> String {
     let _ = writeln!(text, "const COLOR_COUNT: u32 = {TABLE_LENGTH}u;\nconst BRICK: u32 = {BRICK}u;");
     let _ = writeln!(text, "const LIGHT_CELLS: u32 = {LIGHT_CELLS}u;\nconst SHADOW_TEXELS: u32 = {SHADOW_TEXELS}u;");
     let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;\nconst BLOCK_CELLS: u32 = {BLOCK_CELLS}u;");
+    let _ = writeln!(text, "const RANGE_GROUPS: u32 = {}u;", super::gas::RANGE_GROUPS);
     let _ = writeln!(text, "const TONE_ACES: u32 = {TONE_ACES}u;\nconst OPTICS_SHADOWGRAPH: u32 = {}u;", OPTICS[1]);
     let _ = writeln!(text, "const BACKGROUND_TOP: vec3f = {top};\nconst BACKGROUND_BOTTOM: vec3f = {bottom};");
     let count = BODY_COLORS.len();

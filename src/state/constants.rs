@@ -196,7 +196,6 @@ pub fn source() -> String {
         ("MAX_OPENINGS", super::MAX_OPENINGS as u32),
         ("MAX_BODIES", crate::scene::MAX_BODIES as u32),
         ("CUT_WIDTH", super::cut::WIDTH as u32),
-        ("MAX_GROUPS", 65_535),
         ("PARTIALS", PARTIALS),
         ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
         ("STILL_BLOCK", STILL_BLOCK),

@@ -17,8 +17,8 @@ struct Answer { stress: mat3x3f, kept: mat3x3f, energy: f32, plastic_strain: f32
 const HARDENED = 0.2;
 
 @compute @workgroup_size(WORKGROUP)
-fn ask(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let i = thread_index(group, groups, lane);
+fn ask(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = thread_index(group, lane);
     if i >= arrayLength(&given) { return; }
     let m = material[0];
     let kept = return_map(m.kind, given[i], HARDENED, m);

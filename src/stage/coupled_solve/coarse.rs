@@ -12,7 +12,8 @@ use crate::state::constants::{Entry, extent_offset};
 /// Entries of the table of group counts.
 const NODES: u64 = 0;
 const LISTED: u64 = 1;
-const FINEST: u64 = 2;
+const ALL: u64 = 2;
+const FINEST: u64 = 3;
 
 /// Kernels of the preconditioner.
 #[derive(Debug)]
@@ -101,10 +102,10 @@ impl Coarse {
             pass.dispatch(choose, &Extent::Groups([1, 1, 1]));
         }
         for [ones, sums] in &self.sums {
-            pass.dispatch(ones, &self.extent(FINEST));
+            pass.dispatch(ones, &self.extent(ALL));
             pass.dispatch(&forces[0], &self.extent(NODES));
             pass.dispatch(&forces[1], &self.extent(LISTED));
-            pass.dispatch(&self.operator, &self.extent(FINEST));
+            pass.dispatch(&self.operator, &self.extent(ALL));
             pass.dispatch(sums, &self.extent(FINEST + 1));
         }
         for (level, kernel) in (FINEST + 2..).zip(&self.coarser) {
