@@ -74,6 +74,14 @@ fn the_embedded_table_equals_the_folder() {
     assert!(names.is_sorted(), "keep src/gpu/sources.rs in alphabetical order");
 }
 
+/// DirectX 12 tells it zeros in indirect dispatches.
+#[test]
+fn no_kernel_asks_for_the_number_of_workgroups() {
+    let asks = |text: &str| words(text).contains("num_workgroups");
+    let failures: Vec<_> = files().into_iter().filter(|(_, text)| asks(text)).map(|(name, _)| name).collect();
+    report(&failures);
+}
+
 /// Sets the overrides of one entry point as a kernel would: DIM, and 1 where there is no default.
 fn specialise(compiled: &Compiled, entry: &str, dimension: u32) -> Result<(), String> {
     let mut values = HashMap::<String, f64>::new();
