@@ -65,7 +65,8 @@ impl Shader {
     /// # Errors
     /// [`Error::Shader`] for an unknown file, a malformed directive or a cycle, with the file and line of the include.
     pub fn load(name: &str, constants: &str, folder: &Folder) -> Result<Shader> {
-        let injected = format!("const WORKGROUP: u32 = {WORKGROUP}u; const MAX_GROUPS: u32 = {MAX_GROUPS}u;\n{constants}");
+        let injected =
+            format!("const WORKGROUP: u32 = {WORKGROUP}u; const MAX_GROUPS: u32 = {MAX_GROUPS}u;\n{constants}");
         let mut joiner = Joiner { folder, files: Vec::new(), open: Vec::new(), head: Vec::new(), body: Vec::new() };
         joiner.join(INJECTED, &injected)?;
         joiner.join(name, &folder.text(name)?)?;
