@@ -71,9 +71,10 @@ fn put_at(p: u32, place: vec3f) {
     position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
 }
 
-// A sub-step's share of the change of the ghost pressure; an implicit step has it already [elastic_ghost].
+// The ghost pressure that the solve gave, from the first sub-step on: its force acts in all of them. An implicit step has it already
+// [elastic_ghost].
 fn follow_ghost(p: u32) {
-    if !IMPLICIT { affine[3u * p].w += ghost_between(position[p].xyz) / f32(control.substeps); }
+    if !IMPLICIT && control.substep <= 1u { affine[3u * p].w += ghost_between(position[p].xyz); }
 }
 
 // Moves a driven particle.

@@ -136,7 +136,7 @@ fn elastic_substeps(
         return 1;
     }
     let substeps = time_step::substeps(problem, time_step::fastest_wave(problem, state), dt);
-    let (share, sub_dt) = (1.0 / substeps as f64, dt / substeps as f64);
+    let sub_dt = dt / substeps as f64;
     for index in 0..if state.particles.is_empty() { 0 } else { substeps } {
         if index > 0 {
             *nodes = p2g::p2g(problem, &state.particles);
@@ -148,6 +148,7 @@ fn elastic_substeps(
             mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, sub_dt);
         }
         mpm_grid_update::walls(problem, cells, &mut nodes.velocity);
+        let share = if index == 0 { 1.0 } else { 0.0 };
         g2p::g2p(problem, &nodes.velocity, change, share, sub_dt, &mut state.particles);
     }
     substeps
