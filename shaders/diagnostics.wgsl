@@ -26,6 +26,9 @@
 @group(0) @binding(17) var<storage, read> stress: array<vec4f>;      // w of the first: heat of plastic flow [J]
 @group(0) @binding(14) var<storage, read_write> probe_history: array<vec4f>;
 
+// The slot where p / rho^gamma is least, of a workgroup.
+var<workgroup> coldest_slot: atomic<u32>;
+
 fn put(block: u32, at: u32, lane: u32, value: vec4f) {
     if lane == 0u { partials[block * PARTIALS + at] = value; }
 }
@@ -42,6 +45,10 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     var heat = vec4f(0.0);
     var extremes = vec4f(-3e38);
     var speed = vec2f(0.0); // of the gas, of sound, squared
+    var more = vec2f(0.0);  // kinetic energy; owed mass, whatever its sign
+    var coldest = 3e38;     // p / rho^gamma
+    var coldest_at = params.slots;
+    if lane == 0u { atomicStore(&coldest_slot, params.slots); }
     let volume = cell_volume();
     let threads = striding_threads();
     var place = thread_index(group, lane);
@@ -54,6 +61,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
         if !RING_BOOKS && (kind == GAS || kind == SOLID) {
             owed += owed_flow[slot];
             heat.y += owed_energy[slot];
+            more.y += abs(owed_flow[slot].x);
         }
         if kind == GAS {
             let share = volume * gas_share(slot);
@@ -63,9 +71,13 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             extremes = max(extremes, vec4f(u.flow.x, -u.flow.x, p, -p));
             let v = velocity_of(u.flow);
             speed = max(speed, vec2f(dot(v, v), params.gamma * max(p, 0.0) / u.flow.x));
+            more.x += share * kinetic_energy(u.flow);
+            let entropy = p * pow(u.flow.x, -params.gamma);
+            if entropy < coldest { coldest = entropy; coldest_at = slot; }
         } else if SOLIDS && kind == SOLID {
             owed += volume * u.flow;
             heat.y += volume * u.energy;
+            more.y += volume * abs(u.flow.x);
         } else if RING_BOOKS {
             crossed += volume * u.flow;
             heat.z += volume * u.energy;
@@ -83,36 +95,53 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     put(0u, at, lane, workgroup_sum4(lane, gas));
     put(1u, at, lane, workgroup_sum4(lane, owed));
     put(2u, at, lane, workgroup_sum4(lane, crossed));
-    put(3u, at, lane, workgroup_sum4(lane, heat));
+    let heat_sum = workgroup_sum4(lane, heat);
     put(4u, at, lane, workgroup_max4(lane, extremes));
-    put(5u, at, lane, workgroup_max4(lane, vec4f(speed.x, speed.y * control.duration / params.spacing, speed.y, 0.0)));
+    let largest = workgroup_max4(lane, vec4f(speed.x, speed.y * control.duration / params.spacing, speed.y, -coldest));
+    put(5u, at, lane, largest);
+    put(10u, at, lane, workgroup_sum4(lane, vec4f(more, 0.0, 0.0)));
+    put(3u, at, lane, vec4f(heat_sum.xyz, first_slot(-coldest == largest.w, coldest_at)));
+}
+
+// The lowest of the slots of those threads that have the least value, as bits.
+fn first_slot(is_least: bool, slot: u32) -> f32 {
+    if is_least { atomicMin(&coldest_slot, slot); }
+    workgroupBarrier();
+    return bitcast<f32>(atomicLoad(&coldest_slot));
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var body = vec4f(0.0);
     var heat = vec4f(0.0);
+    var gone = 0.0;     // elastic energy and heat in what has left the domain [J]
     var speed = 0.0;
     for (var p = thread_index(group, lane); p < params.particles; p += striding_threads()) {
-        if deformation[3u * p + 1u].w == 0.0 { continue; }
         let v = velocity[p].xyz;
         let mass = position[p].w;
         let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
         let h = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
         let q = affine[3u * p].w;
+        let stored = vec3f(velocity[p].w * elastic_energy(material.kind, h, elastic_part(material)),
+            velocity[p].w * ghost_energy(material, swelling_of(material, h, q)), stress[2u * p].w);
+        if deformation[3u * p + 1u].w == 0.0 {
+            gone += stored.x + stored.y + stored.z;
+            continue;
+        }
         body += mass * vec4f(1.0, v);
         // The affine motion around a particle is motion, too: m dx^2 / 8 |C|^2. [Jiang et al. 2015]
         var turning = 0.0;
         for (var a = 0u; a < DIM; a++) { turning += dot(affine[3u * p + a].xyz, affine[3u * p + a].xyz); }
         let kinetic = 0.5 * mass * (dot(v, v) + 0.25 * params.spacing * params.spacing * turning);
-        heat += vec4f(kinetic, velocity[p].w * elastic_energy(material.kind, h, elastic_part(material)),
-            velocity[p].w * ghost_energy(material, swelling_of(material, h, q)), stress[2u * p].w);
+        heat += vec4f(kinetic, stored);
         speed = max(speed, length(v));
     }
     let at = group_index(group);
     put(6u, at, lane, workgroup_sum4(lane, body));
     put(7u, at, lane, workgroup_sum4(lane, heat));
     put(8u, at, lane, workgroup_max4(lane, vec4f(speed, 0.0, 0.0, 0.0)));
+    let left = workgroup_sum4(lane, vec4f(0.0, 0.0, gone, 0.0));
+    if lane == 0u { partials[10u * PARTIALS + at] += left; }
 }
 
 fn block_total(block: u32, lane: u32, largest: bool) -> vec4f {
@@ -135,11 +164,19 @@ fn borrowed(number: u32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn totals_record(@builtin(local_invocation_index) lane: u32) {
     let base = ((control.step + params.history - 1u) % params.history) * HISTORY_WIDTH;
+    if lane == 0u { atomicStore(&coldest_slot, params.slots); }
+    var coldest = 0.0;
     for (var block = 0u; block < BLOCKS; block++) {
         let value = block_total(block, lane, block == 4u || block == 5u || block == 8u);
+        if block == 5u { coldest = value.w; }
         if lane == 0u { history[base + 2u + block] = value; }
     }
+    for (var k = lane; k < params.groups; k += WORKGROUP) {
+        if partials[5u * PARTIALS + k].w == coldest { atomicMin(&coldest_slot, bitcast<u32>(partials[3u * PARTIALS + k].w)); }
+    }
+    workgroupBarrier();
     if lane != 0u { return; }
+    history[base + 5u].w = bitcast<f32>(atomicLoad(&coldest_slot));
     control.sound = history[base + 7u].z;
     history[base + 7u].z = bitcast<f32>(atomicLoad(&control.raised));
     let unit = borrowed_unit();

@@ -11,6 +11,8 @@ pub struct BodyState {
     pub particles: u64,
     /// Mass \[kg\].
     pub mass: f64,
+    /// Volume of the particles at rest \[m^3\].
+    pub volume0: f64,
     /// Centre of mass \[m\].
     pub centroid: [f64; 3],
     /// Mean velocity, weighted by mass \[m s^-1\].
@@ -22,6 +24,8 @@ pub struct BodyState {
     pub plastic_strain: f64,
     /// Low and high corner of the box around the particles \[m\].
     pub extent: [[f64; 3]; 2],
+    /// Room over volume at rest: the mean of the volume ratio, or the cells that hold particles where they are less.
+    pub room: f64,
     /// Pieces: groups of particles in cells that touch, corners included.
     pub pieces: u32,
 }
@@ -37,15 +41,16 @@ impl Snapshot {
                 body.add(particle, self.grid.spacing.into());
             }
         }
-        for (body, pieces) in bodies.iter_mut().zip(self.pieces(count)) {
+        let cell = f64::from(self.grid.spacing).powi(self.grid.dimension as i32);
+        for (body, (pieces, cells)) in bodies.iter_mut().zip(self.pieces(count)) {
             body.pieces = pieces;
-            body.finish();
+            body.finish(cell * f64::from(cells));
         }
         bodies
     }
 
-    /// Pieces of each body: connected groups of cells that hold its particles.
-    fn pieces(&self, count: usize) -> Vec<u32> {
+    /// Pieces of each body: connected groups of cells that hold its particles; and the number of these cells.
+    fn pieces(&self, count: usize) -> Vec<(u32, u32)> {
         let grid = &self.grid;
         let cell = |particle: &ParticleSample| {
             let at = |axis: usize| ((particle.position[axis] - grid.origin[axis]) / grid.spacing).floor() as i32;
@@ -65,10 +70,11 @@ impl Snapshot {
                 }
             }
         }
-        let mut pieces = vec![0; count];
+        let mut pieces = vec![(0, 0); count];
         for (index, (body, _)) in places.iter().enumerate() {
-            if let Some(pieces) = pieces.get_mut(*body as usize).filter(|_| groups.root(index) == index) {
-                *pieces += 1;
+            if let Some((pieces, cells)) = pieces.get_mut(*body as usize) {
+                *pieces += u32::from(groups.root(index) == index);
+                *cells += 1;
             }
         }
         pieces
@@ -82,6 +88,8 @@ impl BodyState {
         self.plastic_strain = self.plastic_strain.max(particle.plastic_strain.into());
         self.particles += 1;
         self.mass += mass;
+        self.volume0 += f64::from(particle.volume0);
+        self.room += f64::from(particle.volume0 * particle.volume_ratio());
         for axis in 0..3 {
             let position = arm[axis];
             self.centroid[axis] += mass * position;
@@ -93,8 +101,9 @@ impl BodyState {
         }
     }
 
-    /// Sums to means; a body that has left the domain is nowhere.
-    fn finish(&mut self) {
+    /// Sums to means; a body that has left the domain is nowhere. `cells` is the volume of the cells that hold particles \[m^3\].
+    fn finish(&mut self, cells: f64) {
+        self.room = self.room.min(cells) / self.volume0;
         self.centroid = self.centroid.map(|sum| sum / self.mass);
         self.velocity = self.velocity.map(|sum| sum / self.mass);
         let whole = cross(self.centroid, self.velocity);

@@ -76,6 +76,16 @@ pub struct StepRecord {
     pub courant: f32,
     /// Largest particle speed \[m s^-1\].
     pub solid_speed: f32,
+    /// Kinetic energy of the gas \[J\].
+    pub gas_kinetic: f32,
+    /// Mass that cells owe or have too much of, whatever its sign \[kg\].
+    pub owed_either: f32,
+    /// Elastic energy and heat in what has left the domain since the start \[J\].
+    pub gone_energy: f32,
+    /// Least p / rho^gamma of the gas \[Pa (m^3/kg)^gamma\].
+    pub min_entropy: f32,
+    /// Slot where it is.
+    pub coldest_slot: u32,
     /// Cells where the flux limiter acted.
     pub limited: u32,
     /// Cells where the energy floor acted.
@@ -96,7 +106,7 @@ impl StepRecord {
             |flow: [f32; 4], energy: f32| Total { mass: flow[0], momentum: [flow[1], flow[2], flow[3]], energy };
         let [head, counts, gas, owed, crossed, heat] = [raw[0], raw[1], raw[2], raw[3], raw[4], raw[5]];
         let [extremes, gas_speed, solid, solid_heat, solid_speed] = [raw[6], raw[7], raw[8], raw[9], raw[10]];
-        let given = raw[11];
+        let [given, more] = [raw[11], raw[12]];
         Self {
             step: head[2].to_bits(),
             dt: head[0],
@@ -115,6 +125,11 @@ impl StepRecord {
             gas_speed: gas_speed[0].max(0.0),
             courant: gas_speed[1].max(0.0),
             raised: gas_speed[2].to_bits(),
+            min_entropy: -gas_speed[3],
+            coldest_slot: heat[3].to_bits(),
+            gas_kinetic: more[0],
+            owed_either: more[1],
+            gone_energy: more[2],
             solid: total(solid, solid_heat[0]),
             elastic_energy: solid_heat[1],
             ghost_energy: solid_heat[2],

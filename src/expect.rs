@@ -2,8 +2,10 @@
 
 mod bodies;
 mod probes;
+mod warnings;
 
 pub use probes::Seen;
+pub use warnings::{RULES, Rule, Warning, Watched, absent, table, warnings, watched};
 
 use std::collections::BTreeMap;
 
@@ -18,7 +20,7 @@ use crate::simulation::Simulation;
 use crate::snapshot::{Snapshot, kind};
 use crate::state::cut::gas_shares;
 
-/// What must stay constant in a closed domain without gravity and driven parts: everything inside plus what has crossed the boundary.
+/// What must stay constant without driven parts: everything inside plus what has crossed the boundary.
 /// Summed on the CPU in double precision, so that the sum itself loses nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
@@ -28,12 +30,23 @@ pub struct Budget {
     pub gas_mass_with_crossed: f64,
     /// Solids \[kg\].
     pub solid_mass: f64,
-    /// Energy of gas and solids, the heat of plastic flow, and what has crossed the boundary, without what walls and films have given
-    /// to bodies \[J\].
+    /// Energy of gas and solids, the heat of plastic flow, and what has crossed the boundary, without what walls, films and gravity
+    /// have given \[J\].
     pub energy: f64,
-    /// Momentum of gas and solids, and what has crossed the boundary, without what walls and films have given \[kg m s^-1\].
+    /// Momentum of gas and solids, and what has crossed the boundary, without what walls, films and gravity have given \[kg m s^-1\].
     pub momentum: [f64; 3],
+    /// Momentum below which a gap is rounding: a thousandth of that of all gas at the speed of sound \[kg m s^-1\].
+    pub noise_momentum: f64,
+    /// Cell that owes most, or has most too much.
+    pub most_owed: [i32; 3],
+    /// Particles at the start.
+    pub particles: u64,
+    /// Least p / rho^gamma of the start and of what may flow in \[Pa (m^3/kg)^gamma\].
+    pub start_entropy: f64,
 }
+
+/// Share of the speed of sound that gas at rest may seem to move with.
+const NOISE_SPEED: f64 = 1e-3;
 
 impl Budget {
     /// Reads the state. `stored` is the elastic energy of the solids and the heat of plastic flow, 0 at the start \[J\].
@@ -51,7 +64,13 @@ impl Budget {
         let shares = gas_shares(&state.grid, &scene.cut_geometry());
         let mut books = owed.iter().zip(&owed_energy);
         let everywhere = owed.len() == cells.len();
-        let mut budget = Self { energy: stored, ..Self::default() };
+        let mut budget = Self {
+            energy: stored,
+            particles: state.params.particles.into(),
+            start_entropy: state.start_entropy,
+            ..Self::default()
+        };
+        let mut most = 0.0;
         for (slot, &word) in cells.iter().enumerate() {
             let inside = matches!((word & u32::from(kind::MASK)) as u8, kind::GAS | kind::SOLID);
             // What has crossed the boundary is kept per volume, like the gas; debts are not.
@@ -59,6 +78,15 @@ impl Budget {
             let book = if everywhere || !inside { books.next() } else { None };
             let (owed, owed_energy) = book.map_or(([0.0; 4], 0.0), |(flow, energy)| (*flow, *energy));
             let room = volume * shares[slot];
+            let covered = if word & u32::from(kind::MASK) == u32::from(kind::SOLID) {
+                room * f64::from(flow[slot][0])
+            } else {
+                0.0
+            };
+            if inside && (f64::from(owed[0]) + covered).abs() > most {
+                most = (f64::from(owed[0]) + covered).abs();
+                budget.most_owed = state.grid.cell(slot as u32);
+            }
             let mass = share * f64::from(owed[0]) + room * f64::from(flow[slot][0]);
             budget.gas_mass += if inside { mass } else { 0.0 };
             budget.gas_mass_with_crossed += mass;
@@ -72,11 +100,16 @@ impl Budget {
         for (sum, borrowed) in budget.momentum.iter_mut().zip(borrowed) {
             *sum += borrowed;
         }
+        budget.noise_momentum = NOISE_SPEED * scene.gas.ambient.sound_speed(scene.gas.gamma) * budget.gas_mass.abs();
         budget.add_solids(&simulation.snapshot()?, scene);
-        let [x, y, z, work] = simulation.given();
-        budget.energy -= work;
-        for (sum, given) in budget.momentum.iter_mut().zip([x, y, z]) {
-            *sum -= given;
+        let seeds = scene.seed_particles();
+        let gone = simulation.gone(|index| seeds.get(index).map_or(0.0, |seed| seed.volume * seed.density))?;
+        let from_outside = [simulation.given(), simulation.pulled()].map(|given| given.map(|part| -part));
+        for [x, y, z, energy] in [gone].into_iter().chain(from_outside) {
+            budget.energy += energy;
+            for (sum, part) in budget.momentum.iter_mut().zip([x, y, z]) {
+                *sum += part;
+            }
         }
         Ok(budget)
     }
@@ -129,6 +162,8 @@ pub struct Summary {
     pub max_speed: f64,
     /// Cells where the energy floor acted, summed over steps.
     pub floored: u64,
+    /// What the warnings want to know of the steps.
+    pub watched: Watched,
     /// What each probe has seen.
     pub probes: Vec<Seen>,
     /// The last step.
@@ -147,6 +182,7 @@ impl Default for Summary {
             min_pressure: f64::INFINITY,
             max_speed: 0.0,
             floored: 0,
+            watched: Watched::default(),
             probes: Vec::new(),
             last: None,
         }
@@ -166,6 +202,7 @@ impl Summary {
             self.min_pressure = self.min_pressure.min(record.pressure[0].into());
             self.max_speed = self.max_speed.max(record.gas_speed.max(record.solid_speed).into());
             self.floored += u64::from(record.floored);
+            self.watched.add(record);
             probes::add(&mut self.probes, record);
         }
         if let Some(last) = records.last() {
@@ -173,10 +210,13 @@ impl Summary {
         }
     }
 
-    /// Elastic energy after the last step, without that of the ghost pressure, and the heat of plastic flow \[J\].
+    /// Elastic energy after the last step, without that of the ghost pressure, the heat of plastic flow, and what of both has left the
+    /// domain \[J\].
     #[must_use]
     pub fn stored_energy(&self) -> f64 {
-        self.last.as_ref().map_or(0.0, |last| f64::from(last.elastic_energy) + f64::from(last.plastic_heat))
+        let stored =
+            |last: &StepRecord| [last.elastic_energy, last.plastic_heat, last.gone_energy].map(f64::from).iter().sum();
+        self.last.as_ref().map_or(0.0, stored)
     }
 }
 

@@ -6,7 +6,7 @@ mod live;
 mod recorded;
 mod report;
 
-use crate::diagnostics::StepRecord;
+use crate::diagnostics::{StepRecord, Total};
 use crate::error::Result;
 use crate::gpu::{Detail, Gpu, Pass, Times, readback};
 use crate::scene::{self, Scene};
@@ -50,6 +50,9 @@ pub struct Simulation {
     gamma: f64,
     /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
     given: [f64; 4],
+    /// Momentum and energy that gravity has given to the gas since the start, and the gas of the step before.
+    pulled: [f64; 4],
+    gas_before: Option<Total>,
     /// Pressure solves per step.
     solves: u32,
     time: f64,
@@ -98,6 +101,8 @@ impl Simulation {
             detonate: None,
             gamma: scene.gas.gamma,
             given: [0.0; 4],
+            pulled: [0.0; 4],
+            gas_before: None,
             solves: scene.solves(),
             time: 0.0,
             step: 0,
@@ -302,6 +307,7 @@ impl Simulation {
             time += f64::from(record.dt);
             record.time = time;
             record.add_up(&mut self.given);
+            self.pull(&record);
             records.push(record);
         }
         Ok(())

@@ -112,6 +112,25 @@ impl Snapshot {
     }
 }
 
+/// Of the particles that have left the domain: number, velocity, and the mean square of the velocity around them.
+pub(crate) fn gone(gpu: &Gpu, state: &State) -> Result<Vec<(usize, [f64; 4])>> {
+    let particles = &state.particles;
+    let velocity = readback::read(gpu, &particles.velocity)?;
+    let affine = readback::read(gpu, &particles.affine)?;
+    let deformation = readback::read(gpu, &particles.deformation)?;
+    let of = |p: usize| {
+        let [x, y, z] = [0, 1, 2].map(|axis| f64::from(velocity[p][axis]));
+        let turning = turning(&affine[3 * p..3 * p + state.grid.dimension as usize]);
+        let square = x * x + y * y + z * z + 0.25 * f64::from(state.grid.spacing).powi(2) * f64::from(turning);
+        (p, [x, y, z, square])
+    };
+    Ok((0..velocity.len()).filter(|&p| deformation[3 * p + 1][3] == 0.0).map(of).collect())
+}
+
+fn turning(affine: &[[f32; 4]]) -> f32 {
+    affine.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sum()
+}
+
 /// The particles that are inside the domain.
 fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
     let particles = &state.particles;
@@ -132,7 +151,7 @@ fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
         mass: position[p][3],
         kinetic_energy: {
             let square = |v: [f32; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-            let turning: f32 = (0..axes).map(|column| square(affine[3 * p + column])).sum();
+            let turning = turning(&affine[3 * p..3 * p + axes]);
             0.5 * position[p][3] * (square(velocity[p]) + 0.25 * state.grid.spacing * state.grid.spacing * turning)
         },
         volume0: velocity[p][3],

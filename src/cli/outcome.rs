@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use super::args::RunOptions;
 use super::folder::Folder;
-use crate::expect::{Budget, Check, Summary};
+use crate::expect::{self, Budget, Check, Ending, Summary, Warning};
 use crate::export::report::{self, DeviceReport, Status};
 use crate::gpu::Gpu;
+use crate::scene::{Scene, Warned};
 use crate::{Error, Result, input};
 
 /// What is left to do when the process ends at once: the report says so, and the folder is free.
@@ -90,4 +91,55 @@ pub(super) fn verdict(checks: &[Check]) -> Result<()> {
         "the run does not meet the scene's [expect]: {}; report.json has the values, --no-expect skips the check",
         failed.join(", ")
     )))
+}
+
+/// What is said of a run at its end.
+#[derive(Debug, Default)]
+pub(super) struct Verdict {
+    /// Against `[expect]`, if that was asked for.
+    pub(super) checks: Vec<Check>,
+    /// All watched numbers, and those over their limits.
+    pub(super) watched: BTreeMap<Warned, f64>,
+    pub(super) warnings: Vec<Warning>,
+    /// Expected warnings that did not come.
+    pub(super) absent: Vec<Warned>,
+}
+
+impl Verdict {
+    /// That of the state as it is now.
+    pub(super) fn of(scene: &Scene, ending: &Ending<'_>, expects: bool) -> Self {
+        let warnings = expect::warnings(scene, ending);
+        let absent = expect::absent(scene, &warnings);
+        Self {
+            checks: if expects { expect::evaluate(scene, ending) } else { Vec::new() },
+            watched: expect::watched(scene, ending),
+            warnings,
+            absent,
+        }
+    }
+
+    /// Tells the warnings.
+    pub(super) fn tell(&self) {
+        for warning in &self.warnings {
+            match warning.expected {
+                None => tell!("warning: {warning}"),
+                Some(_) => tell!("note: {warning}"),
+            }
+        }
+        for name in &self.absent {
+            tell!("note: the scene expects a warning of {}, which did not come; see [expect] warnings", name.name());
+        }
+    }
+
+    /// The error of a run that bears no warning but those that are expected.
+    pub(super) fn strict(&self) -> Result<()> {
+        let names =
+            self.warnings.iter().filter(|warning| warning.expected.is_none()).map(|warning| warning.name.name());
+        match names.collect::<Vec<_>>().join(", ") {
+            names if names.is_empty() => Ok(()),
+            names => Err(Error::Expectation(format!(
+                "--strict: the run is warned of {names}; report.json has the values, [expect] warnings bears those that are right"
+            ))),
+        }
+    }
 }

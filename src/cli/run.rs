@@ -9,12 +9,12 @@ use super::check::overlap_text;
 use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
-use super::outcome::{changed_by_hand, device, last_words, status, totals, verdict};
+use super::outcome::{Verdict, changed_by_hand, device, last_words, status, totals, verdict};
 use super::progress::{Progress, clock};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device, scenes};
 use crate::diagnostics::StepRecord;
-use crate::expect::{self, Budget, Check, Ending, Summary};
+use crate::expect::{Budget, Check, Ending, Summary};
 use crate::export::Needs;
 use crate::export::report::{self, Report, Status};
 use crate::gpu::Gpu;
@@ -154,7 +154,7 @@ impl<'a> Run<'a> {
             clocks,
             start,
         };
-        run.write_report((Status::Running, "running"), Written::default(), &[])?;
+        run.write_report((Status::Running, "running"), Written::default(), Verdict::default())?;
         Ok(run)
     }
 
@@ -218,7 +218,7 @@ impl<'a> Run<'a> {
             return self.close_writer().map(|_| ());
         }
         let written = Written { frames: index + 1, ..Written::default() };
-        self.write_report((Status::Running, "running"), written, &[]).map(|_| ())
+        self.write_report((Status::Running, "running"), written, Verdict::default()).map(|_| ())
     }
 
     /// Waits for the writer and returns what it wrote.
@@ -238,15 +238,18 @@ impl<'a> Run<'a> {
             (outcome, written) => (outcome, written.unwrap_or_default()),
         };
         let filmed = film::tell(&written.films, self.options.quiet || json);
-        let mut checks = Vec::new();
         let status = status(&outcome);
-        if outcome.is_ok() && !self.options.no_expect {
-            checks = self.judge()?;
-            outcome = self.verdict(&checks);
+        let judged = if status == Status::Failed { Verdict::default() } else { self.judge(status)? };
+        judged.tell();
+        if outcome.is_ok() {
+            outcome = self.verdict(&judged.checks);
+            if self.options.strict {
+                outcome = outcome.and(judged.strict());
+            }
         }
         outcome = outcome.and(filmed);
         let text = outcome.as_ref().map_or_else(ToString::to_string, |()| "finished".to_owned());
-        let reported = self.write_report((status, &text), written, &checks);
+        let reported = self.write_report((status, &text), written, judged);
         // what failed first is told, not that the report could not be written either
         let report = match (outcome, reported) {
             (Err(error), Err(_)) => return Err(error),
@@ -264,11 +267,11 @@ impl<'a> Run<'a> {
         outcome
     }
 
-    fn judge(&self) -> Result<Vec<Check>> {
+    fn judge(&self, status: Status) -> Result<Verdict> {
         let snapshot: Snapshot = self.simulation.snapshot()?;
         let end = self.end_budget()?;
         let ending = Ending { start: &self.start_budget, end: &end, summary: &self.summary, snapshot: &snapshot };
-        Ok(expect::evaluate(&self.scene, &ending))
+        Ok(Verdict::of(&self.scene, &ending, status == Status::Finished && !self.options.no_expect))
     }
 
     /// The error of a run whose checks failed. What was changed by hand is another experiment, whose checks are told only.
@@ -290,7 +293,7 @@ impl<'a> Run<'a> {
         &self,
         (status, outcome): (Status, &str),
         written: Written,
-        expect: &[Check],
+        judged: Verdict,
     ) -> Result<Report<&Scene>> {
         // A device that is lost cannot be asked any more; the report must come all the same.
         let running = status == Status::Running;
@@ -318,7 +321,10 @@ impl<'a> Run<'a> {
             timings: timings.map(seconds).into(),
             totals: totals(&self.summary, &end),
             drift: if running { BTreeMap::new() } else { end.drift_since(&self.start_budget) },
-            expect: expect.to_vec(),
+            expect: judged.checks,
+            watched: judged.watched,
+            warnings: judged.warnings,
+            absent_warnings: judged.absent,
             scene_hash: self.scene.hash(),
             scene_file: scenes::place(&self.options.scene.scene),
             scene: &self.scene,

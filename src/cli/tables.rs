@@ -10,7 +10,7 @@ use crate::snapshot::Snapshot;
 
 /// Columns of `diagnostics.csv`.
 #[rustfmt::skip]
-const STEP_COLUMNS: [&str; 47] = [
+const STEP_COLUMNS: [&str; 50] = [
     "step", "time", "dt",
     "gas_mass", "gas_momentum_x", "gas_momentum_y", "gas_momentum_z", "gas_energy",
     "owed_mass", "owed_momentum_x", "owed_momentum_y", "owed_momentum_z", "owed_energy",
@@ -21,7 +21,7 @@ const STEP_COLUMNS: [&str; 47] = [
     "pcg_iterations", "pcg_residual", "substeps", "extra_vertices",
     "min_density", "max_density", "min_pressure", "max_pressure", "max_gas_speed", "max_solid_speed",
     "limited_cells", "floored_cells", "clamped_particles", "acoustic_courant", "newton_rounds", "elastic_iterations",
-    "raised_cells",
+    "raised_cells", "gas_kinetic_energy", "owed_mass_of_either_sign", "min_entropy",
 ];
 
 /// Columns of `bodies.csv`.
@@ -112,5 +112,6 @@ fn step_row(record: &StepRecord) -> Vec<Value> {
     row.extend([record.gas_speed, record.solid_speed].map(Value::from));
     row.extend([record.limited, record.floored, record.clamped].map(Value::from));
     row.extend([record.courant.into(), record.rounds.into(), record.elastic_iterations.into(), record.raised.into()]);
+    row.extend([record.gas_kinetic, record.owed_either, record.min_entropy].map(Value::from));
     row
 }

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::expect::Check;
+use crate::expect::{Check, Warning};
 use crate::export::atomic;
+use crate::scene::Warned;
 use crate::{Error, Result};
 
 /// The device a run used.
@@ -67,6 +68,12 @@ pub struct Report<S> {
     pub drift: BTreeMap<String, f64>,
     /// The scene's expectations against what was measured; empty if they were not asked for.
     pub expect: Vec<Check>,
+    /// All numbers that the program watches, see `docs/warnings.md`.
+    pub watched: BTreeMap<Warned, f64>,
+    /// What the program warns of at the end, see `docs/warnings.md`.
+    pub warnings: Vec<Warning>,
+    /// Warnings that the scene expects and that did not come.
+    pub absent_warnings: Vec<Warned>,
     /// [`crate::scene::Scene::hash`] of the scene: what pictures and states say about where they come from.
     pub scene_hash: String,
     /// File or name of the scene; paths in it start there.

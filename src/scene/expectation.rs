@@ -1,9 +1,11 @@
 //! What a run should have done: the table `expect`.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::vector;
+use super::{Warned, vector};
 
 /// What the result must satisfy at the end of the run, at the scene's own resolution. Every entry is optional.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -55,6 +57,9 @@ pub struct Expect {
     /// What probes must have seen.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<ExpectedProbe>,
+    /// Warnings that are right, each with the reason: they are told, and `--strict` bears them.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub warnings: BTreeMap<Warned, String>,
 }
 
 /// What must hold of a body at the end. Ranges are the lowest and the highest value allowed.

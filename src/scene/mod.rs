@@ -43,6 +43,7 @@ mod variants;
 mod vector;
 mod vocabulary;
 mod vortex;
+mod warned;
 mod wave;
 
 use std::collections::BTreeMap;
@@ -84,6 +85,7 @@ pub use shipped::{STANDARD_INPUT, Shipped, shipped, shipped_named, stem};
 pub use shot::{Shot, ShotKeys};
 pub use variants::SMALL;
 pub use vortex::Vortex;
+pub use warned::Warned;
 pub use wave::Wave;
 
 /// One experiment.

@@ -56,10 +56,6 @@ impl Simulation {
     }
 
     fn cell(&self, slot: u32) -> String {
-        let grid = &self.state.grid;
-        let (stride, padding) = (grid.strides(), grid.padding());
-        let at = [slot % stride[0], slot / stride[0] % stride[1], slot / (stride[0] * stride[1])];
-        let cell: [i32; 3] = std::array::from_fn(|axis| at[axis] as i32 - padding[axis] as i32);
-        format!("cell {cell:?}")
+        format!("cell {:?}", self.state.grid.cell(slot))
     }
 }

@@ -40,6 +40,7 @@ impl Simulation {
         check(from, to)?;
         self.settle(records)?;
         let (openings, state) = (Openings::new(to), &mut self.state);
+        state.admit(to, &openings);
         let params = &mut state.params;
         params.gravity = to.gravity.map(|g| g as f32);
         params.cfl = to.time.cfl as f32;

@@ -1,7 +1,9 @@
 //! What a simulation tells about itself beside its records.
 
 use super::Simulation;
+use crate::diagnostics::StepRecord;
 use crate::error::Result;
+use crate::snapshot;
 
 impl Simulation {
     /// Momentum and energy that the energy floor has taken from gas cells without books of their own, since the start
@@ -16,6 +18,41 @@ impl Simulation {
         let [x, y, z, energy] = self.control()?.borrowed();
         let momentum = volume * (density * pressure).sqrt();
         Ok([momentum * x, momentum * y, momentum * z, volume * pressure * energy])
+    }
+
+    /// Adds what gravity gave to the gas in a step: its kernel works on the gas that the advection has left, whose momentum is that of the
+    /// step before but for what crossed the sides.
+    pub(super) fn pull(&mut self, record: &StepRecord) {
+        let before = self.gas_before.replace(record.gas).unwrap_or(record.gas);
+        let (dt, mass) = (f64::from(record.dt), f64::from(record.gas.mass));
+        for (axis, g) in self.state.params.gravity.map(f64::from).into_iter().enumerate() {
+            self.pulled[axis] += dt * mass * g;
+            self.pulled[3] += dt * g * (f64::from(before.momentum[axis]) + 0.5 * dt * mass * g);
+        }
+    }
+
+    /// Momentum \[kg m s^-1\] and energy \[J\] that gravity has given to the gas since the start.
+    #[must_use]
+    pub fn pulled(&self) -> [f64; 4] {
+        self.pulled
+    }
+
+    /// Momentum \[kg m s^-1\] and kinetic energy \[J\] that particles had when they left the domain, from their masses at the start \[kg\].
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn gone(&self, mass: impl Fn(usize) -> f64) -> Result<[f64; 4]> {
+        if self.control()?.escaped == 0 {
+            return Ok([0.0; 4]);
+        }
+        let mut sum = [0.0; 4];
+        for (index, [x, y, z, square]) in snapshot::gone(&self.gpu, &self.state)? {
+            let mass = mass(index);
+            for (total, part) in sum.iter_mut().zip([x, y, z, 0.5 * square]) {
+                *total += mass * part;
+            }
+        }
+        Ok(sum)
     }
 
     /// Share of the slots that the last step computed: the others slept.

@@ -56,8 +56,8 @@ const ENTROPY_SHARE: f64 = 0.9;
 /// The same in gas alone: there thin cells at corners pay for the work of dense ones.
 const ENTROPY_SHARE_ALONE: f64 = 0.1;
 
-/// p / rho^gamma that no gas falls below, from the gas of the start `[density, momentum, energy]` and the sides.
-pub(super) fn least_entropy(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> f32 {
+/// Least p / rho^gamma of the gas of the start `[density, momentum, energy]` and of what may flow in; 0 without gas.
+pub(super) fn start_entropy(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> f64 {
     let gamma = scene.gas.gamma;
     let inside = start
         .iter()
@@ -68,6 +68,11 @@ pub(super) fn least_entropy(scene: &Scene, start: &[[f64; 5]], openings: &Openin
     let physical = states.filter(|(density, pressure)| *density > 0.0 && *pressure > 0.0);
     let least =
         physical.map(|(density, pressure): (f64, f64)| pressure / density.powf(gamma)).fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 0.0 }
+}
+
+/// p / rho^gamma that no gas falls below, from the least of the start.
+pub(super) fn least_entropy(scene: &Scene, start: f64) -> f32 {
     let share = if scene.bodies.is_empty() { ENTROPY_SHARE_ALONE } else { ENTROPY_SHARE };
-    if least.is_finite() { (share * least) as f32 } else { 0.0 }
+    (share * start) as f32
 }

@@ -56,6 +56,14 @@ impl Grid {
         at(0) + stride[0] as usize * (at(1) + stride[1] as usize * at(2))
     }
 
+    /// The cell of a slot.
+    #[must_use]
+    pub fn cell(&self, slot: u32) -> [i32; 3] {
+        let (stride, padding) = (self.strides(), self.padding());
+        let at = [slot % stride[0], slot / stride[0] % stride[1], slot / (stride[0] * stride[1])];
+        std::array::from_fn(|axis| at[axis] as i32 - padding[axis] as i32)
+    }
+
     /// Cells without the ring.
     #[must_use]
     pub fn cell_count(&self) -> usize {

@@ -64,6 +64,8 @@ pub struct State {
     pub interface: Interface,
     /// Solids.
     pub particles: Particles,
+    /// Least p / rho^gamma of the gas of the start and of what may flow in \[Pa (m^3/kg)^gamma\].
+    pub start_entropy: f64,
     /// Unknowns of the pressure system: X. Behind them what each vertex asks of the gas around it (`shaders/parting.wgsl`).
     pub pressure: Buffer<f32>,
     /// S^-1 of each unknown.
@@ -92,6 +94,15 @@ fn extra_capacity(slots: usize, particles: usize, dimension: u32) -> usize {
 }
 
 impl State {
+    /// Gas that flows in may be colder than all that was there.
+    pub(crate) fn admit(&mut self, scene: &Scene, openings: &Openings) {
+        let beyond = gas::start_entropy(scene, &[], openings);
+        if beyond > 0.0 && beyond < self.start_entropy {
+            self.start_entropy = beyond;
+            self.params.least_entropy = gas::least_entropy(scene, beyond);
+        }
+    }
+
     /// Fills buffers from a scene.
     ///
     /// # Errors
@@ -112,8 +123,9 @@ impl State {
         let (openings, supports) = (Openings::new(scene), Supports::new(scene));
         let geometry = scene.cut_geometry();
         let start_gas = cut::initial_gas(scene, &geometry);
+        let start_entropy = gas::start_entropy(scene, &start_gas, &openings);
         let params = Params {
-            least_entropy: gas::least_entropy(scene, &start_gas, &openings),
+            least_entropy: gas::least_entropy(scene, start_entropy),
             ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity))
         };
         let table = cut::table(&grid, &geometry);
@@ -125,6 +137,7 @@ impl State {
         let state = State {
             grid,
             params,
+            start_entropy,
             params_buffer: Buffer::uniform(gpu, "params", 1)?,
             control: Buffer::new(gpu, "control", 1)?,
             extents: Buffer::indirect(gpu, "extents", 4 * constants::PHASE_WIDTH * constants::PHASES.len())?,

@@ -1,0 +1,296 @@
+//! The program's own verdict: numbers that are watched in every run, each with a limit, the reason of it, and advice.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::{Budget, Ending};
+use crate::diagnostics::{StepRecord, Total};
+use crate::math::plain;
+use crate::scene::{Scene, Warned};
+use crate::state::constants::MAX_ROUNDS;
+
+/// A watched number.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// Its name.
+    pub name: Warned,
+    /// What it counts.
+    pub quantity: &'static str,
+    /// What it may be at most \[1\].
+    pub limit: f64,
+    /// Why.
+    pub reason: &'static str,
+    /// What to do where it is more.
+    pub advice: &'static str,
+}
+
+/// All watched numbers. `docs/warnings.md` has the same table.
+pub const RULES: [Rule; 10] = [
+    Rule {
+        name: Warned::GasMass,
+        quantity: "gas that is missing, with what is owed and what crossed the sides, over gas and what crossed",
+        limit: 1e-5,
+        reason: "mass moves in equal parts; sums of single precision keep it to 1e-6 in some thousand steps",
+        advice: "report it: mass is lost by a fault of the program alone",
+    },
+    Rule {
+        name: Warned::Momentum,
+        quantity: "momentum that is missing, with what crossed the sides and what walls and gravity gave, over what was exchanged",
+        limit: 1e-3,
+        reason: "forces are equal and opposite; verification holds 1e-4, runs of thousands of steps round off more",
+        advice: "try a smaller numerics.tolerance, or a smaller time.max_courant",
+    },
+    Rule {
+        name: Warned::Energy,
+        quantity: "energy that is missing or too much, with what crossed the sides and what gravity and blasts gave, over all energy",
+        limit: 0.02,
+        reason: "bodies exchange energy with gas to one or two percent in the verified cases; gas alone keeps it to rounding",
+        advice: "try a smaller time.max_courant, a smaller numerics.elastic_cfl, or a finer resolution",
+    },
+    Rule {
+        name: Warned::OwedGas,
+        quantity: "gas that covered cells owe or have too much of, most in any step, over the gas",
+        limit: 0.04,
+        reason: "a body at rest owes nothing; a moving one a layer of cells at its surface; more is a leak or a filled wall",
+        advice: "look at field \"owed\"; thicken walls to two cells, or try a smaller time.max_courant",
+    },
+    Rule {
+        name: Warned::Entropy,
+        quantity: "1 minus the least p / rho^gamma of any step over that of the start and the inlets",
+        limit: 0.15,
+        reason: "no process of this gas lowers its entropy; the scheme may at jumps, and stops at 0.1 beside bodies",
+        advice: "look at field \"entropy\"; cold specks are beside corners or bodies: refine there, or try a smaller time.cfl",
+    },
+    Rule {
+        name: Warned::FlooredCells,
+        quantity: "cells whose energy or pressure was raised to a floor, summed over steps, over cells times steps",
+        limit: 1e-3,
+        reason: "a floor stands for a value that the method could not find; one cell in a thousand is still local",
+        advice: "look at field \"temperature\" near corners and thin gaps; try a smaller time.cfl or a finer resolution",
+    },
+    Rule {
+        name: Warned::ClampedParticles,
+        quantity: "particles set back at walls, summed over steps, over particles times steps",
+        limit: 0.01,
+        reason: "walls stop nodes, so particles rarely reach them; where many do, a body is pressed flat against a wall",
+        advice: "leave a body more room, or try a smaller time.max_courant",
+    },
+    Rule {
+        name: Warned::CappedSteps,
+        quantity: "steps whose elastic solve ended without balance, or that max_substeps held short, over steps",
+        limit: 0.01,
+        reason: "forces that are not in balance move bodies; at the cap of sub-steps rounding adds up instead of motion",
+        advice: "try elasticity = \"explicit\", a smaller time.max_courant, or a softer material",
+    },
+    Rule {
+        name: Warned::LostBodies,
+        quantity: "bodies of which no particle is left in the domain, over bodies",
+        limit: 0.0,
+        reason: "what has left pushes no gas any more; the books keep what it took along",
+        advice: "enlarge the domain, make the side a \"wall\", or expect it with the reason",
+    },
+    Rule {
+        name: Warned::CollapsedBodies,
+        quantity: "1 minus the room of the most compressed body over its volume at rest",
+        limit: 0.8,
+        reason: "no law here holds at a fifth of the volume at rest; particles that share their cells have no shape",
+        advice: "give the body a stiffer material, or lower the load on it",
+    },
+];
+
+/// The rules as a table in Markdown.
+#[must_use]
+pub fn table() -> String {
+    let mut text = "| Name | What is watched | Limit | Reason | Advice |\n|---|---|---|---|---|\n".to_owned();
+    for Rule { name, quantity, limit, reason, advice } in RULES {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "| `{}` | {quantity} | {limit} | {reason} | {advice} |", name.name());
+    }
+    text
+}
+
+/// A watched number over its limit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Warning {
+    /// Name of the number.
+    pub name: Warned,
+    /// What it counts.
+    pub quantity: &'static str,
+    /// What was measured \[1\].
+    pub measured: f64,
+    /// What it may be at most.
+    pub limit: f64,
+    /// Where and when, as far as it has a place.
+    pub place: String,
+    /// What to do.
+    pub advice: &'static str,
+    /// Why the scene expects it, if it does.
+    pub expected: Option<String>,
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { name, quantity, measured, limit, place, advice, expected } = self;
+        let place = if place.is_empty() { String::new() } else { format!(", {place}") };
+        let (measured, limit) = (plain(*measured), plain(*limit));
+        write!(f, "{} = {measured}, at most {limit}{place} ({quantity}); ", name.name())?;
+        match expected {
+            Some(reason) => write!(f, "expected: {reason}"),
+            None => f.write_str(advice),
+        }
+    }
+}
+
+/// What single steps leave of the watched numbers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Watched {
+    /// Most owed gas over gas, and when \[s\].
+    owed: [f64; 2],
+    /// Least entropy \[Pa (m^3/kg)^gamma\], when \[s\], and in which slot.
+    coldest: Option<(f64, f64, u32)>,
+    /// Floored and raised cells, and particles held back, of all steps.
+    floored: u64,
+    clamped: u64,
+    /// Steps with so many rounds or sub-steps.
+    unbalanced: u64,
+    most_substeps: [u64; 2],
+    /// Most momentum that parts of the scene had in a step, whatever its direction, and energy that crossed.
+    exchanged: f64,
+    crossed_energy: f64,
+    crossed_mass: f64,
+}
+
+fn length(v: [f32; 3]) -> f64 {
+    v.map(|x| f64::from(x) * f64::from(x)).iter().sum::<f64>().sqrt()
+}
+
+/// Most momentum that a mass \[kg\] can have with a kinetic energy \[J\]. [Cauchy's inequality]
+fn momentum_of(mass: f32, kinetic: f32) -> f64 {
+    (2.0 * f64::from(mass).max(0.0) * f64::from(kinetic).max(0.0)).sqrt()
+}
+
+impl Watched {
+    /// Adds a step.
+    pub(super) fn add(&mut self, record: &StepRecord) {
+        let Total { mass, momentum, energy } = record.crossed;
+        let owed = f64::from(record.owed.mass.abs()) / f64::from(record.gas.mass).max(f64::MIN_POSITIVE);
+        if owed > self.owed[0] {
+            self.owed = [owed, record.time];
+        }
+        let entropy = f64::from(record.min_entropy);
+        if entropy < self.coldest.map_or(1e38, |(least, ..)| least) {
+            self.coldest = Some((entropy, record.time, record.coldest_slot));
+        }
+        self.floored += u64::from(record.floored) + u64::from(record.raised);
+        self.clamped += u64::from(record.clamped);
+        self.unbalanced += u64::from(record.rounds >= MAX_ROUNDS);
+        let [most, count] = &mut self.most_substeps;
+        if u64::from(record.substeps) > *most {
+            (*most, *count) = (record.substeps.into(), 0);
+        }
+        *count += u64::from(u64::from(record.substeps) == *most);
+        let parts =
+            momentum_of(record.gas.mass, record.gas_kinetic) + momentum_of(record.solid.mass, record.solid.energy);
+        self.exchanged = self.exchanged.max(parts + length(momentum) + length(record.given.momentum));
+        self.crossed_energy = self.crossed_energy.max(f64::from(energy).abs());
+        self.crossed_mass = self.crossed_mass.max(f64::from(mass).abs());
+    }
+
+    /// Steps that a limit of their effort cut short. A scene that asks for one sub-step gets it.
+    fn capped(&self, scene: &Scene) -> u64 {
+        let cap = u64::from(scene.max_substeps());
+        let [most, count] = self.most_substeps;
+        self.unbalanced + if cap > 1 && most >= cap { count } else { 0 }
+    }
+}
+
+/// What a run is warned of, in the order of the rules; those that the scene expects, too.
+#[must_use]
+pub fn warnings(scene: &Scene, ending: &Ending<'_>) -> Vec<Warning> {
+    let warned = |rule: &Rule| {
+        let (measured, place) = measure(rule.name, scene, ending)?;
+        // what is no number is over every limit
+        (measured > rule.limit || measured.is_nan()).then(|| Warning {
+            name: rule.name,
+            quantity: rule.quantity,
+            measured,
+            limit: rule.limit,
+            place,
+            advice: rule.advice,
+            expected: scene.expect.warnings.get(&rule.name).cloned(),
+        })
+    };
+    RULES.iter().filter_map(warned).collect()
+}
+
+/// All watched numbers that the scene has.
+#[must_use]
+pub fn watched(scene: &Scene, ending: &Ending<'_>) -> BTreeMap<Warned, f64> {
+    RULES.iter().filter_map(|rule| Some((rule.name, measure(rule.name, scene, ending)?.0))).collect()
+}
+
+/// Warnings that the scene expects and that did not come.
+#[must_use]
+pub fn absent(scene: &Scene, warnings: &[Warning]) -> Vec<Warned> {
+    let came = |name: &Warned| warnings.iter().any(|warning| warning.name == *name);
+    scene.expect.warnings.keys().copied().filter(|name| !came(name)).collect()
+}
+
+/// A watched number and its place, if the scene has it.
+fn measure(name: Warned, scene: &Scene, ending: &Ending<'_>) -> Option<(f64, String)> {
+    let Ending { start, end, summary, .. } = *ending;
+    let watched = &summary.watched;
+    let (cells, steps) = (scene.domain.cells.map(u64::from).iter().product::<u64>(), summary.steps.max(1));
+    let share = |part: u64, all: u64| Some((part as f64 / (all * steps).max(1) as f64, String::new()));
+    match name {
+        Warned::GasMass => {
+            let scale = start.gas_mass.abs() + watched.crossed_mass;
+            Some(((end.gas_mass_with_crossed - start.gas_mass_with_crossed).abs() / scale, String::new()))
+        }
+        Warned::Momentum => Some((momentum_gap(start, end) / (watched.exchanged + end.noise_momentum), String::new())),
+        Warned::Energy => {
+            let scale = start.energy.abs() + watched.crossed_energy;
+            Some(((end.energy - start.energy).abs() / scale, String::new()))
+        }
+        Warned::OwedGas => Some((watched.owed[0], owed_place(watched.owed[1], end))),
+        Warned::Entropy => {
+            let (least, time, slot) = watched.coldest?;
+            let place = format!("in cell {:?} at t = {} s", ending.snapshot.grid.cell(slot), plain(time));
+            (end.start_entropy > 0.0).then(|| (1.0 - least / end.start_entropy, place))
+        }
+        Warned::FlooredCells => share(watched.floored, cells),
+        Warned::ClampedParticles => share(watched.clamped, end.particles),
+        Warned::CappedSteps => share(watched.capped(scene), 1),
+        Warned::LostBodies => lost(scene, ending),
+        Warned::CollapsedBodies => collapsed(scene, ending),
+    }
+}
+
+fn momentum_gap(start: &Budget, end: &Budget) -> f64 {
+    (0..3).map(|axis| (end.momentum[axis] - start.momentum[axis]).powi(2)).sum::<f64>().sqrt()
+}
+
+fn owed_place(time: f64, end: &Budget) -> String {
+    format!("at t = {} s; at the end most in cell {:?}", plain(time), end.most_owed)
+}
+
+fn names(scene: &Scene, bodies: impl Iterator<Item = usize>) -> String {
+    let quoted = bodies.map(|index| format!("`{}`", scene.bodies[index].name));
+    format!("bodies {}", quoted.collect::<Vec<_>>().join(", "))
+}
+
+fn lost(scene: &Scene, ending: &Ending<'_>) -> Option<(f64, String)> {
+    let bodies = ending.snapshot.bodies(scene.bodies.len());
+    let lost: Vec<usize> = (0..bodies.len()).filter(|&index| bodies[index].particles == 0).collect();
+    let share = lost.len() as f64 / bodies.len() as f64;
+    (!bodies.is_empty()).then(|| (share, names(scene, lost.into_iter())))
+}
+
+fn collapsed(scene: &Scene, ending: &Ending<'_>) -> Option<(f64, String)> {
+    let bodies = ending.snapshot.bodies(scene.bodies.len());
+    let there = bodies.iter().enumerate().filter(|(_, body)| body.particles > 0);
+    let (index, least) = there.map(|(index, body)| (index, body.room)).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((1.0 - least, names(scene, std::iter::once(index))))
+}
