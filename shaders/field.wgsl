@@ -1,5 +1,5 @@
 // The quantity a picture shows, from the state of the gas.
-// evaluate_field: reads conserved, energy, cells; writes field and heat (p / rho), NO_VALUE where there is no gas.
+// evaluate_field: reads conserved, energy, owed_flow, cells; writes field and heat (p / rho), NO_VALUE where there is no gas.
 // find_range: reads field; writes the least and largest value that each workgroup saw.
 // pack_corners: reads field; writes, per cube between eight cell centres, their fractions of the range in 8 bits each.
 // pack_glow: reads heat; writes the same cubes' places in the black-body ramp.
@@ -20,6 +20,8 @@
 @group(0) @binding(9) var<storage, read_write> glow: array<vec2u>;
 // Per entry of the colour table, how many entries before it are not transparent; then the same of the black-body ramp.
 @group(0) @binding(10) var<storage, read> visible: array<u32>;
+// Mass and momentum that a slot owes; one entry alone where no slot inside the domain has books.
+@group(0) @binding(11) var<storage, read> owed_flow: array<vec4f>;
 
 fn has_gas(slot: u32) -> bool {
     return kind_of(cells[slot]) == KIND_GAS;
@@ -71,6 +73,19 @@ fn vorticity(cell: vec3i) -> f32 {
     return length(curl);
 }
 
+// Gas that a cell owes per volume, and of a covered cell all that it holds.
+fn owed_gas(slot: u32) -> f32 {
+    var owed = 0.0;
+    if (slot < arrayLength(&owed_flow)) {
+        owed = owed_flow[slot].x / pow(view.spacing, f32(view.dimension));
+    }
+    return owed + select(0.0, conserved[slot].x, is_covered(slot));
+}
+
+fn is_covered(slot: u32) -> bool {
+    return kind_of(cells[slot]) == KIND_SOLID;
+}
+
 fn value(cell: vec3i, slot: u32) -> f32 {
     let state = motion(slot);
     let speed = length(state.yzw);
@@ -81,6 +96,8 @@ fn value(cell: vec3i, slot: u32) -> f32 {
         case FIELD_SCHLIEREN: { return density_gradient(cell); }
         case FIELD_MACH: { return speed / sqrt(view.gamma * max(pressure(slot), 1e-30) / state.x); }
         case FIELD_VORTICITY: { return vorticity(cell); }
+        case FIELD_ENTROPY: { return pressure(slot) * pow(state.x, -view.gamma); }
+        case FIELD_OWED: { return owed_gas(slot); }
         default: { return state.x; }
     }
 }
@@ -102,6 +119,9 @@ fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invoca
             result = computed;
         }
         hot = max(pressure(slot) / conserved[slot].x, 0.0);
+    }
+    if (view.field == FIELD_OWED && is_covered(slot)) {
+        result = owed_gas(slot);
     }
     field[i] = result;
     heat[i] = hot;

@@ -168,6 +168,7 @@ mod tests {
             velocity: Vec::new(),
             pressure: Vec::new(),
             energy: Vec::new(),
+            owed: Vec::new(),
             particles: particles.iter().map(sample).collect(),
         }
     }

@@ -15,6 +15,34 @@ pub struct ProbeRecord {
     pub kind: u8,
 }
 
+/// What the gas does to a body or an obstacle in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Load {
+    /// Force, mean of the step \[N\].
+    pub force: [f32; 3],
+    /// Its power \[W\].
+    pub power: f32,
+    /// Its moment about the origin of coordinates \[N m\].
+    pub moment: [f32; 3],
+    /// Mean pressure over the faces that gas touches \[Pa\]; no number where it touches none.
+    pub pressure: f32,
+    /// Their area \[m^2\].
+    pub area: f32,
+}
+
+impl Load {
+    /// From the vec4 entries of its history ring, see `load_record` in `shaders/loads.wgsl`; moments there are about `corner`.
+    #[must_use]
+    pub(crate) fn from_raw(raw: &[[f32; 4]], corner: [f32; 3]) -> Vec<Self> {
+        let load = |raw: &[[f32; 4]]| {
+            let [[x, y, z, power], [a, b, c, pressed], [area, ..]] = [raw[0], raw[1], raw[2]];
+            let moment = glam::Vec3::new(a, b, c) + glam::Vec3::from(corner).cross(glam::Vec3::new(x, y, z));
+            Self { force: [x, y, z], power, moment: moment.into(), pressure: pressed / area, area }
+        };
+        raw.chunks_exact(3).map(load).collect()
+    }
+}
+
 /// Mass, momentum and energy of a part of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Total {
@@ -94,6 +122,8 @@ pub struct StepRecord {
     pub raised: u32,
     /// Particles held back at a wall.
     pub clamped: u32,
+    /// Loads of the gas: on each body, if one of them is held or driven, then on each obstacle.
+    pub loads: Vec<Load>,
     /// Probes.
     pub probes: Vec<ProbeRecord>,
 }

@@ -5,7 +5,7 @@ mod probes;
 mod warnings;
 
 pub use probes::Seen;
-pub use warnings::{RULES, Rule, Warning, Watched, absent, table, warnings, watched};
+pub use warnings::{RULES, Rule, Warning, Watched, absent, marks, table, warnings, watched};
 
 use std::collections::BTreeMap;
 
@@ -18,6 +18,7 @@ use crate::math::plain;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::snapshot::{Snapshot, kind};
+use crate::state::Grid;
 use crate::state::cut::gas_shares;
 
 /// What must stay constant without driven parts: everything inside plus what has crossed the boundary.
@@ -35,6 +36,9 @@ pub struct Budget {
     pub energy: f64,
     /// Momentum of gas and solids, and what has crossed the boundary, without what walls, films and gravity have given \[kg m s^-1\].
     pub momentum: [f64; 3],
+    /// Momentum and energy of the gas alone, with what crossed and what it gave to bodies and obstacles, without what gravity and blasts
+    /// gave to it. Only scenes with bodies that are held or driven know what the gas gave to bodies \[kg m s^-1\], \[J\].
+    pub gas_books: [f64; 4],
     /// Momentum below which a gap is rounding: a thousandth of that of all gas at the speed of sound \[kg m s^-1\].
     pub noise_momentum: f64,
     /// Cell that owes most, or has most too much.
@@ -43,6 +47,12 @@ pub struct Budget {
     pub particles: u64,
     /// Least p / rho^gamma of the start and of what may flow in \[Pa (m^3/kg)^gamma\].
     pub start_entropy: f64,
+}
+
+/// Whether a slot is of an obstacle, inside the domain.
+fn book_of_obstacle(word: u32, grid: &Grid, slot: usize) -> bool {
+    let inside = grid.cell(slot as u32).iter().zip(grid.cells).all(|(&at, count)| (0..count as i32).contains(&at));
+    inside && word & u32::from(kind::MASK) == u32::from(kind::WALL)
 }
 
 /// Share of the speed of sound that gas at rest may seem to move with.
@@ -91,6 +101,10 @@ impl Budget {
             budget.gas_mass += if inside { mass } else { 0.0 };
             budget.gas_mass_with_crossed += mass;
             budget.energy += share * f64::from(owed_energy) + room * f64::from(energy[slot]);
+            // what obstacles have collected is a part of their loads
+            if book_of_obstacle(word, &state.grid, slot) {
+                continue;
+            }
             for (axis, sum) in budget.momentum.iter_mut().enumerate() {
                 *sum += share * f64::from(owed[axis + 1]) + room * f64::from(flow[slot][axis + 1]);
             }
@@ -100,18 +114,39 @@ impl Budget {
         for (sum, borrowed) in budget.momentum.iter_mut().zip(borrowed) {
             *sum += borrowed;
         }
+        budget.close_gas(simulation, stored);
         budget.noise_momentum = NOISE_SPEED * scene.gas.ambient.sound_speed(scene.gas.gamma) * budget.gas_mass.abs();
         budget.add_solids(&simulation.snapshot()?, scene);
+        budget.add_outside(simulation, scene)?;
+        Ok(budget)
+    }
+
+    /// Adds what has left, without what came from outside.
+    fn add_outside(&mut self, simulation: &Simulation, scene: &Scene) -> Result<()> {
         let seeds = scene.seed_particles();
         let gone = simulation.gone(|index| seeds.get(index).map_or(0.0, |seed| seed.volume * seed.density))?;
         let from_outside = [simulation.given(), simulation.pulled()].map(|given| given.map(|part| -part));
         for [x, y, z, energy] in [gone].into_iter().chain(from_outside) {
-            budget.energy += energy;
-            for (sum, part) in budget.momentum.iter_mut().zip([x, y, z]) {
+            self.energy += energy;
+            for (sum, part) in self.momentum.iter_mut().zip([x, y, z]) {
                 *sum += part;
             }
         }
-        Ok(budget)
+        Ok(())
+    }
+
+    /// Adds the impulse on obstacles, and closes the books of the gas.
+    fn close_gas(&mut self, simulation: &Simulation, stored: f64) {
+        let (bodies, obstacles) = simulation.borne();
+        for (axis, sum) in self.momentum.iter_mut().enumerate() {
+            *sum += obstacles.iter().map(|borne| borne[axis]).sum::<f64>();
+        }
+        let [x, y, z] = self.momentum;
+        self.gas_books = [x, y, z, self.energy - stored - simulation.blasts()];
+        let pulled = simulation.pulled();
+        for (k, sum) in self.gas_books.iter_mut().enumerate() {
+            *sum += bodies.iter().map(|borne| borne[k]).sum::<f64>() - pulled[k];
+        }
     }
 
     fn add_solids(&mut self, snapshot: &Snapshot, scene: &Scene) {
@@ -285,18 +320,19 @@ pub fn evaluate(scene: &Scene, ending: &Ending<'_>) -> Vec<Check> {
     checks.0
 }
 
-/// Runs a scene to its end and judges it.
+/// Runs a scene to its end and judges it: by its expectations, and what it is warned of.
 ///
 /// # Errors
 /// Those of [`Simulation::new`] and [`Simulation::advance_to`].
-pub fn run(gpu: &Gpu, scene: &Scene) -> Result<Vec<Check>> {
+pub fn run(gpu: &Gpu, scene: &Scene) -> Result<(Vec<Check>, Vec<Warning>)> {
     let mut simulation = Simulation::new(gpu, scene)?;
     let start = Budget::read(&simulation, scene, 0.0)?;
     let mut summary = Summary::default();
     summary.add(&simulation.advance_to(scene.time.until)?);
     let end = Budget::read(&simulation, scene, summary.stored_energy())?;
     let snapshot = simulation.snapshot()?;
-    Ok(evaluate(scene, &Ending { start: &start, end: &end, summary: &summary, snapshot: &snapshot }))
+    let ending = Ending { start: &start, end: &end, summary: &summary, snapshot: &snapshot };
+    Ok((evaluate(scene, &ending), warnings(scene, &ending)))
 }
 
 /// The lines so far. A value that is no number passes nothing.

@@ -6,17 +6,18 @@ mod live;
 mod recorded;
 mod report;
 
-use crate::diagnostics::{StepRecord, Total};
+use crate::diagnostics::{Load, StepRecord};
 use crate::error::Result;
 use crate::gpu::{Detail, Gpu, Pass, Times, readback};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
     Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate, G2p,
-    GasAdvection, InterfaceStage, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Still,
+    GasAdvection, InterfaceStage, IntermediatePressure, Loads, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Still,
     Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::{self, NO_FAULT, REACHES};
+use crate::state::loads::LOAD_WIDTH;
 use crate::state::params::STILL_ASLEEP;
 use crate::state::{Control, HISTORY, State};
 pub use live::Blast;
@@ -46,13 +47,18 @@ pub struct Simulation {
     g2p: Option<G2p>,
     odd_even: Option<OddEven>,
     totals: Totals,
+    loads: Option<Loads>,
     detonate: Option<Detonate>,
     gamma: f64,
     /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
     given: [f64; 4],
     /// Momentum and energy that gravity has given to the gas since the start, and the gas of the step before.
     pulled: [f64; 4],
-    gas_before: Option<Total>,
+    gas_before: [f64; 3],
+    /// Impulse and work of the gas on each body, if that is told, and on each obstacle, since the start.
+    borne: Vec<[f64; 4]>,
+    /// Energy of blasts.
+    blasts: f64,
     /// Pressure solves per step.
     solves: u32,
     time: f64,
@@ -98,11 +104,14 @@ impl Simulation {
             g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
             odd_even: scene.filter().map(|filter| OddEven::new(parts, filter.share)).transpose()?,
             totals: Totals::new(parts)?,
+            loads: Loads::new(parts)?,
             detonate: None,
             gamma: scene.gas.gamma,
             given: [0.0; 4],
             pulled: [0.0; 4],
-            gas_before: None,
+            gas_before: state.start_momentum,
+            borne: vec![[0.0; 4]; state.load_count.iter().sum()],
+            blasts: 0.0,
             solves: scene.solves(),
             time: 0.0,
             step: 0,
@@ -135,6 +144,9 @@ impl Simulation {
             p2g.record(pass, state); // (1) particles to grid
         }
         self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
+        if let Some(loads) = &self.loads {
+            loads.record_owners(pass, state);
+        }
         self.record_held(pass, "BEGIN");
         self.record_force(pass);
         self.time_step.record_listed(pass);
@@ -210,6 +222,13 @@ impl Simulation {
         self.coupled_solve.record_iterations(pass, self.recorded.iterations - done);
     }
 
+    fn record_totals(&self, pass: &mut Pass) {
+        self.totals.record(pass, &self.state);
+        if let Some(loads) = &self.loads {
+            loads.record(pass, &self.state);
+        }
+    }
+
     /// Clamped and driven nodes, friction at walls.
     fn record_held(&self, pass: &mut Pass, phase: &str) {
         if let Some(supports) = &self.supports {
@@ -257,7 +276,7 @@ impl Simulation {
         let mut pass = Pass::new(&self.gpu, "steps");
         for _ in 0..steps.clamp(1, BATCH) {
             self.record_step(&mut pass);
-            self.totals.record(&mut pass, &self.state);
+            self.record_totals(&mut pass);
         }
         pass.submit()?;
         self.after_batch(records)
@@ -270,7 +289,7 @@ impl Simulation {
     pub fn advance_timed(&mut self, records: &mut Vec<StepRecord>, detail: Detail) -> Result<(bool, Times)> {
         let mut pass = Pass::timed(&self.gpu, "steps", detail);
         self.record_step(&mut pass);
-        self.totals.record(&mut pass, &self.state);
+        self.record_totals(&mut pass);
         let times = pass.submit_timed()?;
         Ok((self.after_batch(records)?, times))
     }
@@ -297,17 +316,21 @@ impl Simulation {
         }
         let ring = readback::read(&self.gpu, &self.state.history)?;
         let probes = readback::read(&self.gpu, &self.state.probe_history)?;
+        let loads = readback::read(&self.gpu, &self.state.load_history)?;
         let width = constants::HISTORY_WIDTH as usize;
+        let load_width = LOAD_WIDTH * self.borne.len();
         let count = self.state.params.probes as usize;
         let mut time = self.time;
         for number in self.step..step {
             let slot = (number % u64::from(HISTORY)) as usize;
             let mut record = StepRecord::from_raw(&ring[slot * width..(slot + 1) * width]);
             record.probes = StepRecord::probes_from_raw(&probes[2 * slot * count..2 * (slot + 1) * count]);
+            record.loads = Load::from_raw(&loads[slot * load_width..(slot + 1) * load_width], self.state.grid.origin);
             time += f64::from(record.dt);
             record.time = time;
             record.add_up(&mut self.given);
             self.pull(&record);
+            self.bear(&record);
             records.push(record);
         }
         Ok(())

@@ -41,6 +41,8 @@ pub struct Snapshot {
     pub pressure: Vec<f32>,
     /// Total gas energy per volume \[J m^-3\].
     pub energy: Vec<f32>,
+    /// Gas that cells owe, and in covered cells all that they hold \[kg m^-3\].
+    pub owed: Vec<f32>,
     /// All particles of all bodies, in an order that does not change over time.
     pub particles: Vec<ParticleSample>,
 }
@@ -93,6 +95,7 @@ impl Snapshot {
         let flow = grid.unpadded(&readback::read(gpu, &state.gas.conserved)?);
         let energy = grid.unpadded(&readback::read_range(gpu, &state.gas.energy, 0, grid.slots())?);
         let kind = grid.unpadded(&readback::read(gpu, &state.interface.cells)?);
+        let owed = owed(gpu, state, &flow, &kind)?;
         let pressure = |(u, e): (&[f32; 4], &f32)| {
             let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
             (gamma as f32 - 1.0) * (e - kinetic)
@@ -107,9 +110,23 @@ impl Snapshot {
             velocity: flow.iter().map(|u| [u[1] / u[0], u[2] / u[0], u[3] / u[0]]).collect(),
             pressure: flow.iter().zip(&energy).map(pressure).collect(),
             energy,
+            owed,
             particles: read_particles(gpu, state)?,
         })
     }
+}
+
+/// What cells owe per volume; where only the ring has books they owe nothing.
+fn owed(gpu: &Gpu, state: &State, flow: &[[f32; 4]], kinds: &[u32]) -> Result<Vec<f32>> {
+    let grid = state.grid;
+    if state.gas.owed_flow.len() != grid.slots() {
+        return Ok(vec![0.0; grid.cell_count()]);
+    }
+    let volume = grid.spacing.powi(grid.dimension as i32);
+    let books = grid.unpadded(&readback::read(gpu, &state.gas.owed_flow)?);
+    let held = |word: &u32, u: &[f32; 4]| if word & 3 == u32::from(kind::SOLID) { u[0] } else { 0.0 };
+    let cells = books.iter().zip(flow).zip(kinds);
+    Ok(cells.map(|((book, u), word)| book[0] / volume + held(word, u)).collect())
 }
 
 /// Of the particles that have left the domain: number, velocity, and the mean square of the velocity around them.

@@ -26,6 +26,7 @@ mod gallery;
 mod init;
 mod interrupt;
 mod list;
+mod loads;
 mod outcome;
 mod progress;
 mod render;

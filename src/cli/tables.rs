@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::loads::{self, Loads};
 use crate::Result;
 use crate::diagnostics::{StepRecord, Total};
 use crate::export::csv::{Table, Value};
@@ -41,6 +42,7 @@ pub(super) struct Tables {
     steps: Table,
     bodies: Option<Table>,
     probes: Option<Table>,
+    loads: Loads,
     names: Vec<String>,
 }
 
@@ -52,11 +54,14 @@ impl Tables {
             columns.extend(PROBE_COLUMNS.iter().map(|column| format!("{}_{column}", probe.name)));
         }
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+        let loads = Loads::new(folder, scene);
+        let more = if loads.of_bodies() { &loads::BODY_COLUMNS[..] } else { &[] };
         let bodies = !scene.bodies.is_empty();
         Self {
             steps: Table::new(&folder.join("diagnostics.csv"), &STEP_COLUMNS),
-            bodies: bodies.then(|| Table::new(&folder.join("bodies.csv"), &BODY_COLUMNS)),
+            bodies: bodies.then(|| Table::new(&folder.join("bodies.csv"), &[&BODY_COLUMNS, more].concat())),
             probes: (!scene.probes.is_empty()).then(|| Table::new(&folder.join("probes.csv"), &columns)),
+            loads,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
         }
     }
@@ -65,6 +70,7 @@ impl Tables {
     pub(super) fn add_steps(&mut self, records: &[StepRecord]) {
         for record in records {
             self.steps.push(step_row(record));
+            self.loads.add(record);
             if let Some(probes) = &mut self.probes {
                 let head: [Value; 2] = [record.step.into(), record.time.into()];
                 let values = record.probes.iter().flat_map(|probe| {
@@ -80,18 +86,20 @@ impl Tables {
     /// Adds the bodies of a frame.
     pub(super) fn add_bodies(&mut self, frame: u32, time: f64, snapshot: &Snapshot) {
         let Some(table) = &mut self.bodies else { return };
-        for (name, body) in self.names.iter().zip(snapshot.bodies(self.names.len())) {
+        for (index, (name, body)) in self.names.iter().zip(snapshot.bodies(self.names.len())).enumerate() {
             let head: [Value; 5] =
                 [frame.into(), time.into(), name.as_str().into(), body.particles.into(), body.mass.into()];
             let vectors = [body.centroid, body.velocity, body.angular_momentum, body.extent[0], body.extent[1]];
             let values = vectors.into_iter().flatten().map(Value::from);
-            table.push(head.into_iter().chain(values).chain([body.plastic_strain.into(), body.pieces.into()]));
+            let last = [body.plastic_strain.into(), body.pieces.into()];
+            table.push(head.into_iter().chain(values).chain(last).chain(self.loads.row(index)));
         }
     }
 
     /// Brings the files up to date.
     pub(super) fn save(&mut self) -> Result<()> {
         self.steps.save()?;
+        self.loads.save()?;
         for table in self.bodies.iter_mut().chain(&mut self.probes) {
             table.save()?;
         }

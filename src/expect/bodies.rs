@@ -200,6 +200,7 @@ order = [{ quantity = "moved_x", bodies = ["near", "far"] }, { quantity = "moved
             velocity: Vec::new(),
             pressure: Vec::new(),
             energy: Vec::new(),
+            owed: Vec::new(),
             particles: particles.filter(|particle| particle.position[0] < 1.3).collect(),
         }
     }

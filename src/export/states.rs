@@ -23,7 +23,7 @@ const MAGIC: &str = "brisance state 2";
 /// Bytes of a number in all arrays but the kinds.
 const WORD: usize = 4;
 /// Bytes of a slot of the grid, and of a particle.
-const SLOT: u64 = 24;
+const SLOT: u64 = 28;
 const PARTICLE: u64 = 160;
 
 /// Writes `states/NNNN.state`.
@@ -106,6 +106,9 @@ pub fn write(path: &Path, scene: &str, state: &Stored) -> Result<()> {
         ("energy", WORD, cast_slice(&state.energy)),
         ("kind", 1, &state.kind),
     ];
+    if !state.owed.is_empty() {
+        arrays.push(("owed", WORD, cast_slice(&state.owed)));
+    }
     if let Some(particles) = &state.particles {
         arrays.extend(particles.arrays().map(|(name, array)| (name, WORD, cast_slice(array))));
     }
@@ -169,6 +172,7 @@ fn parse(file: &[u8], most: u64) -> std::result::Result<(String, Stored), String
     };
     let conserved = typed(take("conserved")?)?;
     let (energy, kind) = (typed(take("energy")?)?, take("kind")?);
+    let owed = take("owed").map_or(Ok(Vec::new()), typed)?;
     let particles = match take("position") {
         Err(_) => None,
         Ok(position) => Some(StoredParticles {
@@ -179,7 +183,7 @@ fn parse(file: &[u8], most: u64) -> std::result::Result<(String, Stored), String
             stress: typed(take("stress")?)?,
         }),
     };
-    Ok((head.scene, Stored { time: head.time, step: head.step, conserved, energy, kind, particles }))
+    Ok((head.scene, Stored { time: head.time, step: head.step, conserved, energy, owed, kind, particles }))
 }
 
 fn typed<T: Pod>(bytes: Vec<u8>) -> std::result::Result<Vec<T>, String> {
@@ -220,7 +224,15 @@ mod tests {
         let rows = |count: usize| (0..count).map(|k| [k as f32, -0.0, f32::NAN, 1e-40]).collect::<Vec<_>>();
         let particles = StoredParticles::of([1, 1, 3, 3, 2].map(|n| rows(5 * n)));
         let (energy, kind) = ((0..27).map(|k| 1.0 / k as f32).collect(), (0..27).map(|k| k % 4).collect());
-        Stored { time: 0.1 + 0.2, step: 7, conserved: rows(27), energy, kind, particles: Some(particles) }
+        Stored {
+            time: 0.1 + 0.2,
+            step: 7,
+            conserved: rows(27),
+            energy,
+            owed: vec![0.5; 27],
+            kind,
+            particles: Some(particles),
+        }
     }
 
     /// As text, where NaN equals itself and -0 is not 0.

@@ -73,6 +73,11 @@ pub fn write_fields(path: &Path, snapshot: &Snapshot) -> Result<()> {
     file.array("pressure", gas_only(snapshot, &snapshot.pressure, f32::NAN));
     file.array("velocity", gas_only(snapshot, &snapshot.velocity, [f32::NAN; 3]));
     file.array("energy", gas_only(snapshot, &snapshot.energy, f32::NAN));
+    let gamma = -snapshot.gamma as f32;
+    let entropy: Vec<f32> =
+        snapshot.pressure.iter().zip(&snapshot.density).map(|(p, rho)| p * rho.powf(gamma)).collect();
+    file.array("entropy", gas_only(snapshot, &entropy, f32::NAN));
+    file.array("owed", snapshot.owed.clone());
     file.array("kind", snapshot.kind.clone());
     file.head.push_str("</CellData>\n</Piece>\n</ImageData>\n");
     atomic::write(path, |out| file.write(out))

@@ -35,6 +35,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "ledger.wgsl",
     "light.wgsl",
     "linear_algebra.wgsl",
+    "loads.wgsl",
     "materials/drucker_prager.wgsl",
     "materials/fixed_corotated.wgsl",
     "materials/hencky.wgsl",

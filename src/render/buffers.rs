@@ -11,6 +11,8 @@ pub struct SceneBuffers<'a> {
     pub conserved: &'a wgpu::Buffer,
     /// Total energy per volume, one f32 per slot.
     pub energy: &'a wgpu::Buffer,
+    /// Mass and momentum owed, one vec4 per slot; nothing where only the ring has books.
+    pub owed: Option<&'a wgpu::Buffer>,
     /// Cell words, one u32 per slot; bits 0 and 1 are the kind.
     pub cells: &'a wgpu::Buffer,
     /// The particles, if there are any.
@@ -43,6 +45,7 @@ impl<'a> SceneBuffers<'a> {
             grid: state.grid,
             conserved: state.gas.conserved.raw(),
             energy: state.gas.energy.raw(),
+            owed: (state.gas.owed_flow.len() == state.grid.slots()).then(|| state.gas.owed_flow.raw()),
             cells: state.interface.cells.raw(),
             particles: state.has_solids().then(|| ParticleBuffers {
                 count: particles.count,
@@ -62,6 +65,7 @@ pub(super) struct Sources {
     pub(super) grid: Grid,
     pub(super) conserved: wgpu::Buffer,
     pub(super) energy: wgpu::Buffer,
+    pub(super) owed: Option<wgpu::Buffer>,
     pub(super) cells: wgpu::Buffer,
     pub(super) particles: Option<ParticleSources>,
 }
@@ -91,6 +95,7 @@ impl From<&SceneBuffers<'_>> for Sources {
             grid: buffers.grid,
             conserved: buffers.conserved.clone(),
             energy: buffers.energy.clone(),
+            owed: buffers.owed.cloned(),
             cells: buffers.cells.clone(),
             particles,
         }

@@ -43,7 +43,8 @@ pub fn constants() -> String {
     let mut text = quantity::constants();
     let vector = |[red, green, blue]: [f32; 3]| format!("vec3f({red:?}, {green:?}, {blue:?})");
     let [top, bottom] = BACKGROUND.map(vector);
-    let _ = writeln!(text, "const KIND_GAS: u32 = {}u;\nconst KIND_WALL: u32 = {}u;", kind::GAS, kind::WALL);
+    let _ = writeln!(text, "const KIND_GAS: u32 = {}u;\nconst KIND_SOLID: u32 = {}u;", kind::GAS, kind::SOLID);
+    let _ = writeln!(text, "const KIND_WALL: u32 = {}u;", kind::WALL);
     let _ = writeln!(text, "const NO_VALUE: f32 = {NO_VALUE:e};\nconst SAMPLE_MARGIN: u32 = {SAMPLE_MARGIN}u;");
     let _ = writeln!(text, "const COLOR_COUNT: u32 = {TABLE_LENGTH}u;\nconst BRICK: u32 = {BRICK}u;");
     let _ = writeln!(text, "const LIGHT_CELLS: u32 = {LIGHT_CELLS}u;\nconst SHADOW_TEXELS: u32 = {SHADOW_TEXELS}u;");

@@ -307,6 +307,8 @@ impl Renderer {
             Field::Density => ambient.density,
             Field::Pressure => ambient.pressure,
             Field::Temperature => ambient.pressure / ambient.density,
+            Field::Entropy => quantity::entropy(ambient, self.scene.gas.gamma),
+            Field::Owed => 0.0,
             Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => range[0],
         };
         let neutral = ((neutral - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) as f32;

@@ -3,7 +3,7 @@
 use crate::scene::{Field, GasState, ParticleColor};
 
 /// All fields with the constants that shaders switch on.
-const CODES: [(&str, Field); 7] = [
+const CODES: [(&str, Field); 9] = [
     ("FIELD_DENSITY", Field::Density),
     ("FIELD_PRESSURE", Field::Pressure),
     ("FIELD_VELOCITY", Field::Velocity),
@@ -11,6 +11,8 @@ const CODES: [(&str, Field); 7] = [
     ("FIELD_SCHLIEREN", Field::Schlieren),
     ("FIELD_MACH", Field::Mach),
     ("FIELD_VORTICITY", Field::Vorticity),
+    ("FIELD_ENTROPY", Field::Entropy),
+    ("FIELD_OWED", Field::Owed),
 ];
 
 /// What the colours of particles mean, with the constants that shaders switch on.
@@ -79,7 +81,14 @@ pub fn caption(field: Field) -> &'static str {
         Field::Schlieren => "density gradient [kg/m^4]",
         Field::Mach => "Mach number",
         Field::Vorticity => "vorticity [1/s]",
+        Field::Entropy => "p/rho^gamma",
+        Field::Owed => "owed gas [kg/m\u{b3}]",
     }
+}
+
+/// p / rho^gamma of a state.
+pub(super) fn entropy(state: &GasState, gamma: f64) -> f64 {
+    state.pressure / state.density.powf(gamma)
 }
 
 /// Whether the range of a field always starts at zero.
@@ -91,7 +100,8 @@ fn starts_at_zero(field: Field) -> bool {
 pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamma: f64, spacing: f64) -> [f64; 2] {
     let sound_speed = (gamma * ambient.pressure / ambient.density).sqrt();
     let scale = match field {
-        Field::Density => ambient.density,
+        Field::Density | Field::Owed => ambient.density,
+        Field::Entropy => entropy(ambient, gamma),
         Field::Pressure => ambient.pressure,
         Field::Temperature => ambient.pressure / ambient.density,
         Field::Velocity => sound_speed,
@@ -101,7 +111,8 @@ pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamm
     };
     let smallest = SMALLEST_CONTRAST * scale;
     if seen[0] > seen[1] {
-        return if starts_at_zero(field) { [0.0, smallest] } else { [scale - smallest, scale + smallest] };
+        let middle = if field == Field::Owed { 0.0 } else { scale };
+        return if starts_at_zero(field) { [0.0, smallest] } else { [middle - smallest, middle + smallest] };
     }
     if starts_at_zero(field) {
         return [0.0, seen[1].max(smallest)];

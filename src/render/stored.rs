@@ -17,6 +17,8 @@ pub struct Stored {
     pub conserved: Vec<[f32; 4]>,
     /// Total energy per volume.
     pub energy: Vec<f32>,
+    /// Mass owed \[kg\]; empty where only the ring has books.
+    pub owed: Vec<f32>,
     /// Kind of each cell, see [`kind`].
     pub kind: Vec<u8>,
     /// The particles, if there are any.
@@ -82,9 +84,18 @@ impl Stored {
             step,
             conserved: elements(gpu, buffers.conserved, slots)?,
             energy: elements(gpu, buffers.energy, slots)?,
+            owed: match buffers.owed {
+                Some(owed) => elements::<[f32; 4]>(gpu, owed, slots)?.iter().map(|owed| owed[0]).collect(),
+                None => Vec::new(),
+            },
             kind: words.iter().map(|word| *word as u8 & kind::MASK).collect(),
             particles: particles.transpose()?,
         })
+    }
+
+    /// What is owed as the device has it; pictures read the mass alone.
+    fn owed_flow(&self) -> Vec<[f32; 4]> {
+        self.owed.iter().map(|mass| [*mass, 0.0, 0.0, 0.0]).collect()
     }
 
     /// Whether all arrays have the lengths that belong to a grid.
@@ -96,7 +107,7 @@ impl Stored {
             let count = own.position.len();
             own.arrays().iter().zip(ROWS).all(|((_, array), rows)| array.len() == rows * count)
         });
-        cells == [slots; 3] && particles
+        cells == [slots; 3] && (self.owed.is_empty() || self.owed.len() == slots) && particles
     }
 }
 
@@ -106,6 +117,7 @@ pub struct Loaded {
     grid: Grid,
     conserved: Buffer<[f32; 4]>,
     energy: Buffer<f32>,
+    owed: Option<Buffer<[f32; 4]>>,
     cells: Buffer<u32>,
     count: u32,
     particles: Option<[Buffer<[f32; 4]>; 5]>,
@@ -126,6 +138,10 @@ impl Loaded {
             grid,
             conserved: Buffer::from_slice(gpu, "conserved", &stored.conserved)?,
             energy: Buffer::from_slice(gpu, "energy", &stored.energy)?,
+            owed: match stored.owed.is_empty() {
+                true => None,
+                false => Some(Buffer::from_slice(gpu, "owed_flow", &stored.owed_flow())?),
+            },
             cells: Buffer::from_slice(gpu, "cells", &words)?,
             count: stored.particles.as_ref().map_or(0, |own| own.position.len() as u32),
             particles: particles.transpose()?,
@@ -145,20 +161,24 @@ impl Loaded {
                 stress: stress.raw(),
             });
         let (conserved, energy, cells) = (self.conserved.raw(), self.energy.raw(), self.cells.raw());
-        SceneBuffers { grid: self.grid, conserved, energy, cells, particles }
+        let owed = self.owed.as_ref().map(Buffer::raw);
+        SceneBuffers { grid: self.grid, conserved, energy, owed, cells, particles }
     }
 
     /// Puts another state of the same scene into the same buffers; false, and nothing done, if its sizes differ.
     #[must_use]
     pub fn fill(&self, gpu: &Gpu, stored: &Stored) -> bool {
         let count = stored.particles.as_ref().map_or(0, |own| own.position.len() as u32);
-        if !stored.fits(&self.grid) || count != self.count {
+        if !stored.fits(&self.grid) || count != self.count || stored.owed.is_empty() != self.owed.is_none() {
             return false;
         }
         let words: Vec<u32> = stored.kind.iter().map(|kind| u32::from(*kind)).collect();
         self.conserved.write(gpu, 0, &stored.conserved);
         self.energy.write(gpu, 0, &stored.energy);
         self.cells.write(gpu, 0, &words);
+        if let Some(owed) = &self.owed {
+            owed.write(gpu, 0, &stored.owed_flow());
+        }
         if let (Some(buffers), Some(own)) = (&self.particles, &stored.particles) {
             for (buffer, (_, array)) in buffers.iter().zip(own.arrays()) {
                 buffer.write(gpu, 0, array);

@@ -26,11 +26,15 @@ pub enum Field {
     Mach,
     /// Magnitude of the curl of the velocity `[s^-1]`.
     Vorticity,
+    /// Pressure over density to the power gamma, which no process lowers `[Pa (m^3/kg)^gamma]`.
+    Entropy,
+    /// Gas that a cell owes or, below zero, has too much of; of covered cells, what they hold `[kg m^-3]`.
+    Owed,
 }
 
 impl Field {
     /// All fields, in the order of menus.
-    pub const ALL: [Field; 7] = [
+    pub const ALL: [Field; 9] = [
         Field::Density,
         Field::Pressure,
         Field::Velocity,
@@ -38,6 +42,8 @@ impl Field {
         Field::Schlieren,
         Field::Mach,
         Field::Vorticity,
+        Field::Entropy,
+        Field::Owed,
     ];
 
     /// The field's keyword in scene files.
@@ -51,6 +57,8 @@ impl Field {
             Field::Schlieren => "schlieren",
             Field::Mach => "mach",
             Field::Vorticity => "vorticity",
+            Field::Entropy => "entropy",
+            Field::Owed => "owed",
         }
     }
 }

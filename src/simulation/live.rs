@@ -77,6 +77,7 @@ impl Simulation {
         let Some(kernels) = &self.detonate else { return Ok(0.0) };
         let energy = kernels.run(&self.gpu, &self.state, center, radius, energy)?;
         self.given[3] += energy;
+        self.blasts += energy;
         Ok(energy)
     }
 }

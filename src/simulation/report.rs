@@ -23,12 +23,35 @@ impl Simulation {
     /// Adds what gravity gave to the gas in a step: its kernel works on the gas that the advection has left, whose momentum is that of the
     /// step before but for what crossed the sides.
     pub(super) fn pull(&mut self, record: &StepRecord) {
-        let before = self.gas_before.replace(record.gas).unwrap_or(record.gas);
+        let before = std::mem::replace(&mut self.gas_before, record.gas.momentum.map(f64::from));
         let (dt, mass) = (f64::from(record.dt), f64::from(record.gas.mass));
         for (axis, g) in self.state.params.gravity.map(f64::from).into_iter().enumerate() {
             self.pulled[axis] += dt * mass * g;
-            self.pulled[3] += dt * g * (f64::from(before.momentum[axis]) + 0.5 * dt * mass * g);
+            self.pulled[3] += dt * g * (before[axis] + 0.5 * dt * mass * g);
         }
+    }
+
+    /// Adds what the gas gave to bodies and obstacles in a step.
+    pub(super) fn bear(&mut self, record: &StepRecord) {
+        let dt = f64::from(record.dt);
+        for (sum, load) in self.borne.iter_mut().zip(&record.loads) {
+            let [x, y, z] = load.force;
+            for (sum, rate) in sum.iter_mut().zip([x, y, z, load.power]) {
+                *sum += dt * f64::from(rate);
+            }
+        }
+    }
+
+    /// Impulse \[kg m s^-1\] and work \[J\] of the gas since the start: on each body, if one of them is held or driven, and on each obstacle.
+    #[must_use]
+    pub fn borne(&self) -> (&[[f64; 4]], &[[f64; 4]]) {
+        self.borne.split_at(self.state.load_count[0])
+    }
+
+    /// Energy of all blasts so far \[J\].
+    #[must_use]
+    pub fn blasts(&self) -> f64 {
+        self.blasts
     }
 
     /// Momentum \[kg m s^-1\] and energy \[J\] that gravity has given to the gas since the start.

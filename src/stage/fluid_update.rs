@@ -16,6 +16,8 @@ pub struct FluidUpdate {
     /// In scenes with bodies.
     parting: Option<[Bound; 2]>,
     energy: [Bound; 2],
+    /// What faces of bodies and obstacles bear.
+    loads: Option<Bound>,
     floor: [Bound; 2],
 }
 
@@ -28,11 +30,13 @@ impl FluidUpdate {
         let Parts { gpu, state } = parts;
         let follows = state.has_solids() && scene.late_flux();
         let late_flux = || state.bind(gpu, "late_flux.wgsl", "late_flux", &[], &[("LISTED", 1.0)]);
+        let loads = || state.bind(gpu, "loads.wgsl", "load_faces", &[], &[("LISTED", 1.0)]);
         let parting = || parts.both("parting.wgsl", "parting_surplus", &[], &[]);
         Ok(Self {
             late_flux: follows.then(late_flux).transpose()?,
             momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
             parting: state.has_solids().then(parting).transpose()?,
+            loads: (state.load_count != [0; 2]).then(loads).transpose()?,
             energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
             floor: parts.both("fluid_floor.wgsl", "fluid_floor", &[], &[])?,
         })
@@ -50,6 +54,9 @@ impl FluidUpdate {
             record_both(pass, state, "UPDATE", parting);
         }
         record_both(pass, state, "UPDATE", &self.energy);
+        if let Some(loads) = &self.loads {
+            pass.dispatch(loads, &extent(state, "UPDATE", Entry::Listed));
+        }
         control.record_cold(pass);
         let [plain, listed] = &self.floor;
         pass.dispatch(plain, &extent(state, "FLOOR", Entry::Awake));

@@ -205,6 +205,7 @@ pub fn source() -> String {
         ("HISTORY_WIDTH", HISTORY_WIDTH),
         ("BLOCKS", BLOCKS),
         ("BLOCK_GIVEN", BLOCK_GIVEN),
+        ("LOAD_NUMBERS", super::loads::LOAD_NUMBERS),
         ("NO_FAULT", NO_FAULT),
         ("MAX_ROUNDS", MAX_ROUNDS),
         ("NO_EXTRA", u32::MAX),

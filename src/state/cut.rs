@@ -45,6 +45,26 @@ pub fn gas_shares(grid: &Grid, geometry: &CutGeometry) -> Vec<f64> {
     shares
 }
 
+/// Momentum of the gas of the start `[density, momentum, energy]` \[kg m s^-1\].
+#[must_use]
+pub fn momentum(scene: &Scene, geometry: &CutGeometry, gas: &[[f64; 5]]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    let cells = gas.iter().zip(&geometry.walls).filter(|(_, wall)| !**wall);
+    for (gas, _) in cells {
+        for (sum, part) in sum.iter_mut().zip(&gas[1..4]) {
+            *sum += part;
+        }
+    }
+    let [nx, ny, _] = scene.domain.cells.map(|n| n as usize);
+    for cut in &geometry.cells {
+        let [x, y, z] = cut.cell.map(|k| k as usize);
+        for (sum, part) in sum.iter_mut().zip(&gas[x + nx * (y + ny * z)][1..4]) {
+            *sum -= (1.0 - cut.part.volume) * part;
+        }
+    }
+    sum.map(|sum| sum * scene.domain.cell_volume())
+}
+
 /// The entries, one after the other.
 #[must_use]
 pub fn table(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {

@@ -8,6 +8,7 @@ mod elastic_solve;
 pub mod gas;
 pub mod grid;
 pub mod interface;
+pub mod loads;
 pub mod memory;
 pub mod openings;
 pub mod params;
@@ -76,6 +77,14 @@ pub struct State {
     pub elastic_solve: Option<ElasticBuffers>,
     /// Partial results of reductions: [`constants::BLOCKS`] blocks of one vec4 per group.
     pub partials: Buffer<[f32; 4]>,
+    /// Sums of the loads of a step, and who owns each slot, see [`loads`].
+    pub loads: Buffer<u32>,
+    /// Loads of the latest steps.
+    pub load_history: Buffer<[f32; 4]>,
+    /// Bodies and obstacles whose loads are told.
+    pub load_count: [usize; 2],
+    /// Momentum of the gas at the start \[kg m s^-1\].
+    pub start_momentum: [f64; 3],
     /// Records of the latest steps.
     pub history: Buffer<[f32; 4]>,
     /// Slots that the probes look at.
@@ -112,12 +121,7 @@ impl State {
         let grid = Grid::of(domain);
         let slots = grid.slots();
         let start = ParticleStart::new(scene);
-        let per_cell = scene.bodies.iter().map(|body| f64::from(body.particles_per_cell).powi(domain.dimension as i32));
-        let limits = SolidLimits {
-            particles: start.len() as u32,
-            max_density: start.max_density,
-            per_cell: per_cell.fold(0.0, f64::max),
-        };
+        let limits = solid_limits(scene, &start);
         let capacity = extra_capacity(slots, start.len(), domain.dimension);
         let unknowns = slots + 2 * capacity;
         let (openings, supports) = (Openings::new(scene), Supports::new(scene));
@@ -129,11 +133,12 @@ impl State {
             ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity))
         };
         let table = cut::table(&grid, &geometry);
+        let load_count = loads::count(scene);
+        let count: usize = load_count.iter().sum();
         let mut overrides = params::overrides(scene, !start.is_empty());
+        overrides.extend(loads::overrides(scene, &start_gas, &openings));
+        overrides.extend(switches(&supports, table.is_empty()));
         overrides.push(("RULES_USED", f64::from(openings.rules_used())));
-        overrides.push(("DRIVEN", f64::from(u8::from(supports.driven))));
-        overrides.push(("FRICTION", f64::from(u8::from(supports.friction))));
-        overrides.push(("CUT", f64::from(u8::from(!table.is_empty()))));
         let state = State {
             grid,
             params,
@@ -154,20 +159,29 @@ impl State {
             pcg: PcgVectors::new(gpu, unknowns)?,
             elastic_solve: ElasticBuffers::new(gpu, scene, slots, &start)?,
             partials: Buffer::new(gpu, "partials", (constants::BLOCKS * constants::PARTIALS) as usize)?,
+            loads: Buffer::from_slice(gpu, "loads", &loads::start(scene, &grid, &geometry))?,
+            load_history: Buffer::new(gpu, "load_history", HISTORY as usize * loads::LOAD_WIDTH * count)?,
+            load_count,
+            start_momentum: cut::momentum(scene, &geometry, &start_gas),
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
             overrides,
         };
-        state.params_buffer.write(gpu, 0, &[params]);
-        state.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, woken: 1, ..Control::default() }]);
-        state.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
+        state.fill(gpu, scene);
         state.fill_gas(gpu, scene, &openings, &start_gas, &geometry.walls);
         if !table.is_empty() {
             state.interface.extra.write(gpu, 0, &cut::entries(&grid, &geometry));
             state.interface.extra.write(gpu, params.table_at as usize, &table);
         }
         Ok(state)
+    }
+
+    /// Parameters, control and materials.
+    fn fill(&self, gpu: &Gpu, scene: &Scene) {
+        self.params_buffer.write(gpu, 0, &[self.params]);
+        self.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, woken: 1, ..Control::default() }]);
+        self.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
     }
 
     /// Initial gas and kinds of all slots.
@@ -309,7 +323,26 @@ impl State {
             ("history", self.history.raw()),
             ("probe_cells", self.probe_cells.raw()),
             ("probe_history", self.probe_history.raw()),
+            ("loads", self.loads.raw()),
+            ("load_history", self.load_history.raw()),
         ]
+    }
+}
+
+/// What bodies and obstacles switch on.
+fn switches(supports: &Supports, whole: bool) -> [(&'static str, f64); 3] {
+    [("DRIVEN", supports.driven), ("FRICTION", supports.friction), ("CUT", !whole)]
+        .map(|(name, on)| (name, f64::from(u8::from(on))))
+}
+
+/// What the particles of the start add to the parameters.
+fn solid_limits(scene: &Scene, start: &ParticleStart) -> SolidLimits {
+    let dimension = scene.domain.dimension as i32;
+    let per_cell = scene.bodies.iter().map(|body| f64::from(body.particles_per_cell).powi(dimension));
+    SolidLimits {
+        particles: start.len() as u32,
+        max_density: start.max_density,
+        per_cell: per_cell.fold(0.0, f64::max),
     }
 }
 

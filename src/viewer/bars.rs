@@ -113,10 +113,19 @@ fn clock(ui: &mut Ui, view: &View, status: &Status) {
     let text = format!("t = {:.4e} s   step {}   {rate}{recorded}", status.time, status.step);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.label(RichText::new(text).monospace());
+        if !status.warnings.is_empty() {
+            let mark = RichText::new(warning_mark(status.warnings.len())).strong().color(theme::WRONG);
+            ui.label(mark).on_hover_text(status.warnings.join("\n"));
+        }
         let width = ui.available_width() - 8.0;
         if width > 40.0 {
             let share = (status.time / until).clamp(0.0, 1.0) as f32;
             ui.add(ProgressBar::new(share).desired_width(width).desired_height(8.0).fill(theme::ACCENT));
         }
     });
+}
+
+/// The mark of a run whose result is not to be trusted.
+fn warning_mark(count: usize) -> String {
+    if count == 1 { "1 warning".to_owned() } else { format!("{count} warnings") }
 }

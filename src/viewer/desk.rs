@@ -376,6 +376,7 @@ impl Desk {
             step_seconds: self.budget.step_seconds(),
             picture_seconds: self.budget.picture_seconds(),
             recorded: self.recording.as_ref().map(Recording::count),
+            warnings: session.map_or_else(Vec::new, Session::unexpected),
         };
         let mut outbox = lock(&self.outbox);
         outbox.status = status;

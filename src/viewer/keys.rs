@@ -47,7 +47,7 @@ pub const HELP: [(&str, &str); 16] = [
     ("Right", "one step; with Shift 16 steps"),
     ("Up, Down", "twice as fast, half as fast"),
     ("R", "restart the scene"),
-    ("1 to 7", "density, pressure, speed, temperature, schlieren, Mach number, vorticity"),
+    ("1 to 9", "density, pressure, speed, temperature, schlieren, Mach number, vorticity, entropy, owed gas"),
     ("F", "fit everything into the picture"),
     ("O", "parallel or perspective view (3D)"),
     ("A, D, W, X", "turn the view (3D) or shift it (2D)"),
@@ -87,7 +87,7 @@ pub fn action(key: Key, modifiers: Modifiers) -> Option<Action> {
     if modifiers.alt {
         return None;
     }
-    let numbers = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7];
+    let numbers = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
     if let Some(number) = numbers.iter().position(|number| *number == key) {
         return Field::ALL.get(number).copied().map(Action::Field);
     }
@@ -126,7 +126,8 @@ mod tests {
         assert_eq!(action(Key::ArrowRight, Modifiers::SHIFT), Some(Action::Step(16)));
         assert_eq!(plain(Key::Num1), Some(Action::Field(Field::Density)));
         assert_eq!(plain(Key::Num7), Some(Action::Field(Field::Vorticity)));
-        assert_eq!(plain(Key::Num9), None);
+        assert_eq!(plain(Key::Num9), Some(Action::Field(Field::Owed)));
+        assert_eq!(plain(Key::Num0), None);
         assert_eq!(action(Key::S, Modifiers::COMMAND), None, "Ctrl+S is not a screenshot");
         assert_eq!(action(Key::Q, Modifiers::COMMAND), Some(Action::Quit));
     }

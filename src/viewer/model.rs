@@ -144,6 +144,8 @@ pub struct Status {
     pub picture_seconds: f64,
     /// Pictures of the recording under way.
     pub recorded: Option<u32>,
+    /// What the run is warned of so far; expected warnings are left out.
+    pub warnings: Vec<String>,
 }
 
 /// A scene that has just been opened.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::model::{Look, Strike};
 use super::pick;
 use crate::diagnostics::StepRecord;
+use crate::expect::{self, Budget, Ending, Summary, Warning};
 use crate::gpu::{Detail, Gpu};
 use crate::render::{Picture, Renderer, SceneBuffers};
 use crate::scene::{Camera, Field, RenderSettings, Scene};
@@ -25,6 +26,10 @@ pub struct Session {
     finished: bool,
     /// Length of the last step \[s\].
     dt: f64,
+    /// Before the first step, and what the steps amount to.
+    start: Budget,
+    summary: Summary,
+    warnings: Vec<Warning>,
 }
 
 impl Session {
@@ -38,7 +43,9 @@ impl Session {
         let renderer = Renderer::new(gpu, &scene, &SceneBuffers::of(&simulation.state))?;
         simulation.set_target(scene.time.until)?;
         let particles = plan.particles;
-        Ok(Self { scene: Arc::new(scene), simulation, renderer, particles, finished: false, dt: 0.0 })
+        let (start, summary, warnings) = (Budget::read(&simulation, &scene, 0.0)?, Summary::default(), Vec::new());
+        let scene = Arc::new(scene);
+        Ok(Self { scene, simulation, renderer, particles, finished: false, dt: 0.0, start, summary, warnings })
     }
 
     /// The scene as it is now.
@@ -105,10 +112,11 @@ impl Session {
     /// # Errors
     /// [`Error::Diverged`]; driver errors.
     pub fn advance(&mut self, steps: u32, records: &mut Vec<StepRecord>) -> Result<()> {
+        let before = records.len();
         let outcome = self.simulation.advance_batch_of(records, steps);
-        self.note(records);
+        self.note(&records[before..]);
         self.finished = outcome?;
-        Ok(())
+        self.judge()
     }
 
     /// Runs one step with a stopwatch; milliseconds of its stages, none without timestamps.
@@ -116,14 +124,42 @@ impl Session {
     /// # Errors
     /// As [`Session::advance`].
     pub fn measure(&mut self, records: &mut Vec<StepRecord>) -> Result<Vec<(String, f64)>> {
+        let before = records.len();
         let (finished, times) = self.simulation.advance_timed(records, Detail::Stages)?;
-        self.note(records);
+        self.note(&records[before..]);
         self.finished = finished;
+        self.judge()?;
         Ok(times)
     }
 
     fn note(&mut self, records: &[StepRecord]) {
         self.dt = records.last().map_or(self.dt, |record| record.dt.into());
+        self.summary.add(records);
+    }
+
+    /// What is to be warned of: the books are closed at the end of the run, the rest follows from every step.
+    fn judge(&mut self) -> Result<()> {
+        if !self.finished {
+            self.warnings = expect::marks(&self.scene, &self.start, &self.summary);
+            return Ok(());
+        }
+        let end = Budget::read(&self.simulation, &self.scene, self.summary.stored_energy())?;
+        let snapshot = self.simulation.snapshot()?;
+        let ending = Ending { start: &self.start, end: &end, summary: &self.summary, snapshot: &snapshot };
+        self.warnings = expect::warnings(&self.scene, &ending);
+        Ok(())
+    }
+
+    /// Texts of the warnings that the scene does not expect.
+    #[must_use]
+    pub fn unexpected(&self) -> Vec<String> {
+        self.warnings.iter().filter(|warning| warning.expected.is_none()).map(ToString::to_string).collect()
+    }
+
+    /// What the run is warned of so far, see `docs/warnings.md`.
+    #[must_use]
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
     }
 
     /// Draws the state as it is now.
@@ -140,7 +176,10 @@ impl Session {
     /// # Errors
     /// [`Error::Usage`] if something differs that cannot change.
     pub fn change(&mut self, to: Scene, records: &mut Vec<StepRecord>) -> Result<()> {
+        let before = records.len();
         self.simulation.change(&self.scene, &to, records)?;
+        self.summary.add(&records[before..]);
+        self.start.start_entropy = self.simulation.state.start_entropy;
         self.scene = Arc::new(to);
         Ok(())
     }
@@ -157,7 +196,9 @@ impl Session {
         let center = pick::point(&ray, &grid, &particles)
             .ok_or_else(|| Error::Usage("the click is beside the domain; nothing was detonated".to_owned()))?;
         let mut blast = Blast { center, radius: strike.radius, energy: strike.energy };
+        let before = records.len();
         blast.energy = self.simulation.detonate(&blast, records)?;
+        self.summary.add(&records[before..]);
         Ok(blast)
     }
 

@@ -37,6 +37,7 @@ fn snapshot(dimension: u32) -> Snapshot {
         velocity: (0..count).map(|index| [number(index), 10.0, -1.0]).collect(),
         pressure: vec![1.0; count],
         energy: vec![2.5; count],
+        owed: (0..count).map(|index| 0.5 * number(index)).collect(),
         particles: (0..5).map(particle).collect(),
     }
 }

@@ -24,6 +24,7 @@ mod layering;
 mod layouts;
 mod listed_operator;
 mod live;
+mod loads;
 mod materials;
 mod numerics;
 mod preconditioner;
@@ -48,4 +49,5 @@ mod verify;
 #[cfg(feature = "viewer")]
 mod viewer;
 mod walls;
+mod warnings;
 mod words;

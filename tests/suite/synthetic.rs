@@ -90,6 +90,7 @@ impl State {
             grid: self.grid,
             conserved: self.conserved.raw(),
             energy: self.energy.raw(),
+            owed: None,
             cells: self.cells.raw(),
             particles: Some(ParticleBuffers {
                 count: self.particles,

@@ -1,0 +1,44 @@
+//! Loads of the gas on bodies and obstacles: not part of the method, but of every record of it.
+
+use super::time_step::slots;
+use super::{Parts, extent};
+use crate::error::Result;
+use crate::gpu::{Bound, Pass};
+use crate::state::State;
+use crate::state::constants::Entry;
+
+/// Kernels of the loads but for that of the faces, which belongs between those of `fluid_update`.
+#[derive(Debug)]
+pub struct Loads {
+    owners: Option<Bound>,
+    record: Bound,
+}
+
+impl Loads {
+    /// Binds, where something is held, driven or fixed.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(parts: Parts<'_>) -> Result<Option<Self>> {
+        let Parts { gpu, state } = parts;
+        if state.load_count == [0; 2] {
+            return Ok(None);
+        }
+        let bind = |entry: &str| state.bind(gpu, "loads.wgsl", entry, &[], &[("LISTED", 1.0)]);
+        let owners = if state.load_count[0] > 0 { Some(bind("load_owners")?) } else { None };
+        Ok(Some(Self { owners, record: bind("load_record")? }))
+    }
+
+    /// Which body has each covered slot.
+    pub fn record_owners(&self, pass: &mut Pass, state: &State) {
+        if let Some(owners) = &self.owners {
+            pass.dispatch(owners, &slots(state, "BEGIN"));
+        }
+    }
+
+    /// The loads of the step that has just ended, into their history ring.
+    pub fn record(&self, pass: &mut Pass, state: &State) {
+        pass.stage("totals");
+        pass.dispatch(&self.record, &extent(state, "END", Entry::Single));
+    }
+}
