@@ -116,9 +116,8 @@ fn body_near(c: vec3i) -> u32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn load_owners(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-               @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, groups, lane);
+fn load_owners(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
     if slot >= params.slots || kind_of(cells[slot]) != SOLID { return; }
     let at = owner_at(slot);
     atomicStore(&loads[at], (atomicLoad(&loads[at]) & 0xffff0000u) | body_near(cell_of(slot)));
@@ -196,9 +195,8 @@ fn mean_pressure(c: vec3i) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn load_faces(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u,
-              @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, groups, lane));
+fn load_faces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     let owners = atomicLoad(&loads[owner_at(slot)]);
