@@ -24,10 +24,6 @@
 @group(0) @binding(10) var<storage, read> affine: array<vec4f>;
 @group(0) @binding(11) var<storage, read> deformation: array<vec4f>;
 
-// Cells that an elastic wave may cross in an implicit step: the motion of a whole body is (c dt / dx)^2 times softer than that of
-// neighbouring nodes against each other, and single precision must still tell it from rounding.
-const IMPLICIT_COURANT = 1000.0;
-
 // Pressure differences below this share of p are noise of the solve, not a force.
 const PRESSURE_NOISE = 1e-6;
 

@@ -35,9 +35,12 @@ pub enum Error {
     /// A shader does not compile; file and line are those of the source folder.
     #[error("{0}")]
     Shader(String),
-    /// The driver reported an error or lost the device.
+    /// The device was lost, or its driver failed.
     #[error("GPU: {0}")]
     Gpu(String),
+    /// The graphics library refused what we asked it to do, or a part of ours another part: never the user's fault.
+    #[error("a bug in brisance {version}: {0}; please report it with the scene and `brisance devices`", version = env!("CARGO_PKG_VERSION"))]
+    Bug(String),
     /// A check of a scene's `[expect]` table or a gate of the verification failed.
     #[error("{0}")]
     Expectation(String),
@@ -71,7 +74,7 @@ impl Error {
             Error::Io { .. } | Error::Film(_) => 9,
             Error::Gpu(_) => 75,
             Error::Interrupted => 130,
-            Error::Shader(_) => 1,
+            Error::Shader(_) | Error::Bug(_) => 1,
         }
     }
 

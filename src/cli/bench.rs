@@ -12,7 +12,7 @@ use super::{interrupt, open_device, scenes};
 use crate::diagnostics::StepRecord;
 use crate::expect::{Budget, Summary};
 use crate::gpu::{Detail, Gpu, Times, add_time};
-use crate::numerics::copy_bandwidth;
+use crate::numerics::{Rounds, copy_bandwidth};
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::stage::traffic::{self, Load};
@@ -86,7 +86,7 @@ pub(super) fn bench(options: &BenchOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let before = options.compare.as_deref().map(earlier).transpose()?;
     let gpu = open_device(cli)?;
-    let copy = copy_bandwidth(&gpu)?;
+    let copy = copy_bandwidth(&gpu, Rounds::MANY)?;
     if options.sweep.is_empty() {
         let measured = measure(&load(options)?, &gpu, copy, options)?;
         return show(cli, &measured, |m| table::print(m, before.as_ref()));

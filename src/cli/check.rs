@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::json;
 
 use super::args::{CheckOptions, Cli};
+use super::duration::{Duration, rough_time};
 use super::init::not_an_input;
 use super::{open_device, scenes};
 use crate::export::png;
@@ -36,16 +37,17 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     }
     let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
-    if let Some(warning) = estimate.warning() {
+    for warning in estimate.warnings() {
         tell!("warning: {warning}");
     }
+    let duration = Duration::of(&scene, &plan, &estimate, cli);
     if cli.json {
         let groups: serde_json::Map<_, _> =
             plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes.into())).collect();
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "estimate": estimate, "overlaps": overlaps, "thin": thin, "scene": scene });
+            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "scene": scene });
         say!("{object}");
         return Ok(());
     }
@@ -73,19 +75,26 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     if let Some(largest) = plan.largest() {
         say!("#   largest buffer: {}, {}", largest.name, size(largest.bytes));
     }
-    say_estimate(&estimate);
+    say_estimate(&estimate, duration.as_ref());
     say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
     Ok(())
 }
 
 /// What a run will take, for people.
-fn say_estimate(estimate: &Estimate) {
+fn say_estimate(estimate: &Estimate, duration: Option<&Duration>) {
     let solid = match estimate.solid_sound_speed {
         0.0 => String::new(),
         speed => format!(", {} m/s in bodies", plain(speed)),
     };
     say!("# sound      {} m/s in gas{solid}", plain(estimate.gas_sound_speed));
     say!("# steps      about {} of {} s, as at the start", plain(estimate.steps.ceil()), plain(estimate.step));
+    match duration {
+        Some(Duration { device, seconds }) => say!(
+            "# time       very roughly {} on {device}, pictures apart: from how fast it copies memory; a third or thrice as long is possible",
+            rough_time(*seconds)
+        ),
+        None => say!("# time       not estimated: no device"),
+    }
     say!("# disk       about {}", size(estimate.disk_bytes as u64));
 }
 

@@ -1,5 +1,6 @@
-//! Ctrl-C, SIGTERM and SIGHUP: the first asks to stop after the submission at work, with tables and report; a second ends at once. Where
-//! nobody asks for wishes, as in set-up and while kernels compile, the first one ends at once, too, after the last words.
+//! Ctrl-C and SIGHUP ask to stop after the submission at work, with every frame that is drawn, film, tables and report. SIGTERM means now:
+//! a batch system follows with SIGKILL, so frames that wait and films are given up; tables and report are written. A second signal ends at
+//! once. Where nobody asks for wishes, as in set-up and while kernels compile, the first one ends at once, too, after the last words.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,8 +8,10 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Mutex, Once, PoisonError};
 
 use crate::Error;
+use crate::export::video;
 
 static SIGNALS: AtomicU32 = AtomicU32::new(0);
+static URGENT: AtomicBool = AtomicBool::new(false);
 static HEARD: AtomicBool = AtomicBool::new(false);
 static LISTEN: Once = Once::new();
 static LAST_WORDS: Mutex<BTreeMap<PathBuf, LastWords>> = Mutex::new(BTreeMap::new());
@@ -32,6 +35,11 @@ pub(super) fn wish() -> bool {
     SIGNALS.load(Ordering::SeqCst) > 0
 }
 
+/// Whether to stop now: whatever takes more than a moment is left out.
+pub(super) fn urgent() -> bool {
+    URGENT.load(Ordering::SeqCst)
+}
+
 /// What to do about a folder before the process ends at once; with none nothing any more.
 pub(super) fn last_words(folder: &Path, words: Option<LastWords>) {
     let mut all = LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner);
@@ -46,18 +54,27 @@ fn start() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     // Without a handler a signal still stops the process; files are renamed into place, so those there are complete.
     let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP]) else { return };
-    std::thread::spawn(move || signals.forever().for_each(|_| signal()));
+    std::thread::spawn(move || signals.forever().for_each(|number| signal(number == SIGTERM)));
 }
 
 #[cfg(not(unix))]
 fn start() {
-    let _ = ctrlc::set_handler(signal);
+    let _ = ctrlc::set_handler(|| signal(false));
 }
 
-fn signal() {
+fn signal(urgent: bool) {
+    URGENT.fetch_or(urgent, Ordering::SeqCst);
     let first = SIGNALS.fetch_add(1, Ordering::SeqCst) == 0;
     if first && HEARD.load(Ordering::SeqCst) {
-        tell!("\ninterrupted: stopping after this step; once more ends at once");
+        match urgent {
+            true => {
+                video::end_all();
+                tell!(
+                    "\nterminated: tables and report after this step, no frames that wait, no film; once more ends at once"
+                );
+            }
+            false => tell!("\ninterrupted: stopping after this step; once more ends at once"),
+        }
         return;
     }
     if let Ok(mut all) = LAST_WORDS.try_lock() {
@@ -67,8 +84,9 @@ fn signal() {
     end(Error::Interrupted.exit_code());
 }
 
-/// Ends the process; threads at work, such as a driver that compiles, are not waited for.
+/// Ends the process and those that it started; threads at work, such as a driver that compiles, are not waited for.
 fn end(code: u8) -> ! {
+    video::end_all();
     #[cfg(unix)]
     signal_hook::low_level::exit(code.into());
     #[cfg(not(unix))]

@@ -20,6 +20,7 @@ macro_rules! tell {
 mod args;
 mod bench;
 mod check;
+mod duration;
 mod film;
 mod folder;
 mod gallery;
@@ -76,10 +77,10 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Starts the program again with a folder that graphics drivers ask for and complain about, where there is none.
+/// Starts the program again with a folder that graphics drivers ask for and complain about, where there is none by a whole path.
 fn with_runtime_folder() {
     #[cfg(target_os = "linux")]
-    if std::env::var_os("XDG_RUNTIME_DIR").is_none()
+    if !std::env::var_os("XDG_RUNTIME_DIR").is_some_and(|folder| std::path::Path::new(&folder).is_absolute())
         && let Ok(program) = std::env::current_exe()
     {
         use std::os::unix::process::CommandExt;
@@ -122,6 +123,7 @@ fn kind(error: &Error) -> &'static str {
         Error::Io { .. } => "io",
         Error::Film(_) => "film",
         Error::Gpu(_) => "gpu",
+        Error::Bug(_) => "bug",
         Error::Interrupted => "interrupted",
         Error::Shader(_) => "shader",
     }

@@ -202,6 +202,9 @@ impl<'a> Run<'a> {
 
     /// Draws a frame and hands it to the writer with the steps that led to it.
     fn frame(&mut self, index: u32, time: f64) -> Result<()> {
+        if interrupt::urgent() {
+            return Err(Error::Interrupted);
+        }
         let start = Instant::now();
         let pictures = self.renderer.as_mut().map(|renderer| renderer.render(time)).transpose()?.unwrap_or_default();
         let snapshot = self.needs.snapshot.then(|| self.simulation.snapshot()).transpose()?;

@@ -18,6 +18,7 @@ use crate::{Error, Result};
 /// Cases that run at a time, at most, on a GPU and on a processor.
 const AT_A_TIME: [usize; 2] = [4, 16];
 /// How many threads Mesa's software driver has per device; with 0 it computes in the thread that asks.
+#[cfg(unix)]
 const DRIVER_THREADS: &str = "LP_NUM_THREADS";
 
 /// Runs the suite and judges. What was found before an error or an interruption is written all the same.

@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::folder::Folder;
+use super::interrupt;
 use super::tables::Tables;
 use crate::Result;
 use crate::diagnostics::StepRecord;
@@ -135,7 +136,7 @@ fn work(messages: &Receiver<Message>, files: &Files, scene: &Scene) -> Result<Wr
         if let Some(tables) = &mut tables {
             tables.add_steps(&records);
         }
-        if let Some(frame) = frame {
+        if let Some(frame) = frame.filter(|_| !interrupt::urgent()) {
             let FrameToWrite { index, time, step, pictures, snapshot, stored } = &frame;
             if let (Some(tables), Some(snapshot)) = (&mut tables, snapshot) {
                 tables.add_bodies(*index, *time, snapshot);

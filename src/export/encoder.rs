@@ -2,7 +2,9 @@
 
 use std::io::{Read, Write};
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -46,12 +48,33 @@ fn ended(process: &mut Child, patience: Duration) -> Option<bool> {
 
 /// Ends a process, with those that it started: it has a group of its own.
 fn end(process: &mut Child) {
-    #[cfg(unix)]
-    if let Some(group) = i32::try_from(process.id()).ok().and_then(rustix::process::Pid::from_raw) {
-        let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
-    }
+    end_group(process.id());
     let _ = process.kill();
     let _ = process.wait();
+}
+
+fn end_group(leader: u32) {
+    #[cfg(unix)]
+    if let Some(group) = i32::try_from(leader).ok().and_then(rustix::process::Pid::from_raw) {
+        let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
+    }
+    #[cfg(not(unix))]
+    let _ = leader;
+}
+
+/// Encoders at work.
+static AT_WORK: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+/// Whether none may work any more.
+static OVER: AtomicBool = AtomicBool::new(false);
+
+fn at_work() -> std::sync::MutexGuard<'static, Vec<u32>> {
+    AT_WORK.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Ends every encoder, and those to come: their films are lost.
+pub(super) fn end_all() {
+    OVER.store(true, Ordering::SeqCst);
+    at_work().iter().for_each(|leader| end_group(*leader));
 }
 
 /// Ctrl-C in the terminal is for us, not for those that we start.
@@ -75,6 +98,10 @@ impl Encoder {
     pub(super) fn start(mut command: Command) -> std::io::Result<Self> {
         let mut process =
             alone(&mut command).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn()?;
+        at_work().push(process.id());
+        if OVER.load(Ordering::SeqCst) {
+            end_group(process.id());
+        }
         let (pictures, queue) = sync_channel(QUEUE);
         let feeding = process.stdin.take().map(|pipe| std::thread::spawn(move || feed(pipe, &queue)));
         let said = process.stderr.take().map(|errors| std::thread::spawn(move || hear(errors)));
@@ -120,6 +147,7 @@ impl Drop for Encoder {
         if matches!(self.process.try_wait(), Ok(None)) {
             end(&mut self.process);
         }
+        at_work().retain(|leader| *leader != self.process.id());
     }
 }
 
@@ -141,7 +169,7 @@ fn hear(mut errors: impl Read) -> String {
     }
     let text = String::from_utf8_lossy(&kept);
     let lines: Vec<&str> = text.lines().collect();
-    lines[lines.len().saturating_sub(LINES)..].join("\n")
+    lines[lines.len().saturating_sub(LINES)..].join(" / ")
 }
 
 #[cfg(test)]

@@ -15,6 +15,11 @@ pub fn is_possible() -> bool {
     encoder::answers()
 }
 
+/// Ends every encoder, and those to come, where there is no time to wait for films.
+pub fn end_all() {
+    encoder::end_all();
+}
+
 /// Writes the first picture of each view to a film: `film.mp4` for the scene's own look, `film_VIEW.mp4` for the others.
 #[derive(Debug)]
 pub struct VideoExporter {
@@ -119,7 +124,9 @@ impl Film {
     /// Waits for the encoder; where the film is, or why there is none.
     fn finish(mut self) -> std::result::Result<String, String> {
         let ended = self.encoder.take().map_or(Ok(()), Encoder::finish);
-        let reason = self.failed.take().map(|reason| format!("{reason}; {}", ended.as_ref().err().unwrap_or(&reason)));
+        let said =
+            ended.as_ref().err().filter(|said| !said.is_empty()).map_or_else(String::new, |said| format!("; {said}"));
+        let reason = self.failed.take().map(|reason| reason + &said);
         let moved = match reason {
             None => ended.and_then(|()| std::fs::rename(&self.draft, &self.path).map_err(|error| error.to_string())),
             Some(reason) => Err(reason),

@@ -89,15 +89,18 @@ struct Faults {
 #[derive(Debug)]
 enum Fault {
     OutOfMemory(String),
-    Other(String),
+    /// Of the driver itself.
+    Failed(String),
+    /// What was asked for breaks a rule.
+    Refused(String),
 }
 
 impl Gpu {
     /// Opens the best device, or the one that `options` name.
     ///
     /// # Errors
-    /// [`Error::NoAdapter`] if there is no Vulkan, Metal or DirectX 12 device or none that matches, [`Error::Gpu`] if the
-    /// driver refuses to open it.
+    /// [`Error::NoAdapter`] if there is no Vulkan, Metal or DirectX 12 device, none that matches, or its driver refuses to
+    /// open it.
     pub fn new(options: &GpuOptions) -> Result<Gpu> {
         let instance = new_instance();
         let wanted = options.device.clone().or_else(|| environment("BRISANCE_DEVICE"));
@@ -111,7 +114,7 @@ impl Gpu {
             required_limits: limits.clone(),
             ..Default::default()
         }))
-        .map_err(|error| Error::Gpu(format!("{} cannot be opened: {error}", info.name)))?;
+        .map_err(|error| Error::NoAdapter(format!("{} cannot be opened: {error}", info.name)))?;
         let faults = Arc::new(Mutex::new(Faults::default()));
         watch(&device, &faults);
         let folder = match options.shaders.clone().or_else(|| environment("BRISANCE_SHADERS").map(PathBuf::from)) {
@@ -156,23 +159,29 @@ impl Gpu {
     /// Hands out the first error the driver reported since the last call, if any.
     ///
     /// # Errors
-    /// [`Error::DoesNotFit`] if memory ran out, [`Error::Gpu`] otherwise; a lost device stays an error for ever.
+    /// [`Error::DoesNotFit`] if memory ran out, [`Error::Bug`] if a call was refused, [`Error::Gpu`] otherwise; a lost device stays an
+    /// error for ever.
     pub fn check(&self) -> Result<()> {
-        let mut faults = lock(&self.faults);
-        if let Some(reason) = &faults.lost {
+        let first = lock(&self.faults).first.take();
+        if matches!(first, Some(Fault::Refused(_))) {
+            // a device that is gone refuses calls before it says that it is gone
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
+        if let Some(reason) = &lock(&self.faults).lost {
             return Err(Error::Gpu(format!(
                 "{} was lost: {reason}; start again, or use another --device",
                 self.info.name
             )));
         }
-        match faults.first.take() {
+        match first {
             None => Ok(()),
             Some(Fault::OutOfMemory(text)) => Err(Error::DoesNotFit(format!(
                 "{} is out of memory ({text}) with {:.2} GiB allocated; use a coarser resolution or another --device",
                 self.info.name,
                 self.allocated_bytes() as f64 / GIB
             ))),
-            Some(Fault::Other(text)) => Err(Error::Gpu(text)),
+            Some(Fault::Failed(text)) => Err(Error::Gpu(format!("{} failed: {text}", self.info.name))),
+            Some(Fault::Refused(text)) => Err(Error::Bug(format!("the graphics library refused a call: {text}"))),
         }
     }
 
@@ -279,21 +288,34 @@ const NO_ADAPTER: &str =
   Arch:           pacman -S vulkan-swrast vulkan-icd-loader
   Alpine:         apk add mesa-vulkan-swrast vulkan-loader";
 
+/// What wgpu says of a device that is gone.
+const GONE: &str = "device is lost";
+
+/// A message of several lines in one.
+fn one_line(text: &str) -> String {
+    text.lines().map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" / ")
+}
+
 /// Keeps the device's first error and its loss instead of panicking.
 fn watch(device: &wgpu::Device, faults: &Arc<Mutex<Faults>>) {
     let errors = Arc::clone(faults);
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        let text = one_line(&error.to_string());
         let fault = match &error {
             wgpu::Error::OutOfMemory { source } => Fault::OutOfMemory(source.to_string()),
-            wgpu::Error::Validation { .. } | wgpu::Error::Internal { .. } => Fault::Other(error.to_string()),
+            // calls to a device that is gone break a rule, too
+            wgpu::Error::Validation { .. } if text.contains(GONE) => {
+                lock(&errors).lost.get_or_insert(text);
+                return;
+            }
+            wgpu::Error::Validation { .. } => Fault::Refused(text),
+            wgpu::Error::Internal { .. } => Fault::Failed(text),
         };
         lock(&errors).first.get_or_insert(fault);
     }));
     let losses = Arc::clone(faults);
+    // The last owner letting go of the device is a loss that nobody hears of.
     device.set_device_lost_callback(move |reason, text| {
-        // The last owner letting go of the device is not a loss.
-        if reason != wgpu::DeviceLostReason::Destroyed {
-            lock(&losses).lost.get_or_insert(text);
-        }
+        lock(&losses).lost.get_or_insert(format!("{reason:?} {text}").to_lowercase());
     });
 }

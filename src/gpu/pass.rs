@@ -168,7 +168,7 @@ impl Pass {
     /// Submits, waits, and returns the milliseconds of each stage in order of first appearance; equal names are added up.
     ///
     /// # Errors
-    /// As [`Pass::submit`]; [`Error::Gpu`] if there were more stages than timestamps.
+    /// As [`Pass::submit`]; [`Error::Bug`] if there were more stages than timestamps.
     pub fn submit_timed(mut self) -> Result<Times> {
         self.stage("rest");
         let Pass { gpu, mut encoder, clock, .. } = self.finish();
@@ -181,7 +181,7 @@ impl Pass {
             }
         };
         if spans.len() > MAX_SPANS {
-            return Err(Error::Gpu(format!("{} timed stages, at most {MAX_SPANS} in one submission", spans.len())));
+            return Err(Error::Bug(format!("{} timed stages, at most {MAX_SPANS} in one submission", spans.len())));
         }
         let count = 2 * spans.len() as u32;
         let size = u64::from(count) * 8;

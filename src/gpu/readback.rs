@@ -17,10 +17,10 @@ pub fn read<T: Pod>(gpu: &Gpu, buffer: &Buffer<T>) -> Result<Vec<T>> {
 /// The `len` elements from `first` on.
 ///
 /// # Errors
-/// As [`read`], and [`Error::Gpu`] if the range leaves the buffer.
+/// As [`read`], and [`Error::Bug`] if the range leaves the buffer.
 pub fn read_range<T: Pod>(gpu: &Gpu, buffer: &Buffer<T>, first: usize, len: usize) -> Result<Vec<T>> {
     if first + len > buffer.len() {
-        return Err(Error::Gpu(format!("elements {first}..{} of a buffer of {} elements", first + len, buffer.len())));
+        return Err(Error::Bug(format!("elements {first}..{} of a buffer of {} elements", first + len, buffer.len())));
     }
     if len == 0 {
         return Ok(Vec::new());

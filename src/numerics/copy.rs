@@ -7,25 +7,36 @@ use crate::gpu::{Buffer, Constants, Extent, Gpu, Kernel, Pass};
 
 /// Length of each array, in vec4f: 64 MiB, more than caches hold; on GPUs, whose caches are larger, four times as much.
 const LENGTH: usize = 4 << 20;
-/// Copies per submission, so that its launch does not count.
-const COPIES: u32 = 8;
-/// Submissions, of which the fastest counts: others share the machine.
-const ROUNDS: u32 = 5;
+/// How often the array is copied.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounds {
+    /// Copies per submission, so that its launch does not count.
+    copies: u32,
+    /// Submissions after the first, of which the fastest counts: others share the machine.
+    rounds: u32,
+}
+
+impl Rounds {
+    /// For measurements.
+    pub const MANY: Self = Self { copies: 8, rounds: 5 };
+    /// For estimates.
+    pub const FEW: Self = Self { copies: 2, rounds: 2 };
+}
 
 /// Bytes read and written per second by a kernel that copies an array `[GB/s]`.
 ///
 /// # Errors
 /// If the device has no room for two arrays, or a driver error.
-pub fn copy_bandwidth(gpu: &Gpu) -> Result<f64> {
+pub fn copy_bandwidth(gpu: &Gpu, Rounds { copies, rounds }: Rounds) -> Result<f64> {
     let length = if gpu.is_software() { LENGTH } else { 4 * LENGTH };
     let from = Buffer::<[f32; 4]>::new(gpu, "copy source", length)?;
     let to = Buffer::<[f32; 4]>::new(gpu, "copy target", length)?;
     let kernel = Kernel::new(gpu, "copy.wgsl", "copy", &Constants::default())?;
     let bound = kernel.bind(gpu, &[("from_here", from.raw()), ("to_there", to.raw())])?;
     let mut fastest = f64::INFINITY;
-    for _ in 0..=ROUNDS {
+    for _ in 0..=rounds {
         let mut pass = Pass::new(gpu, "copy");
-        for _ in 0..COPIES {
+        for _ in 0..copies {
             pass.dispatch(&bound, &Extent::Threads(length as u64));
         }
         let start = Instant::now();
@@ -33,5 +44,5 @@ pub fn copy_bandwidth(gpu: &Gpu) -> Result<f64> {
         gpu.wait(Some(submission))?;
         fastest = fastest.min(start.elapsed().as_secs_f64());
     }
-    Ok(f64::from(COPIES) * (from.size_bytes() + to.size_bytes()) as f64 / (1e9 * fastest))
+    Ok(f64::from(copies) * (from.size_bytes() + to.size_bytes()) as f64 / (1e9 * fastest))
 }

@@ -5,7 +5,7 @@ pub mod pcg;
 mod reduce;
 mod scan;
 
-pub use copy::copy_bandwidth;
+pub use copy::{Rounds, copy_bandwidth};
 pub use pcg::{Block, Dots, Layout, Levels, Pcg, PcgControl, PcgVectors, Runs, Width};
 pub use reduce::{Operator, Reduce};
 pub use scan::Scan;

@@ -23,11 +23,11 @@ impl Scan {
     /// elements or more gets the sum of all in `output[n]`; elements after it stay as they are.
     ///
     /// # Errors
-    /// [`Error::Gpu`] if a buffer is shorter than `n`; those of [`Buffer::new`] and [`Kernel::new`].
+    /// [`Error::Bug`] if a buffer is shorter than `n`; those of [`Buffer::new`] and [`Kernel::new`].
     pub fn new(gpu: &Gpu, input: &Buffer<u32>, output: &Buffer<u32>, n: u32) -> Result<Scan> {
         if input.len() < n as usize || output.len() < n as usize {
             let (input, output) = (input.len(), output.len());
-            return Err(Error::Gpu(format!("a scan of {n} elements from a buffer of {input} into one of {output}")));
+            return Err(Error::Bug(format!("a scan of {n} elements from a buffer of {input} into one of {output}")));
         }
         let outputs = n + u32::from(output.len() > n as usize);
         Scan::over(gpu, input.raw(), output.raw(), n, outputs)

@@ -1,6 +1,12 @@
 //! What a run of a scene will take, about: speeds of the start, the step, the number of steps, bytes on the disk.
 
-use super::{Boundary, GasState, Scene};
+use crate::math::plain;
+
+use super::{Boundary, Elasticity, GasState, Scene};
+
+/// Cells that an elastic wave may cross in an implicit step: the motion of a whole body is (c dt / dx)^2 times softer than that of
+/// neighbouring nodes against each other, and single precision must still tell it from rounding.
+pub const IMPLICIT_COURANT: f64 = 1000.0;
 
 /// Runs of more steps will hardly end.
 const MANY_STEPS: f64 = 1e6;
@@ -21,17 +27,30 @@ pub struct Estimate {
     pub step: f64,
     /// Steps of the run, if they stay as long.
     pub steps: f64,
+    /// Elastic sub-steps per step; 1 without bodies.
+    pub substeps: f64,
+    /// How many times as long the step would be but for the limit of implicit elasticity, [`IMPLICIT_COURANT`]; 1 where that does not act.
+    pub implicit_cap: f64,
     /// Bytes of pictures, fields and states.
     pub disk_bytes: f64,
 }
 
 impl Estimate {
-    /// Why the run will not end, if it will not.
+    /// What will surprise: a run that will not end, and implicit steps that are shorter than they seem.
     #[must_use]
-    pub fn warning(&self) -> Option<String> {
-        (self.steps > MANY_STEPS).then(|| {
-            format!("about {:.1e} steps: the run will hardly end; choose larger cells, a shorter time.until or softer bodies", self.steps)
-        })
+    pub fn warnings(&self) -> Vec<String> {
+        let endless = (self.steps > MANY_STEPS).then(|| {
+            let steps = plain(self.steps);
+            format!("about {steps} steps: the run will hardly end; choose larger cells, a shorter time.until or softer bodies")
+        });
+        let capped = (self.implicit_cap > 1.0).then(|| {
+            format!(
+                "numerics.elasticity = \"implicit\" is capped: in a step an elastic wave crosses at most {IMPLICIT_COURANT} cells, so steps are \
+                 {} times shorter than the gas asks for; choose softer bodies or larger cells",
+                plain(self.implicit_cap)
+            )
+        });
+        endless.into_iter().chain(capped).collect()
     }
 }
 
@@ -59,8 +78,14 @@ impl Scene {
         // gas that expands from rest becomes about as fast as its sound
         let carried = time.cfl * spacing / speed.max(sound);
         let heard = time.max_courant * spacing / sound;
-        let strained = self.numerics.elastic_cfl * spacing * f64::from(self.numerics.max_substeps) / solid;
-        let step = time.fixed_step.unwrap_or(carried.min(heard).min(strained));
+        let implicit = self.numerics.elasticity == Elasticity::Implicit;
+        let substep = self.numerics.elastic_cfl * spacing / solid;
+        let strained =
+            if implicit { IMPLICIT_COURANT * spacing / solid } else { substep * f64::from(self.numerics.max_substeps) };
+        let free = carried.min(heard);
+        let step = time.fixed_step.unwrap_or(free.min(strained));
+        let substeps = if implicit { 1.0 } else { (step / substep).ceil().max(1.0) };
+        let implicit_cap = if implicit && time.fixed_step.is_none() { (free / strained).max(1.0) } else { 1.0 };
         let frames = f64::from(time.frames) + 1.0;
         let pixels = f64::from(self.render.size[0]) * f64::from(self.render.size[1]);
         let pictures = (1 + self.render.views.len()) as f64 * self.output.fields.len().max(1) as f64;
@@ -69,6 +94,6 @@ impl Scene {
         let steps = time.until / step;
         // one row of the table of steps has about 600 bytes
         let disk_bytes = frames * (PNG * 3.0 * pixels * pictures + stored) + 600.0 * steps;
-        Estimate { gas_sound_speed: sound, solid_sound_speed: solid, step, steps, disk_bytes }
+        Estimate { gas_sound_speed: sound, solid_sound_speed: solid, step, steps, substeps, implicit_cap, disk_bytes }
     }
 }

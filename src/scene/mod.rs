@@ -66,7 +66,7 @@ pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
 pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
-pub use estimate::Estimate;
+pub use estimate::{Estimate, IMPLICIT_COURANT};
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
 pub use mesh::{Mesh, Up};

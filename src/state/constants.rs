@@ -216,6 +216,7 @@ pub fn source() -> String {
     let _ = writeln!(text, "const LIGHTEST_NODE = {:?};", super::params::LIGHTEST_NODE);
     let [line, plane, space] = super::params::LIGHTEST_BESIDE;
     let _ = writeln!(text, "const LIGHTEST_BESIDE = vec3f({line:?}, {plane:?}, {space:?});");
+    let _ = writeln!(text, "const IMPLICIT_COURANT = {:?};", crate::scene::IMPLICIT_COURANT);
     let _ = writeln!(text, "const STICK = {:?};", super::supports::STICK);
     text.push_str(crate::numerics::pcg::source());
     text

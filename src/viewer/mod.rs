@@ -41,12 +41,10 @@ use worker::Worker;
 /// they took. Without a `pace` a scene takes its time.
 ///
 /// # Errors
-/// [`Error::Usage`] if there is no display; [`Error::NoAdapter`] and [`Error::Gpu`] if nothing can draw to the window.
+/// [`Error::Usage`] if there is no display; [`Error::NoAdapter`] if nothing can draw to the window; [`Error::Gpu`] if its device is lost again and
+/// again.
 pub fn run(options: GpuOptions, request: Option<Request>, pace: Option<Pace>) -> Result<(u64, f64)> {
-    let no_window = |error: &dyn std::fmt::Display| {
-        Error::Usage(format!("no window can be opened: {error}; `brisance run SCENE` works without one"))
-    };
-    let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|error| no_window(&error))?;
+    let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|error| no_window(&error.to_string()))?;
     let proxy = event_loop.create_proxy();
     let worker = Worker::start(options, move || {
         // The loop has ended: nobody looks any more.
@@ -56,6 +54,25 @@ pub fn run(options: GpuOptions, request: Option<Request>, pace: Option<Pace>) ->
     let mut app = App::new(Ui::new(worker, request, pace), display);
     let ended = event_loop.run_app(&mut app);
     let ran = app.outcome()?;
-    ended.map_err(|error| no_window(&error))?;
+    ended.map_err(|error| no_window(&error.to_string()))?;
     Ok(ran)
+}
+
+/// Why there is no window, and what works without one. The window library's messages begin with places in its sources.
+fn no_window(message: &str) -> Error {
+    let set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let places = ["DISPLAY", "WAYLAND_DISPLAY"];
+    let reason = if cfg!(target_os = "linux") && !places.iter().any(|name| set(&name)) {
+        format!("there is no display: neither {} is set", places.join(" nor "))
+    } else {
+        message
+            .rsplit_once(".rs:")
+            .map_or(message, |(_, rest)| rest.trim_start_matches(|c: char| c.is_ascii_digit() || c == ':'))
+            .trim()
+            .to_owned()
+    };
+    Error::Usage(format!(
+        "no window can be opened: {}; `brisance run SCENE` works without one",
+        reason.trim_end_matches('.')
+    ))
 }

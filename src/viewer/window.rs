@@ -41,7 +41,7 @@ impl Painter {
     /// Opens a device that can draw to the window.
     ///
     /// # Errors
-    /// [`Error::NoAdapter`] if there is none; [`Error::Gpu`] if it does not work.
+    /// [`Error::NoAdapter`] if there is none that works.
     pub(super) fn new(window: Arc<Window>, display: OwnedDisplayHandle) -> Result<Self> {
         let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(Box::new(display));
         let instance = wgpu::Instance::new(descriptor);
@@ -56,13 +56,13 @@ impl Painter {
             required_limits: adapter.limits(),
             ..Default::default()
         }))
-        .map_err(|error| Error::Gpu(format!("the window's device cannot be opened: {error}; {HEADLESS}")))?;
+        .map_err(|error| Error::NoAdapter(format!("the window's device cannot be opened: {error}; {HEADLESS}")))?;
         let (lost, fault) = (Arc::new(AtomicBool::new(false)), Arc::new(Mutex::new(None)));
         watch(&device, &lost, &fault);
         let size = window.inner_size();
         let mut configuration = surface
             .get_default_config(&adapter, size.width.max(1), size.height.max(1))
-            .ok_or_else(|| Error::Gpu(format!("the window's surface has no format; {HEADLESS}")))?;
+            .ok_or_else(|| Error::NoAdapter(format!("the window's surface has no format; {HEADLESS}")))?;
         // Bytes of pictures are sRGB already: a format that does not convert shows them as they are.
         let formats = surface.get_capabilities(&adapter).formats;
         let plain =
@@ -109,7 +109,7 @@ impl Painter {
             return Ok(Painted::DeviceLost);
         }
         match self.fault.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            Some(text) => Err(Error::Gpu(format!("drawing the window: {text}; {HEADLESS}"))),
+            Some(text) => Err(Error::Bug(format!("drawing the window: {text}; {HEADLESS}"))),
             None => painted,
         }
     }
@@ -182,7 +182,7 @@ const HEADLESS: &str = "`brisance run SCENE` works without a window";
 fn new_surface(instance: &wgpu::Instance, window: &Arc<Window>) -> Result<wgpu::Surface<'static>> {
     instance
         .create_surface(Arc::clone(window))
-        .map_err(|error| Error::Gpu(format!("the window has no surface to draw to: {error}; {HEADLESS}")))
+        .map_err(|error| Error::NoAdapter(format!("the window has no surface to draw to: {error}; {HEADLESS}")))
 }
 
 /// Keeps errors and the loss of the device instead of panicking.

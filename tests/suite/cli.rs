@@ -121,7 +121,12 @@ fn check_prints_what_a_run_would_use() {
     let folder = tempfile::tempdir().unwrap();
     let copy = folder.path().join("copy.toml");
     std::fs::write(&copy, &text).unwrap();
-    assert_eq!(succeeds(&["check", copy.to_str().unwrap()]), text);
+    // how fast the device is differs from time to time
+    let lasting = |text: &str| text.lines().filter(|line| !line.starts_with("# time ")).collect::<Vec<_>>().join("\n");
+    assert_eq!(lasting(&succeeds(&["check", copy.to_str().unwrap()])), lasting(&text));
+    assert_eq!(text.contains("# time       very roughly "), gpu_or_skip().is_some(), "{text}");
+    let nowhere = brisance(&["check", "sod"]).env("BRISANCE_DEVICE", "abacus").output().unwrap();
+    assert!(out(&nowhere).contains("# time       not estimated: no device"), "a check needs none");
 
     let object = succeeds(&["check", "sod", "--resolution", "100", "--set", "time.until=0.1", "--json"]);
     let object: serde_json::Value = serde_json::from_str(&object).unwrap();

@@ -162,3 +162,70 @@ fn interruption_leaves_complete_files() {
     let (_, steps) = table(&target.join("diagnostics.csv"));
     assert_eq!(steps.len() as u64, report["steps"].as_u64().unwrap());
 }
+
+/// A run whose film waits for an encoder that never reads, once four frames are written, and the encoder's process.
+fn run_with_a_deaf_encoder(folder: &Path) -> (std::process::Child, String) {
+    let scene = folder.join("small.toml");
+    write_small_scene(&scene);
+    let deaf = "#!/bin/sh\n[ \"$1\" = -version ] && exit 0\necho $$ >\"$DEAF\"\nsleep 1000\n";
+    let path = with_program(folder, "ffmpeg", deaf);
+    let (target, film, pid) = (folder.join("run"), folder.join("film.mp4"), folder.join("pid"));
+    let names = [&scene, &target, &film].map(|path| path.to_str().unwrap().to_owned());
+    let long = ["run", &names[0], "--until", "1000", "--frames", "100000", "--out", &names[1], "--video", &names[2]];
+    let mut command = brisance(&[&long[..], &["--set", "render.size=[64, 64]"]].concat());
+    let child = command.env("PATH", path).env("DEAF", &pid).stdout(Stdio::null()).stderr(Stdio::null());
+    let child = child.spawn().unwrap();
+    let start = Instant::now();
+    while !target.join("frames/0003.png").exists() || !pid.exists() {
+        assert!(start.elapsed() < Duration::from_secs(120), "no frame");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    (child, std::fs::read_to_string(pid).unwrap().trim().to_owned())
+}
+
+fn kill(signal: &str, process: &str) -> bool {
+    Command::new("kill").args([signal, process]).stderr(Stdio::null()).status().unwrap().success()
+}
+
+/// Whether a process works; one that has ended may wait for somebody to ask how.
+fn lives(process: &str) -> bool {
+    let state = Command::new("ps").args(["-o", "stat=", "-p", process]).output().unwrap().stdout;
+    !state.is_empty() && !state.starts_with(b"Z")
+}
+
+#[test]
+fn sigterm_means_now_and_takes_the_encoder_along() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
+    let start = Instant::now();
+    assert!(kill("-TERM", &child.id().to_string()));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    // a step takes milliseconds here; the encoder would be waited for 20 s
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    let (target, film) = (folder.path().join("run"), folder.path().join("film.mp4"));
+    let report = report(&target);
+    assert_eq!(report["status"], "stopped");
+    let (_, steps) = table(&target.join("diagnostics.csv"));
+    assert_eq!(steps.len() as u64, report["steps"].as_u64().unwrap());
+    assert!(!film.exists() && !target.join(".brisance.lock").exists() && !lives(&encoder));
+}
+
+#[test]
+fn a_second_signal_ends_at_once_with_the_encoder() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
+    assert!(kill("-INT", &child.id().to_string()));
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(child.try_wait().unwrap().is_none(), "the first one waits for the film");
+    assert!(kill("-INT", &child.id().to_string()));
+    let start = Instant::now();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(start.elapsed() < Duration::from_secs(10) && !lives(&encoder), "{:?}", start.elapsed());
+    assert_eq!(report(&folder.path().join("run"))["status"], "stopped");
+}

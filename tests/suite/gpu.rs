@@ -144,10 +144,13 @@ fn memory_is_counted_and_limits_are_told_before_allocation() {
 }
 
 #[test]
-fn a_driver_error_is_reported_once_and_does_not_panic() {
+fn a_refused_call_is_a_bug_of_ours_and_reported_once() {
     let Some(gpu) = gpu_or_skip() else { return };
     Buffer::<u32>::new(&gpu, "short", 1).unwrap().write(&gpu, 0, &[1, 2, 3]);
-    assert!(gpu.check().is_err());
+    let error = gpu.check().unwrap_err();
+    let text = error.to_string();
+    assert!(matches!(error, Error::Bug(_)) && error.exit_code() == 1, "{text}");
+    assert!(text.starts_with("a bug in brisance") && text.contains("report") && text.lines().count() == 1, "{text}");
     gpu.check().unwrap();
 }
 

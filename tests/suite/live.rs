@@ -195,7 +195,7 @@ fn a_lost_device_is_no_panic() {
     let stepped = simulation.advance_batch(&mut Vec::new()).map(|_| ()).unwrap_err();
     let drawn = renderer.render(0.0).map(|_| ()).unwrap_err();
     for error in [stepped, drawn] {
-        assert!(matches!(error, Error::Gpu(_)), "{error}");
+        assert!(matches!(error, Error::Gpu(_)) && error.exit_code() == 75, "{error}");
     }
     let mut again = Simulation::new(&Gpu::new(&GpuOptions::default()).unwrap(), &scene).unwrap();
     again.set_target(0.1).unwrap();

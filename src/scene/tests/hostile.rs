@@ -143,6 +143,12 @@ fn a_preset_is_a_material_by_its_name() {
 fn the_run_is_estimated() {
     let estimate = parse(BASE, &[]).estimate(0);
     assert!((estimate.gas_sound_speed - 1.4f64.sqrt()).abs() < 1e-12);
-    assert!(estimate.warning().is_none() && (10.0..200.0).contains(&estimate.steps), "{estimate:?}");
-    assert!(parse(BASE, &["time.fixed_step=1e-9"]).estimate(0).warning().is_some());
+    assert!(estimate.warnings().is_empty() && (10.0..200.0).contains(&estimate.steps), "{estimate:?}");
+    let endless = parse(BASE, &["time.fixed_step=1e-9"]).estimate(0).warnings();
+    assert!(endless.len() == 1 && endless[0].contains("hardly end"), "{endless:?}");
+    let stiff = "materials.rubber.neo_hookean.young_modulus=1e9";
+    let held = parse(&body(BALL), &[stiff]).estimate(0);
+    assert!(held.substeps > 1000.0 && held.warnings().is_empty(), "{held:?}");
+    let implicit = parse(&body(BALL), &[stiff, "numerics.elasticity=\"implicit\""]).estimate(0);
+    assert!(implicit.substeps == 1.0 && implicit.warnings()[0].contains("capped"), "{implicit:?}");
 }
