@@ -67,7 +67,7 @@ mod tests {
     #[test]
     fn one_figure_counts() {
         for (seconds, text) in
-            [(0.02, "1 s"), (47.0, "50 s"), (149.0, "2 min"), (3900.0, "1 h"), (9.6e4, "30 h"), (1e9, "10000 days")]
+            [(0.02, "1 s"), (47.0, "50 s"), (149.0, "2 min"), (3900.0, "70 min"), (9.6e4, "30 h"), (1e9, "10000 days")]
         {
             assert_eq!(rough_time(seconds), text);
         }

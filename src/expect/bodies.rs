@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::Checks;
 use crate::bodies::BodyState;
+use crate::math::plain;
 use crate::scene::{Quantity, Scene, Seed};
 use crate::snapshot::Snapshot;
 
@@ -62,7 +63,7 @@ impl Checks {
                 let [more, less] = [&pair[0], &pair[1]]
                     .map(|name| named(name).map_or(f64::NAN, |index| changes[index].of(order.quantity)));
                 let name = format!("order.{}.{}", order.quantity.name(), pair[0]);
-                self.add(&name, more, format!("above {less:.4e} of {}", pair[1]), more > less);
+                self.add(&name, more, format!("above {} of {}", plain(less), pair[1]), more > less);
             }
         }
     }

@@ -341,6 +341,11 @@ impl Material {
         outside.map(|(p, value)| (p.name, *value, p.allowed())).collect()
     }
 
+    /// Parameters of the law as the scene has them, by name.
+    pub fn parameters(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        self.kind().parameters.iter().zip(&self.values).map(|(parameter, value)| (parameter.name, *value))
+    }
+
     /// Constants of the law.
     #[must_use]
     pub fn constants(&self) -> Constants {

@@ -2,6 +2,7 @@
 
 use super::check::Check;
 use super::{Boundary, GasState, Material};
+use crate::math::plain;
 
 /// Least number whose square is a normal number in single precision.
 const LEAST: f64 = 1.1e-19;
@@ -21,7 +22,7 @@ impl Check<'_> {
         let scene = self.scene;
         if !(GAMMA[0]..=GAMMA[1]).contains(&scene.gas.gamma) {
             let help = format!("give a number from {} to {}; air has 1.4", GAMMA[0], GAMMA[1]);
-            self.add("gas.gamma", format!("{} is out of the range of single precision", scene.gas.gamma), help);
+            self.add("gas.gamma", format!("{} is out of the range of single precision", plain(scene.gas.gamma)), help);
         }
         self.cell_range();
         self.seen("gravity", &scene.gravity, LEAST_PLAIN, MOST);
@@ -114,6 +115,13 @@ impl Check<'_> {
 
     /// Moduli and yield stresses are squared by return maps.
     fn material_range(&mut self, name: &str, material: &Material) {
+        let before = self.findings.len();
+        for (parameter, number) in material.parameters().filter(|(_, number)| number.is_finite()) {
+            self.seen(&format!("materials.{name}.{}.{parameter}", material.keyword()), &[number], LEAST_PLAIN, MOST);
+        }
+        if self.findings.len() > before {
+            return;
+        }
         let own = material.params(self.scene.volume_share());
         let moduli = [own.mu, own.lambda, own.ghost_modulus, own.hardening].map(f64::from);
         let yields = Some(f64::from(own.yield_stress)).filter(|stress| *stress < f64::from(f32::MAX));

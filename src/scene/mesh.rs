@@ -3,6 +3,8 @@
 //! The sign of the distance comes from the generalised winding number, which is 1 inside, 0 outside, and degrades gracefully at holes.
 //! [Jacobson et al. 2013, Barill et al. 2018]
 
+#[cfg(test)]
+mod corpus;
 mod gltf;
 mod inspect;
 mod read;

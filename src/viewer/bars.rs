@@ -6,6 +6,7 @@ use super::keys::Action;
 use super::model::{Pace, Phase, Request, Status};
 use super::theme;
 use super::view::View;
+use crate::math::plain;
 
 /// Choices of the pace: what the whole run takes at least \[s\].
 const PACES: [f64; 5] = [3.0, 6.0, 12.0, 30.0, 120.0];
@@ -82,7 +83,7 @@ pub(super) fn bottom(ui: &mut Ui, view: Option<&mut View>, status: &Status) -> V
 fn pace(ui: &mut Ui, view: &mut View) {
     let name = |pace: Pace| match pace {
         Pace::Fastest => "full speed".to_owned(),
-        Pace::Lasting(seconds) => format!("run in {seconds:.3} s").replace(".000 s", " s"),
+        Pace::Lasting(seconds) => format!("run in {} s", plain(seconds)),
     };
     let before = view.pace;
     let mut now = before;
@@ -110,7 +111,7 @@ fn clock(ui: &mut Ui, view: &View, status: &Status) {
     let recorded = status.recorded.map_or_else(String::new, |count| {
         format!("   recording: {count} {}", if count == 1 { "picture" } else { "pictures" })
     });
-    let text = format!("t = {:.4e} s   step {}   {rate}{recorded}", status.time, status.step);
+    let text = format!("t = {} s   step {}   {rate}{recorded}", plain(status.time), status.step);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.label(RichText::new(text).monospace());
         if !status.warnings.is_empty() {

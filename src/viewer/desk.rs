@@ -13,6 +13,7 @@ use super::session::Session;
 use super::worker::lock;
 use crate::diagnostics::StepRecord;
 use crate::gpu::{Gpu, GpuOptions};
+use crate::math::plain;
 use crate::scene::{Scene, stem};
 use crate::{Error, Result};
 
@@ -328,8 +329,8 @@ impl Desk {
         let (Some(session), Some(look)) = (&mut self.session, &self.look) else { return Ok(()) };
         let blast = session.strike(strike, look, &mut self.records)?;
         (self.stale, self.news) = (true, true);
-        let place = blast.center.map(|x| format!("{x:.4}"))[..session.scene().domain.axes()].join(", ");
-        self.note(Weight::Fine, format!("{:.3e} J at ({place}) m", blast.energy));
+        let place = blast.center.map(plain)[..session.scene().domain.axes()].join(", ");
+        self.note(Weight::Fine, format!("{} J at ({place}) m", plain(blast.energy)));
         Ok(())
     }
 

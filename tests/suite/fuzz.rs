@@ -3,10 +3,10 @@
 //!
 //! The work is done by this binary started again, alone in its process, so that time and memory are those of one input.
 
-use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use brisance::scene::Scene;
@@ -152,48 +152,26 @@ fn numbers(text: &str) -> Vec<(usize, usize)> {
     found
 }
 
-/// A mesh of a tetrahedron in one of the formats, with bytes spoilt.
-fn mesh(random: &mut Random) -> (&'static str, Vec<u8>) {
-    let corners = [[0.2, 0.2, 0.2], [0.8, 0.2, 0.2], [0.2, 0.8, 0.2], [0.2, 0.2, 0.8f32]];
-    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2u32]];
-    let (name, mut bytes) = match random.below(5) {
-        0 => {
-            let mut text = String::new();
-            corners.iter().for_each(|[x, y, z]| writeln!(text, "v {x} {y} {z}").unwrap());
-            faces.iter().for_each(|[a, b, c]| writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).unwrap());
-            ("m.obj", text.into_bytes())
-        }
-        1 => {
-            let mut text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n\
-                            property list uchar int vertex_indices\nend_header\n"
-                .to_owned();
-            corners.iter().for_each(|[x, y, z]| writeln!(text, "{x} {y} {z}").unwrap());
-            faces.iter().for_each(|[a, b, c]| writeln!(text, "3 {a} {b} {c}").unwrap());
-            ("m.ply", text.into_bytes())
-        }
-        2 => {
-            let mut bytes = vec![0u8; 80];
-            bytes.extend(4u32.to_le_bytes());
-            for face in faces {
-                bytes.extend([0u8; 12]);
-                face.iter().flat_map(|k| corners[*k as usize]).for_each(|x| bytes.extend(x.to_le_bytes()));
-                bytes.extend([0u8; 2]);
-            }
-            ("m.stl", bytes)
-        }
-        3 => {
-            let mut text = "solid a\n".to_owned();
-            for face in faces {
-                text.push_str("facet normal 0 0 0\nouter loop\n");
-                face.iter()
-                    .map(|k| corners[*k as usize])
-                    .for_each(|[x, y, z]| writeln!(text, "vertex {x} {y} {z}").unwrap());
-                text.push_str("endloop\nendfacet\n");
-            }
-            ("m.stl", (text + "endsolid\n").into_bytes())
-        }
-        _ => ("m.gltf", gltf().into_bytes()),
+/// Files of other programs, small ones, by what their names end with.
+fn meshes() -> &'static [(String, Vec<u8>)] {
+    static FILES: OnceLock<Vec<(String, Vec<u8>)>> = OnceLock::new();
+    FILES.get_or_init(|| {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
+        let mut paths: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        paths.sort();
+        let end = |path: &Path| path.extension().unwrap().to_str().unwrap().to_owned();
+        let files = paths.iter().map(|path| (end(path), std::fs::read(path).unwrap()));
+        files.filter(|(end, bytes)| end != "bin" && end != "md" && bytes.len() < 12_000).collect()
+    })
+}
+
+/// A mesh of another program, or one whose nodes use each other, with bytes spoilt.
+fn mesh(random: &mut Random) -> (String, Vec<u8>) {
+    let (end, mut bytes) = match random.below(8) {
+        0 => ("gltf".to_owned(), gltf().into_bytes()),
+        _ => meshes()[random.below(meshes().len())].clone(),
     };
+    let name = format!("m.{end}");
     for _ in 0..random.below(4) {
         let text = std::str::from_utf8(&bytes).ok().map(|text| spoilt(text, random));
         match text.filter(|_| random.below(3) > 0) {
@@ -259,11 +237,11 @@ fn input(seed: u64, scenes: &[String], folder: &Path) -> (String, Vec<String>) {
     let mut random = Random(seed);
     if random.below(3) == 0 {
         let (name, bytes) = mesh(&mut random);
-        std::fs::write(folder.join(name), bytes).unwrap();
+        std::fs::write(folder.join(&name), bytes).unwrap();
         let text = format!(
             "title = \"m\"\n[domain]\ndimension = 3\ncells = [8, 8, 8]\nsize = [1.0, 1.0, 1.0]\n[gas]\nambient = {{ density = 1.0, \
              pressure = 1.0 }}\n[time]\nuntil = 0.1\n[materials.m]\nneo_hookean = {{ young_modulus = 10.0, poisson_ratio = 0.3 }}\n\
-             [[bodies]]\nname = \"b\"\nmaterial = \"m\"\ndensity = 1.0\nshape = {{ mesh = {{ path = \"{name}\" }} }}\n"
+             [[bodies]]\nname = \"b\"\nmaterial = \"m\"\ndensity = 1.0\nshape = {{ mesh = {{ path = \"{name}\", offset = [0.5, 0.5, 0.5] }} }}\n"
         );
         return (text, Vec::new());
     }

@@ -11,6 +11,7 @@ use crate::cli::args::Cli;
 use crate::cli::check::size;
 use crate::cli::progress::clock;
 use crate::export::apng;
+use crate::math::plain;
 use crate::verify::{STYLE, escape};
 
 /// Width of the moving pictures, at most \[pixels\].
@@ -214,11 +215,7 @@ fn numbers(one: &Shown) -> Vec<(String, String)> {
 }
 
 fn number(value: &Value) -> String {
-    match value.as_f64() {
-        Some(number) if number != 0.0 && !(1e-3..1e6).contains(&number.abs()) => format!("{number:.3e}"),
-        Some(number) => format!("{number:.4}"),
-        None => "-".to_owned(),
-    }
+    value.as_f64().map_or_else(|| "-".to_owned(), plain)
 }
 
 /// Bytes as text. [RFC 4648, section 4]

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::{DMat4, DVec3, Mat4};
 use gltf::accessor::{DataType, Dimensions};
-use gltf::buffer::Source;
+use gltf::buffer::{Source, View};
 use gltf::mesh::Mode;
 use gltf::{Accessor, Document, Gltf, Node, Primitive, Semantic};
 
@@ -116,8 +116,9 @@ impl Adding<'_> {
     }
 
     fn primitive(&mut self, primitive: &Primitive<'_>, own: DMat4) -> Result<(), String> {
-        if primitive.mode() != Mode::Triangles {
-            return Err("it has lines, points or strips; write triangles".to_owned());
+        let mode = primitive.mode();
+        if matches!(mode, Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip) {
+            return Ok(());
         }
         let to = &mut self.surface;
         let first = to.points.len() as u32;
@@ -126,8 +127,9 @@ impl Adding<'_> {
             return Err("positions are not three floats".to_owned());
         }
         let count = primitive.indices().map_or(positions.count(), |indices| indices.count());
+        let triangles = if mode == Mode::Triangles { count / 3 } else { count };
         if to.points.len().saturating_add(positions.count()) > 3 * MAX_TRIANGLES
-            || to.triangles.len().saturating_add(count / 3) > MAX_TRIANGLES
+            || to.triangles.len().saturating_add(triangles) > MAX_TRIANGLES
         {
             return Err(format!("more than {MAX_TRIANGLES} triangles, each counted as often as nodes use it"));
         }
@@ -146,12 +148,22 @@ impl Adding<'_> {
                 .ok_or("odd indices")?,
         };
         let flipped = own.determinant() < 0.0;
-        to.triangles.extend(indices.chunks_exact(3).map(|t| {
-            let [a, b, c] = [t[0], t[1], t[2]].map(|k| k.saturating_add(first));
+        to.triangles.extend(triples(&indices, mode).map(|t| {
+            let [a, b, c] = t.map(|k| k.saturating_add(first));
             if flipped { [a, c, b] } else { [a, b, c] }
         }));
         Ok(())
     }
+}
+
+/// The triangles of a list, a strip, whose every second one runs the other way, or a fan. [glTF 2.0, 3.7.2.1]
+fn triples(indices: &[u32], mode: Mode) -> impl Iterator<Item = [u32; 3]> + '_ {
+    let (step, corners) = (if mode == Mode::Triangles { 3 } else { 1 }, move |k: usize| match mode {
+        Mode::TriangleFan => [indices[0], indices[k + 1], indices[k + 2]],
+        Mode::TriangleStrip if k % 2 == 1 => [indices[k + 1], indices[k], indices[k + 2]],
+        _ => [indices[k], indices[k + 1], indices[k + 2]],
+    });
+    (0..indices.len().saturating_sub(2)).step_by(step).map(corners)
 }
 
 fn index(bytes: &[u8]) -> Option<u32> {
@@ -163,21 +175,48 @@ fn index(bytes: &[u8]) -> Option<u32> {
     }
 }
 
-/// The bytes of each element of an accessor.
+/// An element of an accessor without data.
+const NOTHING: [u8; 64] = [0; 64];
+
+/// The bytes of each element of an accessor; those of its sparse part replace others.
 fn elements<'b>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]) -> Result<Vec<&'b [u8]>, String> {
-    let view = accessor.view().filter(|_| accessor.sparse().is_none()).ok_or("sparse data is not supported")?;
+    let (size, count) = (accessor.size(), accessor.count());
+    let mut all = match accessor.view() {
+        Some(view) => in_view(&view, buffers, accessor.offset(), (size, count))?,
+        None if accessor.sparse().is_some() && count <= 3 * MAX_TRIANGLES => vec![&NOTHING[..size]; count],
+        None => return Err("an accessor has no data".to_owned()),
+    };
+    if let Some(sparse) = accessor.sparse() {
+        let (places, values) = (sparse.indices(), sparse.values());
+        let width = places.index_type().size();
+        let at = in_view(&places.view(), buffers, places.offset(), (width, sparse.count()))?;
+        let new = in_view(&values.view(), buffers, values.offset(), (size, sparse.count()))?;
+        for (place, value) in at.into_iter().map(index).zip(new) {
+            let own = place.and_then(|place| all.get_mut(place as usize));
+            *own.ok_or("sparse data lies outside of its accessor")? = value;
+        }
+    }
+    Ok(all)
+}
+
+/// The bytes of so many elements of a size, from an offset in a part of a buffer on.
+fn in_view<'b>(
+    view: &View<'_>,
+    buffers: &'b [Cow<'_, [u8]>],
+    offset: usize,
+    (size, count): (usize, usize),
+) -> Result<Vec<&'b [u8]>, String> {
     let buffer = buffers.get(view.buffer().index()).ok_or("a buffer is missing")?;
-    let size = accessor.size();
     let stride = view.stride().unwrap_or(size);
     let element = |k: usize| {
-        let start = k.checked_mul(stride)?.checked_add(accessor.offset())?;
+        let start = k.checked_mul(stride)?.checked_add(offset)?;
         let end = start.checked_add(size).filter(|end| *end <= view.length())?;
         buffer.get(view.offset().checked_add(start)?..view.offset().checked_add(end)?)
     };
-    if accessor.count() > buffer.len() {
+    if count > buffer.len() {
         return Err("a buffer is too short".to_owned());
     }
-    (0..accessor.count()).map(element).collect::<Option<_>>().ok_or_else(|| "a buffer is too short".to_owned())
+    (0..count).map(element).collect::<Option<_>>().ok_or_else(|| "a buffer is too short".to_owned())
 }
 
 /// Bytes of base64 text. [RFC 4648]

@@ -12,6 +12,7 @@ use egui::{CollapsingHeader, DragValue, Grid, RichText, ScrollArea, Ui};
 use super::model::{Command, Status};
 use super::theme;
 use super::view::View;
+use crate::math::plain;
 use crate::scene::Scene;
 use parameters::Parameters;
 
@@ -124,15 +125,9 @@ fn positive<'a>(value: &'a mut f64, unit: &str) -> DragValue<'a> {
     DragValue::new(value).speed(speed).range(1e-30..=1e30).suffix(format!(" {unit}")).custom_formatter(short)
 }
 
-/// A short form of a number.
+/// A number as everywhere.
 fn short(value: f64, _: std::ops::RangeInclusive<usize>) -> String {
-    let exponent = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
-    if (-3.0..5.0).contains(&exponent) {
-        let text = format!("{value:.*}", (3.0 - exponent).max(0.0) as usize);
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-    } else {
-        format!("{value:.3e}")
-    }
+    plain(value)
 }
 
 fn detonate(ui: &mut Ui, view: &mut View) {
@@ -215,8 +210,8 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         let short = |value: f64| short(value, 0..=3);
-        assert_eq!((short(0.5), short(1234.5), short(0.0)), ("0.5".into(), "1234".into(), "0".into()));
-        assert_eq!((short(1.5e6), short(2e-5)), ("1.500e6".into(), "2.000e-5".into()));
+        assert_eq!((short(0.5), short(1234.5), short(0.0)), ("0.5".into(), "1234.5".into(), "0".into()));
+        assert_eq!((short(1.5e6), short(2e-5)), ("1.5e6".into(), "2e-5".into()));
         assert_eq!(short(100.0), "100");
     }
 
