@@ -62,7 +62,7 @@ pub fn run(options: GpuOptions, request: Option<Request>, pace: Option<Pace>) ->
 fn no_window(message: &str) -> Error {
     let set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let places = ["DISPLAY", "WAYLAND_DISPLAY"];
-    let reason = if cfg!(target_os = "linux") && !places.iter().any(|name| set(&name)) {
+    let reason = if cfg!(target_os = "linux") && !places.iter().any(set) {
         format!("there is no display: neither {} is set", places.join(" nor "))
     } else {
         message
