@@ -5,7 +5,7 @@
 #include "shared/gas.wgsl"
 #include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
-#include "shared/ghost.wgsl"
+#include "shared/fracture.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/books.wgsl"
 
@@ -23,7 +23,7 @@
 @group(0) @binding(12) var<storage, read_write> history: array<vec4f>;
 @group(0) @binding(13) var<storage, read> probe_cells: array<u32>;
 @group(0) @binding(16) var<storage, read> extra: array<u32>;
-@group(0) @binding(17) var<storage, read> stress: array<vec4f>;      // w of the first: heat of plastic flow [J]
+@group(0) @binding(17) var<storage, read> stress: array<vec4f>;      // w of the first: heat of plastic flow and of cracks [J]
 @group(0) @binding(14) var<storage, read_write> probe_history: array<vec4f>;
 
 // The slot where p / rho^gamma is least, of a workgroup.
@@ -116,14 +116,17 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
     var heat = vec4f(0.0);
     var gone = 0.0;     // elastic energy and heat in what has left the domain [J]
     var speed = 0.0;
+    var cracks = vec4f(0.0);    // heat of what is damaged; mass of what has broken
     for (var p = thread_index(group, lane); p < params.particles; p += striding_threads()) {
         let v = velocity[p].xyz;
         let mass = position[p].w;
-        let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+        let material = materials[material_index(affine[3u * p + 2u].w)];
         let h = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
         let q = affine[3u * p].w;
-        let stored = vec3f(velocity[p].w * elastic_energy(material.kind, h, elastic_part(material)),
+        var stored = vec3f(velocity[p].w * elastic_energy(material.kind, h, elastic_part(material)),
             velocity[p].w * ghost_energy(material, swelling_of(material, h, q)), stress[2u * p].w);
+        let damage = select(0.0, deformation[3u * p + 2u].w, FRACTURE);
+        if damage > 0.0 { stored.x -= velocity[p].w * damage * tension_of(material, h, q, elastic_stress(material, h, q)).energy; }
         if deformation[3u * p + 1u].w == 0.0 {
             gone += stored.x + stored.y + stored.z;
             continue;
@@ -133,7 +136,8 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
         var turning = 0.0;
         for (var a = 0u; a < DIM; a++) { turning += dot(affine[3u * p + a].xyz, affine[3u * p + a].xyz); }
         let kinetic = 0.5 * mass * (dot(v, v) + 0.25 * params.spacing * params.spacing * turning);
-        heat += vec4f(kinetic, stored);
+        heat += vec4f(kinetic, stored.xy, select(stored.z, 0.0, damage > 0.0));
+        if damage > 0.0 { cracks += vec4f(stored.z, select(0.0, mass, damage == 1.0), 0.0, 0.0); }
         speed = max(speed, length(v));
     }
     let at = group_index(group);
@@ -142,6 +146,7 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
     put(8u, at, lane, workgroup_max4(lane, vec4f(speed, 0.0, 0.0, 0.0)));
     let left = workgroup_sum4(lane, vec4f(0.0, 0.0, gone, 0.0));
     if lane == 0u { partials[10u * PARTIALS + at] += left; }
+    put(11u, at, lane, workgroup_sum4(lane, cracks));
 }
 
 fn block_total(block: u32, lane: u32, largest: bool) -> vec4f {

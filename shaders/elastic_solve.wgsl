@@ -90,7 +90,7 @@ fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     let cell = cell_at(x);
     read_rows(slot_of(cell));
     let trial = trial_deformation(p, motion_at(place_at(x, vec3f(cell) + 0.5)).gradient, control.dt);
-    let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+    let material = materials[material_index(affine[3u * p + 2u].w)];
     let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
     let q = affine[3u * p].w;
     let tau = elastic_stress(material, returned.deformation, q);
@@ -101,7 +101,7 @@ fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     }
     let volume = velocity[p].w;
     stress[2u * p] = vec4f(volume * vec3f(tau[0].x, tau[1].y, tau[2].z), stress[2u * p].w);
-    stress[2u * p + 1u] = vec4f(volume * vec3f(tau[0].y, tau[1].z, tau[0].z), 0.0);
+    stress[2u * p + 1u] = vec4f(volume * vec3f(tau[0].y, tau[1].z, tau[0].z), stress[2u * p + 1u].w);
     change[2u * p].w = volume * lambda_of(material, returned.deformation, q);
     change[2u * p + 1u].w = volume * material.mu * stiffness;
 }

@@ -12,6 +12,7 @@
 #include "shared/driven.wgsl"
 #include "shared/motion.wgsl"
 #include "shared/trial.wgsl"
+#include "shared/fracture.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read_write> position: array<vec4f>;
@@ -19,7 +20,7 @@
 @group(0) @binding(4) var<storage, read_write> affine: array<vec4f>;
 @group(0) @binding(5) var<storage, read_write> deformation: array<vec4f>;
 @group(0) @binding(6) var<storage, read_write> stress: array<vec4f>;
-@group(0) @binding(7) var<storage, read> node: array<vec4f>;
+@group(0) @binding(7) var<storage, read> node: array<vec4f>;      // velocity; w: mean driver of fracture
 @group(0) @binding(8) var<storage, read> ghost: array<f32>;     // vertex change of the ghost pressure in this step
 @group(0) @binding(9) var<storage, read> order: array<u32>;
 @group(0) @binding(10) var<storage, read> cell_start: array<u32>;
@@ -57,7 +58,7 @@ fn affine_of(motion: Motion, at: Place) -> mat3x3f {
 fn store_deformation(p: u32, h: mat3x3f) {
     deformation[3u * p] = vec4f(h[0], deformation[3u * p].w);
     deformation[3u * p + 1u] = vec4f(h[1], deformation[3u * p + 1u].w);
-    deformation[3u * p + 2u] = vec4f(h[2], 0.0);
+    deformation[3u * p + 2u] = vec4f(h[2], deformation[3u * p + 2u].w);
 }
 
 fn put_at(p: u32, place: vec3f) {
@@ -99,29 +100,87 @@ fn relaxation(p: u32, q: f32, h: mat3x3f, material: MaterialParams, time: f32) -
     return (1.0 - exp(-time * speed / (RELAXED_CELLS * params.spacing))) * (swollen - q);
 }
 
+// Mean over the nodes of the driver of fracture.
+fn mean_driver(x: vec3f) -> f32 {
+    let cell = cell_at(x);
+    let at = place_at(x, vec3f(cell) + 0.5);
+    var sum = 0.0;
+    for (var k = 0u; k < block_size(); k++) {
+        let offset = block_offset(k);
+        let n = vec3u(offset + 1);
+        sum += at.weight[0][n.x] * at.weight[1][n.y] * at.weight[2][n.z] * node[slot_of(cell + offset)].w;
+    }
+    return sum;
+}
+
+// What has broken gives way instead of bearing tension. Returns the deformation that is left.
+fn give_way(p: u32, h: mat3x3f, m: MaterialParams) -> mat3x3f {
+    let opened = without_tension(m, h, affine[3u * p + 1u].w, affine[3u * p].w);
+    affine[3u * p].w = opened.ghost;
+    affine[3u * p + 1u].w = opened.open;
+    return opened.deformation;
+}
+
+// Stress that is left of `tau`, driver for the nodes, and energy per volume at rest that damage has taken in a sub-step.
+struct Fractured { stress: mat3x3f, driver: f32, lost: f32 }
+
+fn fracture(p: u32, m: MaterialParams, h: mat3x3f, tau: mat3x3f, time: f32) -> Fractured {
+    let tension = tension_of(m, h, affine[3u * p].w, tau);
+    let strength = strength_of(m, affine[3u * p + 2u].w);
+    let ratio = ratio_of(m, strength);
+    let before = deformation[3u * p + 2u].w;
+    var damage = before;
+    if before < 1.0 {
+        // A crack grows through a band no faster than Rayleigh's waves run.
+        let fastest = time * sqrt(m.crack_modulus * velocity[p].w / position[p].w);
+        damage = max(before, min(damage_at(m, mean_driver(position[p].xyz) / strength, ratio), before + fastest));
+        deformation[3u * p + 2u].w = damage;
+    }
+    var driver = max(tension.pull.x, max(tension.pull.y, tension.pull.z)) / (1.0 + swelling(h));
+    if damage == 1.0 {
+        // From here on what counts the plastic strain counts the opening.
+        if before < 1.0 { affine[3u * p + 1u].w = 0.0; }
+        let opening = (whole_lambda(m) + 2.0 * m.mu) * affine[3u * p + 1u].w;
+        driver = min(driver + opening, MOST_DRIVE * ratio * strength);
+    }
+    return Fractured(damaged_stress(tau, tension, damage), driver, (damage - before) * tension.energy);
+}
+
 // Stress of a particle from `h`, its displacement gradient before plastic flow and then after it; `stored` where it is in memory already.
 // Returns false after a fault.
-fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool) -> bool {
-    let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool, time: f32) -> bool {
+    let material = materials[material_index(affine[3u * p + 2u].w)];
     let trial = *h;
-    let returned = return_map(material.kind, trial, affine[3u * p + 1u].w, material);
+    let breaks = can_break(material) && !is_driven(p);
+    let broken = breaks && deformation[3u * p + 2u].w == 1.0;
+    let returned = return_map(material.kind, trial, select(affine[3u * p + 1u].w, 0.0, broken), material);
     *h = returned.deformation;
+    // a loop: a software device would run a branch for all lanes
+    for (var turn = 0u; turn < u32(broken); turn++) { *h = give_way(p, *h, material); }
     let volume = 1.0 + swelling(*h);
     if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {
         atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
         return false;
     }
-    let tau = elastic_stress(material, *h, affine[3u * p].w) * velocity[p].w;
+    var tau = elastic_stress(material, *h, affine[3u * p].w);
+    var driver = 0.0;
     var heat = stress[2u * p].w;
+    if breaks {
+        let fractured = fracture(p, material, *h, tau, time);
+        tau = fractured.stress;
+        driver = fractured.driver;
+        heat += velocity[p].w * fractured.lost;
+    }
+    tau *= velocity[p].w;
     if returned.plastic_strain > 0.0 {
-        affine[3u * p + 1u].w += returned.plastic_strain;
+        if !breaks || deformation[3u * p + 2u].w < 1.0 { affine[3u * p + 1u].w += returned.plastic_strain; }
         let part = elastic_part(material);
         let lost = elastic_energy(material.kind, trial, part) - elastic_energy(material.kind, *h, part);
         heat += velocity[p].w * lost;
     }
-    if !stored || returned.plastic_strain > 0.0 { store_deformation(p, *h); }
+    if !stored || broken || returned.plastic_strain > 0.0 { store_deformation(p, *h); }
     stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, heat);
-    stress[2u * p + 1u] = vec4f(tau[0].y, tau[1].z, tau[0].z, 0.0);
+    stress[2u * p + 1u] = vec4f(tau[0].y, tau[1].z, tau[0].z, driver);
     return true;
 }
 
@@ -130,13 +189,13 @@ fn advance(p: u32, v: vec3f, trial: mat3x3f, stored: bool, time: f32) -> bool {
     var h = trial;
     let x = position[p].xyz;
     follow_ghost(p);
-    if strains(p) && !strain(p, &h, v, stored) { return false; }
+    if strains(p) && !strain(p, &h, v, stored, time) { return false; }
     if is_driven(p) {
         carry(p, time);
         return true;
     }
     if SHARED_VOLUME {
-        let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+        let material = materials[material_index(affine[3u * p + 2u].w)];
         affine[3u * p].w += relaxation(p, affine[3u * p].w, h, material, time);
     }
     put_at(p, x + time * v);

@@ -34,7 +34,7 @@ fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
         // A body with a given motion does not give way. A part that is held must: else its layer of vertices without compliance, on a
         // layer of nodes that is half free, has pressures that nothing bounds.
         let gives = strains(p);
-        let own = 1.0 / ghost_stiffness(materials[bitcast<u32>(affine[3u * p + 2u].w)], affine[3u * p].w);
+        let own = 1.0 / ghost_stiffness(materials[material_index(affine[3u * p + 2u].w)], affine[3u * p].w);
         compliance += select(vec2f(0.0, own), vec2f(own, 0.0), gives);
     }
     // Below zero: that of a cell in which nothing gives way, for vertices that need it all the same [vertex_pressure].

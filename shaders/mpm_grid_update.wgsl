@@ -1,5 +1,6 @@
 // mpm_grid_update: how do the nodes move?
-// Reads the elastic force of this sub-step and the impulse that is spread over the step. Writes node velocity. On return no node moves out
+// Reads the elastic force of this sub-step and the impulse that is spread over the step. Writes node velocity, and where something breaks
+// the mean driver of fracture in place of the mass, which nothing reads any more in this sub-step. On return no node moves out
 // through a wall.
 // V += dt_s (a + f / M) with the true mass, a from the solve [elastic_reaction.wgsl]; wall rules are one-sided, nothing is glued.
 // [Cao et al. 2022, step 6]
@@ -12,7 +13,7 @@
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
-@group(0) @binding(3) var<storage, read> work: array<vec4f>;        // second half: elastic force
+@group(0) @binding(3) var<storage, read> work: array<vec4f>;        // second half: elastic force; w: mass times driver
 @group(0) @binding(4) var<storage, read_write> node: array<vec4f>;
 @group(0) @binding(5) var<storage, read> elastic: array<vec4f>;     // acceleration to spread, the mass that it was for; second half: velocity from nodes around
 
@@ -33,10 +34,15 @@ fn mpm_grid_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     var given = vec4f(0.0);
     for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         let here = node[slot];
-        if here.w <= 0.0 || (DRIVEN && has(cells[slot], NODE_DRIVEN)) { continue; }
+        if here.w <= 0.0 { continue; }
+        let last = select(here.w, work[params.slots + slot].w / here.w, FRACTURE);
+        if DRIVEN && has(cells[slot], NODE_DRIVEN) {
+            node[slot].w = last;
+            continue;
+        }
         let free = here.xyz + spread_kick(slot, here.w) + substep_time() * work[params.slots + slot].xyz / here.w;
         let v = velocity_at_wall(cell_of(slot), free);
-        node[slot] = vec4f(v, here.w);
+        node[slot] = vec4f(v, last);
         given += given_to(here.w, v - free, here.xyz, v);
     }
     add_given(group_index(group), lane, given, false);

@@ -9,6 +9,7 @@
 #include "shared/place.wgsl"
 
 override WITH_FORCE: bool;      // elastic force instead of mass and momentum
+override WITH_DRIVER: bool;     // and the driver of fracture times the mass, in w
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;
 @group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
@@ -23,7 +24,7 @@ override WITH_FORCE: bool;      // elastic force instead of mass and momentum
 // What a particle gives to the node at `offset`: the product of its weights times `constant`, and for each axis the product with
 // the second factor of that axis in place of the weight, times `along` of the axis.
 // Mass and momentum: w m (v + C (x_node - x_p)); the second factor is w times the offset, in cells.
-// Force: -vol0 tau grad w; the second factor is the slope of w.
+// Force: -vol0 tau grad w; the second factor is the slope of w. With it the driver of fracture, w m driver. [shared/fracture.wgsl]
 struct Share { constant: vec4f, along: mat3x4f, second: mat3x3f }
 
 fn share_of(p: u32, x: vec4f, at: Place) -> Share {
@@ -32,6 +33,7 @@ fn share_of(p: u32, x: vec4f, at: Place) -> Share {
         let d = stress[2u * p].xyz;         // xx, yy, zz of vol0 tau [J]
         let o = stress[2u * p + 1u].xyz;    // xy, yz, zx
         share.constant = vec4f(0.0);
+        if WITH_DRIVER { share.constant.w = x.w * stress[2u * p + 1u].w; }
         share.along = mat3x4f(vec4f(-d.x, -o.x, -o.z, 0.0), vec4f(-o.x, -d.y, -o.y, 0.0), vec4f(-o.z, -o.y, -d.z, 0.0));
         share.second = at.slope;
     } else {

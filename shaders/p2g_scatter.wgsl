@@ -15,7 +15,7 @@
 @group(0) @binding(5) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(6) var<storage, read_write> sums: array<atomic<i32>>; // per slot: momentum and mass; then per slot: force
 @group(0) @binding(7) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(8) var<storage, read_write> bounds: array<vec4f>; // partial maxima, then the units at PARTIALS: mass, momentum, force
+@group(0) @binding(8) var<storage, read_write> bounds: array<vec4f>; // partial maxima, then the units at PARTIALS: mass, momentum, force, mass times driver
 @group(0) @binding(9) var<storage, read> order: array<u32>;
 
 const FULL = 1073741824.0;  // 2^30: half of what an i32 holds
@@ -28,7 +28,8 @@ fn scatter_bounds(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
             + dot(affine[3u * p + 2u].xyz, affine[3u * p + 2u].xyz);
         let speed = length(velocity[p].xyz) + 2.6 * params.spacing * sqrt(gradient); // a node is at most sqrt(3) 1.5 dx away
         let size = dot(stress[2u * p].xyz, stress[2u * p].xyz) + 2.0 * dot(stress[2u * p + 1u].xyz, stress[2u * p + 1u].xyz);
-        bound = max(bound, vec4f(position[p].w, position[p].w * speed, 2.0 * sqrt(size) / params.spacing, 0.0));
+        let driver = select(0.0, stress[2u * p + 1u].w, WITH_DRIVER);
+        bound = max(bound, vec4f(position[p].w * vec2f(1.0, speed), 2.0 * sqrt(size) / params.spacing, position[p].w * driver));
     }
     let largest = workgroup_max4(lane, bound);
     if lane == 0u { bounds[group_index(group)] = largest; }
@@ -60,7 +61,9 @@ fn tile_cells() -> vec3u {
 }
 
 const TILE_NODES = 216u;    // those of a tile and around it, at most
-const PARTS = 7u;           // momentum, mass, force
+const PARTS = 8u;           // momentum, mass, force, mass times driver
+// Those that this form carries.
+fn parts() -> u32 { return select(7u, 8u, WITH_DRIVER); }
 var<workgroup> tile: array<atomic<i32>, TILE_NODES * PARTS>;
 
 fn place_in(size: vec3u, index: u32) -> vec3u {
@@ -85,8 +88,8 @@ fn add_cell(c: vec3i, corner: vec3i, nodes: vec3u) {
                 for (var a = 0u; a < 4u; a++) { atomicAdd(&tile[at + a], whole[a]); }
             }
             if WITH_FORCE {
-                let whole = vec3i(round(share.force / unit.z));
-                for (var a = 0u; a < 3u; a++) { atomicAdd(&tile[at + 4u + a], whole[a]); }
+                let whole = vec4i(round(share.force / vec4f(unit.zzz, unit.w)));
+                for (var a = 4u; a < parts(); a++) { atomicAdd(&tile[at + a], whole[a - 4u]); }
             }
         }
     }
@@ -94,7 +97,7 @@ fn add_cell(c: vec3i, corner: vec3i, nodes: vec3u) {
 
 // Gives what node n of the tile holds to the sums, and leaves it empty for the next tile.
 fn hand_over(n: u32, node: vec3i) {
-    for (var a = 0u; a < PARTS; a++) {
+    for (var a = 0u; a < parts(); a++) {
         let whole = atomicExchange(&tile[PARTS * n + a], 0);
         if whole == 0 { continue; }
         let slot = slot_of(node);
@@ -149,9 +152,9 @@ fn scatter_resolve(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
         node[slot] = select(vec4f(v, momentum.w), vec4f(broken), crowded);
     }
     if WITH_FORCE {
-        for (var a = 0u; a < 3u; a++) {
-            let force = f32(atomicLoad(&sums[4u * (params.slots + slot) + a])) * unit.z;
-            atomicStore(&sums[4u * (params.slots + slot) + a], bitcast<i32>(select(force, broken, crowded)));
+        for (var a = 4u; a < parts(); a++) {
+            let force = f32(atomicLoad(&sums[4u * (params.slots + slot) + a - 4u])) * select(unit.z, unit.w, a == 7u);
+            atomicStore(&sums[4u * (params.slots + slot) + a - 4u], bitcast<i32>(select(force, broken, crowded)));
         }
     }
 }

@@ -72,6 +72,7 @@ fn measure(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_in
             case PARTICLE_SPEED: { result = length(velocity[p].xyz); }
             case PARTICLE_DEVIATORIC_STRESS: { result = deviatoric_stress(p); }
             case PARTICLE_PLASTIC_STRAIN: { result = affine[3u * p + 1u].w; }
+            case PARTICLE_DAMAGE: { result = deformation[3u * p + 2u].w; }
             case PARTICLE_TEMPERATURE: { result = gas_around(p); }
             default: {}
         }
@@ -107,7 +108,7 @@ fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
     var color = vec3f(0.0);
     if (view.particle_color == PARTICLE_BODY || view.particle_color == PARTICLE_MATERIAL) {
         let body = bitcast<u32>(deformation[3u * p].w);
-        let material = bitcast<u32>(affine[3u * p + 2u].w);
+        let material = bitcast<u32>(affine[3u * p + 2u].w) & 0xffffu;
         let name = select(material, body, view.particle_color == PARTICLE_BODY);
         let plastic_strain = affine[3u * p + 1u].w;
         color = BODY_COLORS[name % BODY_COLOR_COUNT] / (1.0 + max(plastic_strain, 0.0) / view.dark_strain);

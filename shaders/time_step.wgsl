@@ -101,7 +101,7 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
 // sub-step that strains by more than the share elastic_cfl may turn the particle inside out. An implicit step knows no wave but
 // those that single precision cannot tell from rounding.
 fn elastic_speed(p: u32) -> f32 {
-    let material = materials[bitcast<u32>(affine[3u * p + 2u].w)];
+    let material = materials[material_index(affine[3u * p + 2u].w)];
     let h = mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
     let wave = body_wave_speed(material, h, affine[3u * p].w, position[p].w / velocity[p].w);
     let c = mat3x3f(affine[3u * p].xyz, affine[3u * p + 1u].xyz, affine[3u * p + 2u].xyz);

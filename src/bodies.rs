@@ -26,7 +26,7 @@ pub struct BodyState {
     pub extent: [[f64; 3]; 2],
     /// Room over volume at rest: the mean of the volume ratio, or the cells that hold particles where they are less.
     pub room: f64,
-    /// Pieces: groups of particles in cells that touch, corners included.
+    /// Pieces: groups of particles that are not broken, in cells that touch, corners included.
     pub pieces: u32,
 }
 
@@ -49,7 +49,7 @@ impl Snapshot {
         bodies
     }
 
-    /// Pieces of each body: connected groups of cells that hold its particles; and the number of these cells.
+    /// Pieces of each body: connected groups of cells that hold particles of it that are not broken; and the number of cells with any.
     fn pieces(&self, count: usize) -> Vec<(u32, u32)> {
         let grid = &self.grid;
         let cell = |particle: &ParticleSample| {
@@ -57,9 +57,14 @@ impl Snapshot {
             let axis = |axis: usize| at(axis).clamp(0, grid.cells[axis] as i32 - 1);
             (particle.body, [axis(2), axis(1), axis(0)])
         };
-        let mut places: Vec<_> = self.particles.iter().map(cell).collect();
-        places.sort_unstable();
-        places.dedup();
+        let cells = |broken: bool| {
+            let chosen = self.particles.iter().filter(|particle| broken || particle.damage < 1.0);
+            let mut places: Vec<_> = chosen.map(cell).collect();
+            places.sort_unstable();
+            places.dedup();
+            places
+        };
+        let places = cells(false);
         let mut groups = Groups((0..places.len()).collect());
         for (index, &(body, [z, y, x])) in places.iter().enumerate() {
             for offset in 0..13 {
@@ -72,8 +77,12 @@ impl Snapshot {
         }
         let mut pieces = vec![(0, 0); count];
         for (index, (body, _)) in places.iter().enumerate() {
-            if let Some((pieces, cells)) = pieces.get_mut(*body as usize) {
+            if let Some((pieces, _)) = pieces.get_mut(*body as usize) {
                 *pieces += u32::from(groups.root(index) == index);
+            }
+        }
+        for (body, _) in cells(true) {
+            if let Some((_, cells)) = pieces.get_mut(body as usize) {
                 *cells += 1;
             }
         }
@@ -154,6 +163,7 @@ mod tests {
             volume0: 1.0,
             ghost_pressure: 0.0,
             plastic_strain: 0.0,
+            damage: 0.0,
             deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             body,
             material: 0,

@@ -75,8 +75,12 @@ pub struct StepRecord {
     pub elastic_energy: f32,
     /// Energy of the ghost pressure \[J\].
     pub ghost_energy: f32,
-    /// Heat of plastic flow since the start, in the particles that are still there \[J\].
+    /// Heat of plastic flow since the start, in the particles that are still there \[J\]; that of damaged ones is in `fracture_energy`.
     pub plastic_heat: f32,
+    /// Energy that cracks have taken since the start, with the heat of plastic flow of what is damaged \[J\].
+    pub fracture_energy: f32,
+    /// Mass of the particles that have broken \[kg\].
+    pub broken_mass: f32,
     /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start, and the energy of blasts. What clamped and driven
     /// parts give is not in it. Mass is 0.
     pub given: Total,
@@ -136,7 +140,7 @@ impl StepRecord {
             |flow: [f32; 4], energy: f32| Total { mass: flow[0], momentum: [flow[1], flow[2], flow[3]], energy };
         let [head, counts, gas, owed, crossed, heat] = [raw[0], raw[1], raw[2], raw[3], raw[4], raw[5]];
         let [extremes, gas_speed, solid, solid_heat, solid_speed] = [raw[6], raw[7], raw[8], raw[9], raw[10]];
-        let [given, more] = [raw[11], raw[12]];
+        let [given, more, cracks] = [raw[11], raw[12], raw[13]];
         Self {
             step: head[2].to_bits(),
             dt: head[0],
@@ -164,6 +168,8 @@ impl StepRecord {
             elastic_energy: solid_heat[1],
             ghost_energy: solid_heat[2],
             plastic_heat: solid_heat[3],
+            fracture_energy: cracks[0],
+            broken_mass: cracks[1],
             given: total([0.0, given[0], given[1], given[2]], given[3]),
             solid_speed: solid_speed[0].max(0.0),
             rounds: solid_speed[1].to_bits(),

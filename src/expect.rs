@@ -245,12 +245,14 @@ impl Summary {
         }
     }
 
-    /// Elastic energy after the last step, without that of the ghost pressure, the heat of plastic flow, and what of both has left the
-    /// domain \[J\].
+    /// Elastic energy after the last step, without that of the ghost pressure, the heat of plastic flow, what cracks took, and what of these
+    /// has left the domain \[J\].
     #[must_use]
     pub fn stored_energy(&self) -> f64 {
-        let stored =
-            |last: &StepRecord| [last.elastic_energy, last.plastic_heat, last.gone_energy].map(f64::from).iter().sum();
+        let stored = |last: &StepRecord| {
+            let all = [last.elastic_energy, last.plastic_heat, last.fracture_energy, last.gone_energy];
+            all.map(f64::from).iter().sum()
+        };
         self.last.as_ref().map_or(0.0, stored)
     }
 }

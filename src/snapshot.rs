@@ -67,8 +67,10 @@ pub struct ParticleSample {
     pub volume0: f32,
     /// Ghost pressure of the solid \[Pa\].
     pub ghost_pressure: f32,
-    /// Accumulated plastic strain.
+    /// Accumulated plastic strain; 0 of what has broken.
     pub plastic_strain: f32,
+    /// Damage, from 0 to 1 for broken.
+    pub damage: f32,
     /// Deformation gradient, columns.
     pub deformation: [[f32; 3]; 3],
     /// Index of the body in the scene.
@@ -173,13 +175,14 @@ fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
         },
         volume0: velocity[p][3],
         ghost_pressure: affine[3 * p][3],
-        plastic_strain: affine[3 * p + 1][3],
+        plastic_strain: if deformation[3 * p + 2][3] < 1.0 { affine[3 * p + 1][3] } else { 0.0 },
+        damage: deformation[3 * p + 2][3],
         deformation: std::array::from_fn(|column| {
             let unit = |row: usize| if row == column { 1.0 } else { 0.0 };
             std::array::from_fn(|row| unit(row) + deformation[3 * p + column][row])
         }),
         body: deformation[3 * p][3].to_bits(),
-        material: affine[3 * p + 2][3].to_bits(),
+        material: affine[3 * p + 2][3].to_bits() & 0xffff,
     };
     Ok((0..position.len()).filter(|&p| deformation[3 * p + 1][3] > 0.0).map(sample).collect())
 }

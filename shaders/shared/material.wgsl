@@ -9,7 +9,14 @@ struct MaterialParams {
     hardening: f32,     // growth of the yield stress per equivalent plastic strain [Pa]
     friction: f32,      // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
     elastic_lambda: f32, // what the ghost pressure leaves of lambda to the elastic stress [Pa]
+    tensile_strength: f32, // [Pa]; 0 for what does not break
+    toughness: f32,     // twice the fracture energy over the width of a band, times the modulus of pressure waves [Pa^2]
+    softening: u32,     // SOFTENING_LINEAR or SOFTENING_EXPONENTIAL
+    crack_modulus: f32, // density times the square of the largest rate of damage [kg m^-3 s^-2]
 }
+
+// The index of a material, the low half of a particle's word; the high half has what scatters its strength [shared/fracture.wgsl].
+fn material_index(word: f32) -> u32 { return bitcast<u32>(word) & 0xffffu; }
 
 // What the ghost pressure leaves of a law.
 fn elastic_part(m: MaterialParams) -> MaterialParams {

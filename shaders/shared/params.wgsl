@@ -11,6 +11,7 @@ override ARS: bool;             // two solves per step, see ars.wgsl
 override FOURTH: bool;          // sound of fourth order in space, see carrier.wgsl
 override LIMITER: bool;         // conservative flux limiter for positivity
 override LEDGER: bool;          // gas of covered cells is kept and given back
+override FRACTURE: bool;        // some material breaks, see fracture.wgsl
 override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed
 override FRICTION: bool;        // some body does not slip
 override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity

@@ -3,6 +3,7 @@
 
 override WITH_MASS: bool;       // mass and momentum
 override WITH_FORCE: bool;      // elastic force
+override WITH_DRIVER: bool;     // and the driver of fracture
 
 fn stress_of(p: u32) -> mat3x3f {
     let d = stress[2u * p].xyz;      // xx, yy, zz of vol0 tau [J]
@@ -10,7 +11,7 @@ fn stress_of(p: u32) -> mat3x3f {
     return mat3x3f(vec3f(d.x, o.x, o.z), vec3f(o.x, d.y, o.y), vec3f(o.z, o.y, d.z));
 }
 
-struct Share { momentum: vec4f, force: vec3f } // momentum.w = mass
+struct Share { momentum: vec4f, force: vec4f } // momentum.w = mass, force.w = mass times driver
 
 fn share_of(p: u32, s: Spline, offset: vec3i) -> Share {
     var share: Share;
@@ -22,6 +23,7 @@ fn share_of(p: u32, s: Spline, offset: vec3i) -> Share {
         let mass = node.w * x.w;
         share.momentum = vec4f(mass * (velocity[p].xyz + c * reach_to_node), mass);
     }
-    if WITH_FORCE { share.force = -(stress_of(p) * node.xyz); }
+    if WITH_FORCE { share.force = vec4f(-(stress_of(p) * node.xyz), 0.0); }
+    if WITH_DRIVER { share.force.w = node.w * position[p].w * stress[2u * p + 1u].w; }
     return share;
 }

@@ -12,7 +12,7 @@ use crate::export::png;
 use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::render::{Renderer, SceneBuffers};
-use crate::scene::{Estimate, Overlap, Scene, ThinBody};
+use crate::scene::{Breaking, Estimate, Overlap, Scene, ThinBody};
 use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -37,7 +37,8 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     }
     let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
-    for warning in estimate.warnings() {
+    let breaking = scene.breaking();
+    for warning in estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning)) {
         tell!("warning: {warning}");
     }
     let duration = Duration::of(&scene, &plan, &estimate, cli);
@@ -47,7 +48,8 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "scene": scene });
+            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "breaking": breaking,
+            "scene": scene });
         say!("{object}");
         return Ok(());
     }
@@ -63,6 +65,9 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     }
     for body in &thin {
         say!("# thin       {}", thin_text(body));
+    }
+    for body in &breaking {
+        say!("# breaks     {}", breaking_text(body));
     }
     if !scene.variants.is_empty() {
         say!("# variants   {}", scene.variants.keys().cloned().collect::<Vec<_>>().join(", "));
@@ -111,6 +116,31 @@ fn thin_text(thin: &ThinBody) -> String {
     format!(
         "`{body}` is {cells:.1} cells thick{part}: its weight and the gas on either side are right from 1 cell on, but below 2 cells \
          how it bends and breaks is not to be trusted; more cells help (--resolution), or a thicker body"
+    )
+}
+
+/// How a body breaks, for people.
+fn breaking_text(b: &Breaking) -> String {
+    let [strength, asked, energy, asked_energy] =
+        [b.tensile_strength, b.asked_strength, b.fracture_energy, b.asked_energy].map(plain);
+    let kept = if b.tensile_strength < b.asked_strength {
+        format!(
+            "cells are too coarse for both: the energy {energy} J/m^2 is kept, the strength is {strength} instead of {asked} Pa"
+        )
+    } else if b.fracture_energy > b.asked_energy {
+        format!(
+            "cells are too coarse for both: the strength {strength} Pa is kept, a crack takes {energy} instead of {asked_energy} J/m^2"
+        )
+    } else {
+        format!("at {strength} Pa with {energy} J/m^2")
+    };
+    format!(
+        "`{}` {kept}; both hold up to cells of {} m; cracks are {} m wide, pieces at least {} m, larger below {} of strain per second",
+        b.body,
+        plain(b.coarsest_cell),
+        plain(b.band),
+        plain(b.smallest_piece),
+        plain(b.fastest_rate)
     )
 }
 

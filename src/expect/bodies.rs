@@ -186,6 +186,7 @@ order = [{ quantity = "moved_x", bodies = ["near", "far"] }, { quantity = "moved
             volume0: seed.volume as f32,
             ghost_pressure: 0.0,
             plastic_strain: 0.3,
+            damage: 0.0,
             deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             body: seed.body,
             material: 0,

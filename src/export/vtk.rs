@@ -105,6 +105,7 @@ pub fn write_particles(path: &Path, snapshot: &Snapshot) -> Result<()> {
     file.array("volume", gather(particles, |particle| particle.volume0 * particle.volume_ratio()));
     file.array("ghost_pressure", gather(particles, |particle| particle.ghost_pressure));
     file.array("plastic_strain", gather(particles, |particle| particle.plastic_strain));
+    file.array("damage", gather(particles, |particle| particle.damage));
     file.array("J", gather(particles, ParticleSample::volume_ratio));
     file.array("body", gather(particles, |particle| particle.body as i32));
     file.array("material", gather(particles, |particle| particle.material as i32));

@@ -78,6 +78,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/faces.wgsl",
     "shared/floor.wgsl",
     "shared/flux.wgsl",
+    "shared/fracture.wgsl",
     "shared/gas.wgsl",
     "shared/gas_look.wgsl",
     "shared/gather.wgsl",

@@ -6,6 +6,7 @@
 
 mod drucker_prager;
 mod fixed_corotated;
+mod fracture;
 mod hencky;
 mod neo_hookean;
 mod preset;
@@ -15,6 +16,7 @@ mod text;
 mod von_mises;
 mod wgsl;
 
+pub use fracture::{AtCoarse, BAND, Fracture, LEAST_RATIO, Softening, Weibull};
 pub use preset::{PRESETS, Preset, Units};
 pub use wgsl::{wgsl_includes, wgsl_switch};
 
@@ -171,9 +173,11 @@ pub struct Material {
     values: Vec<f64>,
     /// Position in [`PRESETS`], and its units.
     preset: Option<(usize, Units)>,
+    /// How it breaks, if it does.
+    fracture: Option<Fracture>,
 }
 
-/// A material as the device sees it, 32 bytes; mirror of `MaterialParams` in `shaders/shared/material.wgsl`.
+/// A material as the device sees it, 48 bytes; mirror of `MaterialParams` in `shaders/shared/material.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct MaterialParams {
@@ -193,6 +197,14 @@ pub struct MaterialParams {
     pub friction: f32,
     /// What the ghost pressure leaves of lambda to the elastic stress `[Pa]`.
     pub elastic_lambda: f32,
+    /// Tensile strength `[Pa]`; 0 for what does not break.
+    pub tensile_strength: f32,
+    /// Twice the fracture energy over the width of a band, times the modulus of pressure waves `[Pa^2]`.
+    pub toughness: f32,
+    /// 1 for linear softening, 2 for exponential.
+    pub softening: u32,
+    /// Density times the square of the rate of damage at most: Rayleigh's waves over the width of a band `[kg m^-3 s^-2]`.
+    pub crack_modulus: f32,
 }
 
 impl MaterialParams {
@@ -238,7 +250,12 @@ impl Material {
                 .or(p.default)
                 .ok_or_else(|| format!("missing parameter `{}` [{}] of material kind `{kind}`", p.name, p.unit))
         };
-        Ok(Material { kind: index, values: parameters.iter().map(value).collect::<Result<_, _>>()?, preset: None })
+        Ok(Material {
+            kind: index,
+            values: parameters.iter().map(value).collect::<Result<_, _>>()?,
+            preset: None,
+            fracture: None,
+        })
     }
 
     /// A preset in the given units; parameters of its law that are given replace those of the preset.
@@ -255,7 +272,9 @@ impl Material {
         let own = preset.values.iter().filter(|(name, _)| given.iter().all(|(key, _)| key != name));
         let own = own.map(|(name, value)| ((*name).to_owned(), value / scale(name)));
         let all: Vec<_> = given.iter().cloned().chain(own).collect();
-        Ok(Material { preset: Some((index, units)), ..Material::new(preset.law, &all)? })
+        let own = preset.fracture.map(|own| (own, units.stress()));
+        let fracture = Fracture::resolve(None, own)?;
+        Ok(Material { preset: Some((index, units)), fracture, ..Material::new(preset.law, &all)? })
     }
 
     /// The key of the material in a scene: its kind, or the preset.
@@ -330,6 +349,7 @@ impl Material {
             hardening: hardening as f32,
             friction: friction as f32,
             elastic_lambda: (left - ghost_modulus).max(0.0) as f32,
+            ..Zeroable::zeroed()
         }
     }
 

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::fracture::{PresetFracture, Softening};
+
 /// A material that scenes may name instead of a law and its numbers.
 #[derive(Debug)]
 pub struct Preset {
@@ -15,6 +17,8 @@ pub struct Preset {
     pub values: &'static [(&'static str, f64)],
     /// Density `[kg m^-3]` of bodies that give none.
     pub density: f64,
+    /// How it breaks, if that is known.
+    pub fracture: Option<PresetFracture>,
 }
 
 /// The units of a preset.
@@ -48,14 +52,16 @@ impl Units {
 }
 
 /// All presets. Yield stresses are norms of the deviator, sqrt(2/3) of those of a thin rod. The cohesion of a brittle material
-/// follows from its compressive strength f and friction angle a: f (1 - sin a) / (2 cos a).
-pub const PRESETS: [Preset; 6] = [
+/// follows from its compressive strength f and friction angle a: f (1 - sin a) / (2 cos a). The fracture energy of a brittle one follows from its
+/// fracture toughness K: K^2 (1 - nu^2) / E. [Dowling 2013, table 8.2, unless a preset says otherwise]
+pub const PRESETS: [Preset; 9] = [
     Preset {
         name: "rubber",
         summary: "Natural rubber.",
         law: "neo_hookean",
         values: &[("young_modulus", 5e6), ("poisson_ratio", 0.45)],
         density: 1100.0,
+        fracture: None,
     },
     Preset {
         name: "steel",
@@ -63,6 +69,7 @@ pub const PRESETS: [Preset; 6] = [
         law: "von_mises",
         values: &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)],
         density: 7850.0,
+        fracture: None,
     },
     Preset {
         name: "aluminium",
@@ -70,6 +77,7 @@ pub const PRESETS: [Preset; 6] = [
         law: "von_mises",
         values: &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)],
         density: 2700.0,
+        fracture: None,
     },
     Preset {
         name: "concrete",
@@ -77,6 +85,13 @@ pub const PRESETS: [Preset; 6] = [
         law: "drucker_prager",
         values: &[("young_modulus", 3e10), ("poisson_ratio", 0.2), ("friction_angle", 37.0), ("cohesion", 7.5e6)],
         density: 2400.0,
+        // Grade C30 with aggregate of 16 mm. [CEB-FIP Model Code 1990, 2.1.3]
+        fracture: Some(PresetFracture {
+            tensile_strength: 2.9e6,
+            fracture_energy: 76.0,
+            softening: Softening::Exponential,
+            always: false,
+        }),
     },
     Preset {
         name: "ice",
@@ -84,6 +99,13 @@ pub const PRESETS: [Preset; 6] = [
         law: "drucker_prager",
         values: &[("young_modulus", 9.3e9), ("poisson_ratio", 0.33), ("friction_angle", 45.0), ("cohesion", 2.1e6)],
         density: 917.0,
+        // K 0.1 MPa m^(1/2). [Petrovic, J. Mater. Sci. 38 (2003) 1]
+        fracture: Some(PresetFracture {
+            tensile_strength: 1.43e6,
+            fracture_energy: 0.96,
+            softening: Softening::Linear,
+            always: false,
+        }),
     },
     Preset {
         name: "soil",
@@ -91,5 +113,48 @@ pub const PRESETS: [Preset; 6] = [
         law: "drucker_prager",
         values: &[("young_modulus", 2e7), ("poisson_ratio", 0.3), ("friction_angle", 30.0), ("cohesion", 5e3)],
         density: 1800.0,
+        fracture: None,
+    },
+    Preset {
+        name: "glass",
+        summary: "Annealed soda-lime glass.",
+        law: "neo_hookean",
+        values: &[("young_modulus", 7e10), ("poisson_ratio", 0.22)],
+        density: 2500.0,
+        // strength in bending [EN 572-1]; K 0.76 MPa m^(1/2)
+        fracture: Some(PresetFracture {
+            tensile_strength: 4.5e7,
+            fracture_energy: 7.9,
+            softening: Softening::Linear,
+            always: true,
+        }),
+    },
+    Preset {
+        name: "pmma",
+        summary: "Acrylic glass.",
+        law: "neo_hookean",
+        values: &[("young_modulus", 3.3e9), ("poisson_ratio", 0.37)],
+        density: 1190.0,
+        // strength in tension [data sheet of Plexiglas GS]; K 1.8 MPa m^(1/2)
+        fracture: Some(PresetFracture {
+            tensile_strength: 8e7,
+            fracture_energy: 850.0,
+            softening: Softening::Linear,
+            always: true,
+        }),
+    },
+    Preset {
+        name: "ceramic",
+        summary: "Alumina of 99.5 percent.",
+        law: "neo_hookean",
+        values: &[("young_modulus", 3.7e11), ("poisson_ratio", 0.22)],
+        density: 3900.0,
+        // strength in tension [data sheet of CoorsTek AD-995]; K 4.0 MPa m^(1/2)
+        fracture: Some(PresetFracture {
+            tensile_strength: 2.62e8,
+            fracture_energy: 41.0,
+            softening: Softening::Linear,
+            always: true,
+        }),
     },
 ];

@@ -7,6 +7,7 @@ use serde::de::{self, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::fracture::{Fracture, FractureGiven};
 use super::{Bound, KINDS, Kind, Material, PRESETS, Parameter, Units, kind_names};
 
 /// An entry of the table of a material.
@@ -26,8 +27,14 @@ impl Serialize for Material {
             name = PRESETS[index].name;
             table.insert("units", Given::Units(units));
         }
-        let mut map = serializer.serialize_map(Some(1))?;
+        let always = self.preset.is_some_and(|(index, _)| PRESETS[index].fracture.is_some_and(|own| own.always));
+        let mut map = serializer.serialize_map(None)?;
         map.serialize_entry(name, &table)?;
+        match &self.fracture {
+            Some(fracture) => map.serialize_entry(FRACTURE, fracture)?,
+            None if always => map.serialize_entry(FRACTURE, &false)?,
+            None => {}
+        }
         map.end()
     }
 }
@@ -49,14 +56,28 @@ impl<'de> Visitor<'de> for MaterialVisitor {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Material, A::Error> {
         let missing = || de::Error::custom(format!("no material, expected one of {}", kind_names()));
-        let (name, given) = map.next_entry::<String, BTreeMap<String, Given>>()?.ok_or_else(missing)?;
-        if let Some(second) = map.next_key::<String>()? {
-            let message = format!("two materials, `{name}` and `{second}`; an entry has one, remove the other");
-            return Err(de::Error::custom(message));
+        let mut law: Option<(String, BTreeMap<String, Given>)> = None;
+        let mut fracture = None;
+        while let Some(key) = map.next_key::<String>()? {
+            match &law {
+                _ if key == FRACTURE => fracture = Some(map.next_value::<FractureGiven>()?),
+                None => law = Some((key, map.next_value()?)),
+                Some((name, _)) => {
+                    let message = format!("two materials, `{name}` and `{key}`; an entry has one, remove the other");
+                    return Err(de::Error::custom(message));
+                }
+            }
         }
-        from_table(&name, given).map_err(de::Error::custom)
+        let (name, given) = law.ok_or_else(missing)?;
+        let material = from_table(&name, given).map_err(de::Error::custom)?;
+        let own = material.preset.and_then(|(index, units)| Some((PRESETS[index].fracture?, units.stress())));
+        let fracture = Fracture::resolve(fracture, own).map_err(de::Error::custom)?;
+        Ok(Material { fracture, ..material })
     }
 }
+
+/// The key beside the law of a material that says how it breaks.
+const FRACTURE: &str = "fracture";
 
 /// A material from its name and table.
 fn from_table(name: &str, given: BTreeMap<String, Given>) -> Result<Material, String> {
@@ -84,7 +105,9 @@ impl schemars::JsonSchema for Material {
         "Material".into()
     }
 
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let fracture = serde_json::Value::from(generator.subschema_for::<FractureGiven>());
+        let entry = |name, summary, table| entry(name, summary, table, &fracture);
         let kinds = KINDS.iter().map(|kind| entry(kind.name, kind.summary, kind_table(kind))).collect::<Vec<_>>();
         let presets = PRESETS.iter().filter_map(|preset| {
             let law = KINDS.iter().find(|kind| kind.name == preset.law)?;
@@ -100,9 +123,9 @@ impl schemars::JsonSchema for Material {
 }
 
 /// Schema of one material.
-fn entry(name: &str, summary: &str, table: serde_json::Value) -> serde_json::Value {
+fn entry(name: &str, summary: &str, table: serde_json::Value, fracture: &serde_json::Value) -> serde_json::Value {
     serde_json::json!({
-        "type": "object", "description": summary, "properties": { name: table },
+        "type": "object", "description": summary, "properties": { name: table, FRACTURE: fracture },
         "required": [name], "additionalProperties": false,
     })
 }

@@ -16,12 +16,13 @@ const CODES: [(&str, Field); 9] = [
 ];
 
 /// What the colours of particles mean, with the constants that shaders switch on.
-const PARTICLE_CODES: [(&str, ParticleColor); 6] = [
+const PARTICLE_CODES: [(&str, ParticleColor); 7] = [
     ("PARTICLE_BODY", ParticleColor::Body),
     ("PARTICLE_MATERIAL", ParticleColor::Material),
     ("PARTICLE_SPEED", ParticleColor::Speed),
     ("PARTICLE_DEVIATORIC_STRESS", ParticleColor::DeviatoricStress),
     ("PARTICLE_PLASTIC_STRAIN", ParticleColor::PlasticStrain),
+    ("PARTICLE_DAMAGE", ParticleColor::Damage),
     ("PARTICLE_TEMPERATURE", ParticleColor::Temperature),
 ];
 
@@ -53,6 +54,7 @@ pub fn particle_caption(color: ParticleColor) -> &'static str {
         ParticleColor::Speed => "speed of solids [m/s]",
         ParticleColor::DeviatoricStress => "deviatoric stress [Pa]",
         ParticleColor::PlasticStrain => "plastic strain",
+        ParticleColor::Damage => "damage",
         ParticleColor::Temperature => "p/rho around [m\u{b2}/s\u{b2}]",
     }
 }
@@ -60,6 +62,7 @@ pub fn particle_caption(color: ParticleColor) -> &'static str {
 /// The range to show for values of the particles: all quantities but the temperature start at zero.
 pub(super) fn shown_particle_range(color: ParticleColor, seen: [f64; 2], ambient: &GasState, gamma: f64) -> [f64; 2] {
     let smallest = match color {
+        ParticleColor::Damage => return [0.0, 1.0],
         ParticleColor::Speed => SMALLEST_CONTRAST * ambient.sound_speed(gamma),
         ParticleColor::DeviatoricStress => SMALLEST_CONTRAST * ambient.pressure,
         ParticleColor::Body | ParticleColor::Material | ParticleColor::PlasticStrain => SMALLEST_CONTRAST,

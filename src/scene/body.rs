@@ -38,6 +38,9 @@ pub struct Body {
     /// The part that is held where it is, or moves as `motion` says: what of the body lies in this shape at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clamped: Option<Shape>,
+    /// Cracks at the start: what of the body lies in these shapes is broken.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cracks: Vec<Shape>,
     /// A prescribed motion: of the clamped part, or of the whole body if there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,

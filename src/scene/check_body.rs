@@ -16,6 +16,10 @@ impl Check<'_> {
                 let path = format!("materials.{name}.{}.{parameter}", material.keyword());
                 self.add(path, format!("{value} is out of range"), format!("give {allowed}"));
             }
+            for (key, value, allowed) in material.fracture_findings() {
+                let path = format!("materials.{name}.fracture.{key}");
+                self.add(path, format!("{value} is out of range"), format!("give {allowed}"));
+            }
         }
         if scene.bodies.len() > MAX_BODIES {
             let help = format!("give at most {MAX_BODIES}; parts of one material may be one body, a union of shapes");

@@ -157,6 +157,15 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
         let message = "\"last\" with numerics.ghost = \"shared_volume\", which has an order of its own";
         findings.push(Finding::new("numerics.coupling", message, "give \"first\", or numerics.ghost = \"absorbs\""));
     }
+    if scene.breaks() && numerics.elasticity == Elasticity::Implicit {
+        let message =
+            "materials with `fracture` and an implicit elastic step, whose one strain per step no crack could follow";
+        findings.push(Finding::new("numerics.elasticity", message, "give \"explicit\", or leave `fracture` out"));
+    }
+    if scene.breaks() && numerics.coupling == Coupling::Last {
+        let message = "materials with `fracture` and \"last\", which has no elastic sub-steps";
+        findings.push(Finding::new("numerics.coupling", message, "give \"first\", or leave `fracture` out"));
+    }
     let plain = numerics.ghost == Ghost::Absorbs && numerics.coupling == Coupling::First;
     if numerics.elasticity == Elasticity::Implicit && !plain {
         let message = "\"implicit\" with numerics.ghost = \"shared_volume\" or numerics.coupling = \"last\", which have elastic steps of their own";

@@ -22,6 +22,7 @@ mod estimate;
 mod expectation;
 mod extent;
 mod fill;
+mod fracture;
 mod integrator;
 mod load;
 mod mesh;
@@ -68,6 +69,7 @@ pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidU
 pub use cut::{CutCell, CutGeometry};
 pub use estimate::{Estimate, IMPLICIT_COURANT};
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
+pub use fracture::Breaking;
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
 pub use mesh::{Mesh, Up};
 pub use named::Named;
@@ -307,7 +309,14 @@ impl Scene {
     /// The parameters of all materials in the order of [`Scene::material_index`], as the device sees them.
     #[must_use]
     pub fn material_parameters(&self) -> Vec<crate::material::MaterialParams> {
-        self.materials.values().map(|material| material.params(self.volume_share())).collect()
+        let (share, cell) = (self.volume_share(), self.domain.spacing());
+        self.materials.values().map(|material| material.params_with_fracture(share, cell)).collect()
+    }
+
+    /// Whether some material breaks.
+    #[must_use]
+    pub fn breaks(&self) -> bool {
+        self.materials.values().any(|material| material.fracture().is_some())
     }
 
     /// The exact solution of a shock tube and the place of its jump: a scene of dimension 1 with no bodies, obstacles or gravity

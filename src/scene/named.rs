@@ -112,7 +112,11 @@ impl Scene {
         found.extend(waves.filter_map(|(i, wave)| Some((format!("gas.waves[{i}].shape"), wave.shape.as_ref()?))));
         let bodies = self.bodies.iter().enumerate();
         found.extend(bodies.clone().map(|(i, body)| (format!("bodies[{i}].shape"), &body.shape)));
-        found.extend(bodies.filter_map(|(i, body)| Some((format!("bodies[{i}].clamped"), body.clamped.as_ref()?))));
+        found.extend(
+            bodies.clone().filter_map(|(i, body)| Some((format!("bodies[{i}].clamped"), body.clamped.as_ref()?))),
+        );
+        let cracks = bodies.flat_map(|(i, body)| body.cracks.iter().enumerate().map(move |(k, crack)| (i, k, crack)));
+        found.extend(cracks.map(|(i, k, crack)| (format!("bodies[{i}].cracks[{k}]"), crack)));
         let obstacles = self.obstacles.iter().enumerate();
         found.extend(obstacles.map(|(i, obstacle)| (format!("obstacles[{i}].shape"), &obstacle.shape)));
         found

@@ -274,18 +274,21 @@ pub enum ParticleColor {
     DeviatoricStress,
     /// Equivalent plastic strain.
     PlasticStrain,
+    /// Damage: 0 whole, 1 broken.
+    Damage,
     /// Pressure over density of the gas around `[m^2 s^-2]`.
     Temperature,
 }
 
 impl ParticleColor {
     /// All of them, in the order of menus.
-    pub const ALL: [ParticleColor; 6] = [
+    pub const ALL: [ParticleColor; 7] = [
         ParticleColor::Body,
         ParticleColor::Material,
         ParticleColor::Speed,
         ParticleColor::DeviatoricStress,
         ParticleColor::PlasticStrain,
+        ParticleColor::Damage,
         ParticleColor::Temperature,
     ];
 

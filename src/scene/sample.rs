@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::fill::lattice;
-use super::{Body, Sampling, Scene, Shape};
+use super::{Body, Material, Sampling, Scene, Shape};
 pub use thickness::ThinBody;
 
 /// Particles that leave their lattice point go this far at most along each axis, in units of the lattice's spacing. In 3D that is
@@ -33,6 +33,10 @@ pub struct Seed {
     pub density: f64,
     /// Whether it is clamped or moves as prescribed.
     pub driven: bool,
+    /// Whether it is broken.
+    pub broken: bool,
+    /// Its strength over that of the material; 0 where strength does not scatter.
+    pub strength: f64,
     /// Index of the body in the scene.
     pub body: u32,
     /// Index of the material among the sorted names.
@@ -100,6 +104,7 @@ impl Scene {
         let volume = self.domain.cell_volume() / per_cell;
         let material = self.material_index(&body.material).unwrap_or(0);
         let claim = self.claim(index);
+        let weibull = self.materials.get(&body.material).and_then(Material::fracture).and_then(|f| f.weibull);
         let seed = |(number, (position, outer)): (usize, ([f64; 3], bool))| Seed {
             position: match body.sampling {
                 Sampling::Regular => position,
@@ -110,6 +115,10 @@ impl Scene {
             volume: volume * if outer { ratio } else { 1.0 },
             density: body.density,
             driven: false,
+            broken: body.cracks.iter().any(|crack| crack.distance(position) < 0.0),
+            strength: weibull.map_or(0.0, |weibull| {
+                weibull.factor(position, index as u32, self.domain.dimension, self.domain.spacing())
+            }),
             body: index as u32,
             material,
         };

@@ -71,10 +71,15 @@ fn flag(on: bool) -> f64 {
     f64::from(u8::from(on))
 }
 
+/// Whether the driver of fracture goes with a stress: with that of the particles, where some material breaks.
+fn driver(parts: Parts<'_>, stress: &wgpu::Buffer) -> bool {
+    parts.state.breaks && stress == parts.state.particles.stress.raw()
+}
+
 impl Kernels {
     fn gather(parts: Parts<'_>, force: bool, stress: &wgpu::Buffer) -> Result<Self> {
         let Parts { gpu, state } = parts;
-        let switches = [("WITH_FORCE", flag(force))];
+        let switches = [("WITH_FORCE", flag(force)), ("WITH_DRIVER", flag(force && driver(parts, stress)))];
         let bind = |entry: &str| state.bind(gpu, "p2g.wgsl", entry, &[], &switches);
         let kernel = state.kernel(gpu, "p2g.wgsl", "p2g_gather", &switches)?;
         let axes = state.grid.dimension;
@@ -93,7 +98,10 @@ impl Kernels {
 
     fn scatter(parts: Parts<'_>, carry: Carry, stress: &wgpu::Buffer) -> Result<Self> {
         let Parts { gpu, state } = parts;
-        let switches = [("WITH_MASS", flag(carry != Carry::Force)), ("WITH_FORCE", flag(carry != Carry::Mass))];
+        let force = carry != Carry::Mass;
+        let driver = force && driver(parts, stress);
+        let switches =
+            [("WITH_MASS", flag(carry != Carry::Force)), ("WITH_FORCE", flag(force)), ("WITH_DRIVER", flag(driver))];
         let renamed = [("sums", state.gas.work.raw()), ("bounds", state.partials.raw()), ("stress", stress)];
         let bind = |entry: &str| state.bind(gpu, "p2g_scatter.wgsl", entry, &renamed, &switches);
         Ok(Self::Scatter([

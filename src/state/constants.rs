@@ -36,9 +36,9 @@ pub const STAGES: [&str; 11] = [
 /// Groups, at most, that leave one partial result each.
 pub const PARTIALS: u32 = 1024;
 /// vec4 entries of one record of the history ring.
-pub const HISTORY_WIDTH: u32 = 13;
+pub const HISTORY_WIDTH: u32 = 14;
 /// Blocks of partial results that the totals and the books of a step take.
-pub const BLOCKS: u32 = 11;
+pub const BLOCKS: u32 = 12;
 /// The block of what walls, films and gravity give to bodies.
 pub const BLOCK_GIVEN: u32 = 9;
 /// Rounds of Newton's method at most in a step: what is left then is kept, and shows in diagnostics.csv.

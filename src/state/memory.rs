@@ -142,7 +142,7 @@ impl MemoryPlan {
         let extents = 4 * (constants::PHASE_WIDTH * constants::PHASES.len()) as u64;
         let history = u64::from(HISTORY);
         self.add("fixed", &[("params", 1, size_of::<Params>() as u64), ("control", 1, size_of::<Control>() as u64)]);
-        self.add("fixed", &[("extents", extents, 4), ("materials", MAX_MATERIALS as u64 * 8, 4)]);
+        self.add("fixed", &[("extents", extents, 4), ("materials", (MAX_MATERIALS * super::MATERIAL_WIDTH) as u64, 4)]);
         self.add("fixed", &[("partials", u64::from(constants::BLOCKS * constants::PARTIALS), 16)]);
         self.add("fixed", &[("history", history * u64::from(constants::HISTORY_WIDTH), 16)]);
         self.add("fixed", &[("probe_cells", probes, 4), ("probe_history", 2 * history * probes, 16)]);

@@ -35,6 +35,8 @@ use params::{DeviceLimits, SolidLimits};
 
 /// Materials that one scene may use.
 pub const MAX_MATERIALS: usize = 64;
+/// Numbers of a material on the device.
+const MATERIAL_WIDTH: usize = size_of::<crate::material::MaterialParams>() / 4;
 
 /// Everything the step reads and writes, and the names the shaders know it by.
 #[derive(Debug)]
@@ -91,6 +93,8 @@ pub struct State {
     pub probe_cells: Buffer<u32>,
     /// Two entries per probe and step.
     pub probe_history: Buffer<[f32; 4]>,
+    /// Whether some material breaks.
+    pub breaks: bool,
     overrides: Vec<(&'static str, f64)>,
 }
 
@@ -150,7 +154,7 @@ impl State {
             knots: Buffer::from_slice(gpu, "knots", &openings.knots)?,
             supports: Buffer::uniform_storage(gpu, "supports", &supports.padded())?,
             motions: Buffer::from_slice(gpu, "motions", &supports.motions)?,
-            materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * 8)?,
+            materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * MATERIAL_WIDTH)?,
             gas: GasState::new(gpu, scene, &grid, start.len())?,
             interface: Interface::new(gpu, &params, domain.dimension, !start.is_empty(), table.len())?,
             particles: Particles::new(gpu, slots, &start, scene.consistent(), scene.elastic_vectors())?,
@@ -166,6 +170,7 @@ impl State {
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
+            breaks: scene.breaks(),
             overrides,
         };
         state.fill(gpu, scene);

@@ -232,6 +232,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
             "MATERIALS_USED",
             f64::from(scene.materials.values().fold(0, |used, material| used | 1 << material.kind_index())),
         ),
+        ("FRACTURE", flag(scene.breaks())),
         ("QUADRATIC", flag(numerics.pair == Pair::B2b1)),
         ("PREDICTOR", flag(scene.integrator() != Integrator::Paper)),
         ("CONSISTENT", flag(scene.consistent())),

@@ -13,11 +13,13 @@ pub struct Particles {
     pub position: Buffer<[f32; 4]>,
     /// Velocity \[m s^-1\] and volume at rest \[m^3\].
     pub velocity: Buffer<[f32; 4]>,
-    /// Columns of the affine matrix \[s^-1\]; w: ghost pressure \[Pa\], plastic strain, material index.
+    /// Columns of the affine matrix \[s^-1\]; w: ghost pressure \[Pa\]; plastic strain, or what a broken one has opened by, as logarithm of a
+    /// volume; material index in the low half and what scatters its strength in the high half.
     pub affine: Buffer<[f32; 4]>,
-    /// Columns of the deformation gradient less the identity; w: body index, 1 while inside the domain or 2 if driven, unused.
+    /// Columns of the deformation gradient less the identity; w: body index, 1 while inside the domain or 2 if driven, damage.
     pub deformation: Buffer<[f32; 4]>,
-    /// Kirchhoff stress times volume at rest \[J\]: xx, yy, zz; then xy, yz, zx.
+    /// Kirchhoff stress times volume at rest \[J\]: xx, yy, zz; then xy, yz, zx. w: heat of plastic flow and
+    /// cracks \[J\], driver of fracture \[Pa\].
     pub stress: Buffer<[f32; 4]>,
     /// Particle indices, cell by cell.
     pub order: Buffer<u32>,
@@ -53,11 +55,20 @@ impl ParticleStart {
             let [u, v, w] = seed.velocity.map(|v| v as f32);
             start.position.push([x, y, z, (seed.density * seed.volume) as f32]);
             start.velocity.push([u, v, w, seed.volume as f32]);
+            let broken = if seed.broken { 1.0 } else { 0.0 };
             let word = if seed.driven { 2.0 } else { 1.0 };
             let ghost = scene.gas.ambient.pressure as f32;
             let [x, y, z] = seed.spin.map(|rate| rate as f32);
-            start.affine.extend([[0.0, z, -y, ghost], [-z, 0.0, x, 0.0], [y, -x, 0.0, bits(seed.material)]]);
-            start.deformation.extend([[0.0, 0.0, 0.0, bits(seed.body)], [0.0, 0.0, 0.0, word], [0.0; 4]]);
+            start.affine.extend([
+                [0.0, z, -y, ghost],
+                [-z, 0.0, x, 0.0],
+                [y, -x, 0.0, bits(seed.material | strength_bits(seed.strength))],
+            ]);
+            start.deformation.extend([
+                [0.0, 0.0, 0.0, bits(seed.body)],
+                [0.0, 0.0, 0.0, word],
+                [0.0, 0.0, 0.0, broken],
+            ]);
             start.max_density = start.max_density.max(seed.density);
         }
         start
@@ -84,6 +95,14 @@ impl ParticleStart {
         self.position.is_empty()
     }
 }
+
+/// A factor of strength for the high half of a word: as a float no such word is a NaN, an infinity or below the normal numbers.
+fn strength_bits(factor: f64) -> u32 {
+    ((STRENGTH_UNIT * factor).round() as u32) << 16
+}
+
+/// Units of that factor in one, as in `shaders/shared/fracture.wgsl`.
+const STRENGTH_UNIT: f64 = 8192.0;
 
 impl Particles {
     /// Allocates and uploads. `carrier`: gas without bodies also wants room per slot in `node`; `elastic`: vectors per slot

@@ -30,7 +30,7 @@ pub(super) struct Point {
 
 impl Point {
     fn of(record: &StepRecord) -> Self {
-        let stored = record.elastic_energy + record.ghost_energy + record.plastic_heat;
+        let stored = record.elastic_energy + record.ghost_energy + record.plastic_heat + record.fracture_energy;
         Self {
             time: record.time,
             dt: record.dt.into(),

@@ -60,6 +60,7 @@ mod tests {
             volume0: 1e-3,
             ghost_pressure: 0.0,
             plastic_strain: 0.0,
+            damage: 0.0,
             deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             body: 0,
             material: 0,

@@ -23,6 +23,7 @@ fn snapshot(dimension: u32) -> Snapshot {
         volume0: 0.5,
         ghost_pressure: -4.0,
         plastic_strain: 0.125,
+        damage: 0.0,
         deformation: [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.5]],
         body: index as u32,
         material: 1,

@@ -14,6 +14,7 @@ mod determinism;
 mod export;
 mod far_field;
 mod folders;
+mod fracture;
 mod frames;
 mod fuzz;
 mod gallery;

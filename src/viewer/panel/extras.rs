@@ -8,11 +8,12 @@ use super::rows;
 use crate::scene::{Contours, ParticleColor, Slice, Surface, ToneMap};
 
 /// Quantities of the particles with their names.
-const PARTICLE_COLORS: [(ParticleColor, &str); 5] = [
+const PARTICLE_COLORS: [(ParticleColor, &str); 6] = [
     (ParticleColor::Body, "body"),
     (ParticleColor::Speed, "speed"),
     (ParticleColor::DeviatoricStress, "deviatoric stress"),
     (ParticleColor::PlasticStrain, "plastic strain"),
+    (ParticleColor::Damage, "damage"),
     (ParticleColor::Temperature, "temperature around"),
 ];
 

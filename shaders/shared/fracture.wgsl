@@ -1,0 +1,102 @@
+// How a particle breaks. Its driver, the largest principal stress of the undamaged law, goes to the nodes, and comes back as a mean over
+// some cells; damage follows the mean, so that a crack neither sees the axes of the grid nor leaves flanks behind that bear stress.
+// What has broken bears no tension: its opening is taken out of the deformation, so that gas sees no volume in it, and kept as a number
+// that has to be closed again before it bears pressure. [Bazant & Oh 1983; Pijaudier-Cabot & Bazant 1987; Rankine 1857]
+// Stress counts from the ambient pressure on: that is what fills a crack below a cell.
+#include "shared/ghost.wgsl"
+#include "shared/matrix.wgsl"
+
+const SOFTENING_EXPONENTIAL = 2u;
+// Ratio of the driver at full damage to that at the onset, at least.
+const LEAST_RATIO = 1.02;
+// A crack drives what is beside it by up to this much of the driver at full damage: without it flanks would bear stress for ever.
+const MOST_DRIVE = 2.5;
+// Damage from which on an exponential tail counts as broken.
+const END_OF_TAIL = 0.999;
+
+fn can_break(m: MaterialParams) -> bool { return FRACTURE && m.tensile_strength > 0.0; }
+
+// Units of the factor that scatters strength, in one.
+const STRENGTH_UNIT = 8192.0;
+
+// Strength of a particle: the material's times the factor in the high half of the particle's word, 0 for none.
+fn strength_of(m: MaterialParams, word: f32) -> f32 {
+    let factor = bitcast<u32>(word) >> 16u;
+    return m.tensile_strength * select(f32(factor) / STRENGTH_UNIT, 1.0, factor == 0u);
+}
+
+fn ratio_of(m: MaterialParams, strength: f32) -> f32 { return max(m.toughness / (strength * strength), LEAST_RATIO); }
+
+// Damage that goes with `driven`, the driver over the strength: the stress (1 - damage) driven falls from 1 to 0 at `ratio`.
+fn damage_at(m: MaterialParams, driven: f32, ratio: f32) -> f32 {
+    if driven <= 1.0 { return 0.0; }
+    if m.softening == SOFTENING_EXPONENTIAL {
+        let damage = 1.0 - exp(-2.0 * (driven - 1.0) / (ratio - 1.0)) / driven;
+        return select(damage, 1.0, damage > END_OF_TAIL);
+    }
+    if driven >= ratio { return 1.0; }
+    return 1.0 - (ratio - driven) / (driven * (ratio - 1.0));
+}
+
+// Lambda that law and ghost pressure have together.
+fn whole_lambda(m: MaterialParams) -> f32 { return m.elastic_lambda + m.ghost_modulus; }
+
+fn sum_of(v: vec3f) -> f32 { return v.x + v.y + v.z; }
+
+// The tension in a stress: its positive principal values, their axes, and the elastic energy per volume at rest that they hold.
+struct Tension { pull: vec3f, axes: mat3x3f, energy: f32 }
+
+// `tau`: of elastic_stress.
+fn tension_of(m: MaterialParams, h: mat3x3f, q: f32, tau: mat3x3f) -> Tension {
+    let volume = 1.0 + swelling_of(m, h, q);
+    let eigen = symmetric_eigen(tau - volume * (q - params.ambient_pressure) * IDENTITY);
+    let sum = sum_of(eigen.values);
+    let lambda = whole_lambda(m);
+    let strain = (eigen.values - vec3f(lambda * sum / (3.0 * lambda + 2.0 * m.mu))) / (2.0 * m.mu);
+    let pull = max(eigen.values, vec3f(0.0));
+    return Tension(pull, eigen.vectors, 0.5 * dot(pull, strain));
+}
+
+// What damage leaves of the stress.
+fn damaged_stress(tau: mat3x3f, t: Tension, damage: f32) -> mat3x3f {
+    if damage == 0.0 { return tau; }
+    return tau - damage * (t.axes * diagonal(t.pull) * transpose(t.axes));
+}
+
+// Principal strains that leave no tension, by a law that is linear in them: as many axes give way, the most stretched first, as it takes.
+fn strains_without_tension(m: MaterialParams, strain: vec3f) -> vec3f {
+    let lambda = whole_lambda(m);
+    var kept = strain;
+    var loose = vec3<bool>(false);
+    for (var turn = 0u; turn < 3u; turn++) {
+        let stress = select(vec3f(lambda * sum_of(kept)) + 2.0 * m.mu * kept, vec3f(-3e38), loose);
+        let largest = max(stress.x, max(stress.y, stress.z));
+        if largest <= 0.0 { return kept; }
+        loose = loose | (stress == vec3f(largest));
+        let count = sum_of(select(vec3f(0.0), vec3f(1.0), loose));
+        let given = -lambda * sum_of(select(strain, vec3f(0.0), loose)) / (count * lambda + 2.0 * m.mu);
+        kept = select(strain, vec3f(given), loose);
+    }
+    return kept;
+}
+
+// Deformation of a broken particle, what it has opened by (logarithm of a volume), and its ghost pressure.
+struct Opened { deformation: mat3x3f, open: f32, ghost: f32 }
+
+fn without_tension(m: MaterialParams, h: mat3x3f, open: f32, q: f32) -> Opened {
+    // an inverted F has no logarithmic strain; the caller reports it
+    if swelling(h) <= -1.0 { return Opened(h, open, q); }
+    let l = logarithmic_strain(h);
+    let least = min(l.strain.x, min(l.strain.y, l.strain.z));
+    // What has opened closes before it bears pressure.
+    let closing = clamp(-least, 0.0, open);
+    let strain = select(l.strain, vec3f(least + closing), l.strain == vec3f(least) & vec3<bool>(closing > 0.0));
+    let change = strains_without_tension(m, strain) - l.strain;
+    if all(change == vec3f(0.0)) { return Opened(h, open, q); }
+    let moved = stretched(h, l, change);
+    let opened = max(open - sum_of(change), 0.0);
+    if !keeps_volume(m.kind) { return Opened(moved, opened, max(q, params.ambient_pressure)); }
+    // The ghost pressure of the volume that is taken out goes with it.
+    let gone = ghost_pressure_of(m, swelling_of(m, moved, q)) - ghost_pressure_of(m, swelling_of(m, h, q));
+    return Opened(moved, opened, q + gone);
+}

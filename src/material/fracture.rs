@@ -1,0 +1,277 @@
+//! Fracture: how a material of any law loses its strength in tension. Scene keys, defaults of presets, constants for the device.
+//! The strain of a crack is smeared over a band of cells, and softens so that a band dissipates the fracture energy per area.
+//! [Bazant & Oh 1983]
+
+use schemars::JsonSchema;
+use serde::de::{self, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::{Material, MaterialParams};
+
+/// Cells that a band of cracking particles is wide, as far as its energy goes.
+pub const BAND: f64 = 3.9;
+/// Driver at full damage over that at the onset, at least: a smaller ratio would let stress grow with damage.
+pub const LEAST_RATIO: f64 = 1.02;
+
+/// How the stress across a crack falls as it opens.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Softening {
+    /// On a straight line.
+    #[default]
+    Linear,
+    /// Fast at first, with a long tail: concrete and stone.
+    Exponential,
+}
+
+/// What is kept where cells are too coarse for both the strength and the fracture energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AtCoarse {
+    /// The tensile strength; more energy goes into a crack.
+    #[default]
+    Strength,
+    /// The fracture energy; the material is weaker.
+    Energy,
+}
+
+/// Scatter of the strength by flaws. [Weibull 1951]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Weibull {
+    /// Weibull's modulus: the smaller, the more the strength scatters.
+    pub modulus: f64,
+    /// Distance of flaws in the material `[m]`: strength is the same within cubes of this edge.
+    pub spacing: f64,
+    /// Number that the strengths are drawn with.
+    #[serde(default)]
+    pub seed: u32,
+}
+
+/// The numbers of `fracture` in a scene. Those that are left out are the preset's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FractureKeys {
+    /// Tensile strength `[Pa]`, the median where it scatters.
+    tensile_strength: Option<f64>,
+    /// Energy that a crack takes per area `[J m^-2]`.
+    fracture_energy: Option<f64>,
+    /// How the stress across a crack falls as it opens.
+    softening: Option<Softening>,
+    /// What is kept where cells are too coarse for both strength and energy.
+    #[serde(default)]
+    at_coarse: AtCoarse,
+    /// Scatter of the strength.
+    weibull: Option<Weibull>,
+}
+
+/// `fracture` as it stands in a scene.
+#[derive(Clone, Copy, Debug, JsonSchema)]
+#[serde(untagged)]
+pub(super) enum FractureGiven {
+    /// `true` takes all from the preset, `false` leaves a preset whole that breaks by itself.
+    Switch(bool),
+    /// Numbers.
+    Keys(FractureKeys),
+}
+
+/// How a material breaks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Fracture {
+    /// Tensile strength `[Pa]`.
+    pub tensile_strength: f64,
+    /// Energy that a crack takes per area `[J m^-2]`.
+    pub fracture_energy: f64,
+    /// How the stress across a crack falls as it opens.
+    pub softening: Softening,
+    /// What is kept where cells are too coarse for both.
+    pub at_coarse: AtCoarse,
+    /// Scatter of the strength.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weibull: Option<Weibull>,
+}
+
+/// What a preset knows of its fracture, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PresetFracture {
+    /// Tensile strength `[Pa]`.
+    pub tensile_strength: f64,
+    /// Energy that a crack takes per area `[J m^-2]`.
+    pub fracture_energy: f64,
+    /// How the stress across a crack falls as it opens.
+    pub softening: Softening,
+    /// Whether it breaks without being asked to.
+    pub always: bool,
+}
+
+impl Weibull {
+    /// Strength of a place over the median, in cells of an edge `[m]`. Places within a cube of the spacing share it; of several flaws in a
+    /// cell the weakest counts.
+    #[must_use]
+    pub fn factor(&self, place: [f64; 3], body: u32, dimension: u32, cell: f64) -> f64 {
+        let edge = self.spacing.max(cell);
+        let cube = place.map(|x| (x / edge).floor() as i64 as u64);
+        let key = cube.iter().fold(u64::from(self.seed) << 32 | u64::from(body), |key, axis| scrambled(key ^ *axis));
+        let share = (scrambled(key) >> 11) as f64 / (1_u64 << 53) as f64;
+        let flaws = (edge / self.spacing).powi(dimension as i32);
+        // the chance that none of so many flaws is weaker
+        let held = (1.0 - share).max(f64::MIN_POSITIVE).ln() / flaws;
+        (-held / std::f64::consts::LN_2).powf(self.modulus.recip()).clamp(WEAKEST, STRONGEST)
+    }
+}
+
+/// Limits of what flaws do to the strength.
+const WEAKEST: f64 = 0.2;
+const STRONGEST: f64 = 3.0;
+
+/// Well-mixed bits of a number. [Steele, Lea & Flood 2014]
+fn scrambled(number: u64) -> u64 {
+    let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+impl Fracture {
+    /// From the keys of a scene and what a preset knows, if there is one: its numbers in pascals over `unit`.
+    ///
+    /// # Errors
+    /// A sentence that names what is missing.
+    pub(super) fn resolve(
+        given: Option<FractureGiven>,
+        preset: Option<(PresetFracture, f64)>,
+    ) -> Result<Option<Self>, String> {
+        let always = preset.is_some_and(|(own, _)| own.always);
+        let keys = match given {
+            None if always => FractureKeys::default(),
+            None | Some(FractureGiven::Switch(false)) => return Ok(None),
+            Some(FractureGiven::Switch(true)) if preset.is_none() => {
+                let help = "`fracture = true` needs a preset that knows its strength; give `fracture = { tensile_strength = ...";
+                return Err(format!("{help} [Pa], fracture_energy = ... [J m^-2] }}`"));
+            }
+            Some(FractureGiven::Switch(true)) => FractureKeys::default(),
+            Some(FractureGiven::Keys(keys)) => keys,
+        };
+        let own = |get: fn(&PresetFracture) -> f64| preset.map(|(own, unit)| get(&own) / unit);
+        let needed = |value: Option<f64>, name: &str, unit: &str| {
+            value.ok_or_else(|| format!("missing `{name}` [{unit}] in `fracture`"))
+        };
+        let strength = keys.tensile_strength.or_else(|| own(|p| p.tensile_strength));
+        let energy = keys.fracture_energy.or_else(|| own(|p| p.fracture_energy));
+        Ok(Some(Self {
+            tensile_strength: needed(strength, "tensile_strength", "Pa")?,
+            fracture_energy: needed(energy, "fracture_energy", "J m^-2")?,
+            softening: keys.softening.or(preset.map(|(own, _)| own.softening)).unwrap_or_default(),
+            at_coarse: keys.at_coarse,
+            weibull: keys.weibull,
+        }))
+    }
+
+    /// Numbers outside their limits: key, value, what is allowed.
+    pub(super) fn findings(&self, young_modulus: f64) -> Vec<(&'static str, f64, String)> {
+        let mut found = Vec::new();
+        let mut positive = |name: &'static str, value: f64, unit: &str| {
+            if !(value.is_finite() && value > 0.0) {
+                found.push((name, value, format!("a finite number above 0{unit}")));
+            }
+        };
+        positive("tensile_strength", self.tensile_strength, " [Pa]");
+        positive("fracture_energy", self.fracture_energy, " [J m^-2]");
+        if let Some(weibull) = self.weibull {
+            positive("weibull.spacing", weibull.spacing, " [m]");
+        }
+        if self.tensile_strength > 0.1 * young_modulus {
+            let text = format!(
+                "at most a tenth of Young's modulus, {:e} [Pa]: are the units those of the scene?",
+                0.1 * young_modulus
+            );
+            found.push(("tensile_strength", self.tensile_strength, text));
+        }
+        if let Some(weibull) = self.weibull
+            && !(1.0..=1000.0).contains(&weibull.modulus)
+        {
+            found.push(("weibull.modulus", weibull.modulus, "a number from 1 to 1000".to_owned()));
+        }
+        found
+    }
+
+    /// Largest cell at which both strength and energy hold `[m]`; `modulus`: of pressure waves, lambda + 2 mu `[Pa]`.
+    #[must_use]
+    pub fn coarsest_cell(&self, modulus: f64) -> f64 {
+        2.0 * modulus * self.fracture_energy / (LEAST_RATIO * BAND * self.tensile_strength.powi(2))
+    }
+
+    /// Strength `[Pa]` and energy `[J m^-2]` that cells of this edge give.
+    #[must_use]
+    pub fn at_cell(&self, modulus: f64, cell: f64) -> [f64; 2] {
+        let coarse = cell / self.coarsest_cell(modulus);
+        match self.at_coarse {
+            _ if coarse <= 1.0 => [self.tensile_strength, self.fracture_energy],
+            AtCoarse::Strength => [self.tensile_strength, self.fracture_energy * coarse],
+            AtCoarse::Energy => [self.tensile_strength / coarse.sqrt(), self.fracture_energy],
+        }
+    }
+}
+
+impl Material {
+    /// How it breaks, if it does.
+    #[must_use]
+    pub fn fracture(&self) -> Option<&Fracture> {
+        self.fracture.as_ref()
+    }
+
+    /// Numbers of its fracture outside their limits, likewise.
+    #[must_use]
+    pub fn fracture_findings(&self) -> Vec<(&'static str, f64, String)> {
+        let young = self.parameter("young_modulus").unwrap_or(f64::INFINITY);
+        self.fracture.iter().flat_map(|fracture| fracture.findings(young)).collect()
+    }
+
+    /// The material as the device sees it, on cells of this edge `[m]`, with its fracture.
+    #[must_use]
+    pub fn params_with_fracture(&self, share: super::VolumeShare, cell: f64) -> MaterialParams {
+        let params = self.params(share);
+        let Some(fracture) = &self.fracture else { return params };
+        // The modulus that elastic force and ghost pressure have together.
+        let modulus = f64::from(params.elastic_lambda) + f64::from(params.ghost_modulus) + 2.0 * f64::from(params.mu);
+        let [strength, _] = fracture.at_cell(modulus, cell);
+        let poisson = self.parameter("poisson_ratio").unwrap_or(0.25);
+        // Speed of Rayleigh's waves over that of shear waves. [Viktorov 1967]
+        let surface = (0.862 + 1.14 * poisson) / (1.0 + poisson);
+        let band = BAND * cell;
+        MaterialParams {
+            tensile_strength: strength as f32,
+            toughness: (2.0 * fracture.fracture_energy * modulus / band) as f32,
+            softening: match fracture.softening {
+                Softening::Linear => 1,
+                Softening::Exponential => 2,
+            },
+            crack_modulus: (f64::from(params.mu) * (surface / band).powi(2)) as f32,
+            ..params
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for FractureGiven {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(GivenVisitor)
+    }
+}
+
+struct GivenVisitor;
+
+impl<'de> Visitor<'de> for GivenVisitor {
+    type Value = FractureGiven;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
+        formatter.write_str("true, false or a table with `tensile_strength` and `fracture_energy`")
+    }
+
+    fn visit_bool<E: de::Error>(self, on: bool) -> Result<FractureGiven, E> {
+        Ok(FractureGiven::Switch(on))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<FractureGiven, A::Error> {
+        FractureKeys::deserialize(de::value::MapAccessDeserializer::new(map)).map(FractureGiven::Keys)
+    }
+}
