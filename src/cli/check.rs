@@ -60,15 +60,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     say!("# {}\n#", scene.title);
     say!("# cells      {cells} = {} of edge {} m", plan.cells, domain.spacing());
     say!("# particles  {}", plan.particles);
-    for overlap in &overlaps {
-        say!("# overlap    {}", overlap_text(overlap));
-    }
-    for body in &thin {
-        say!("# thin       {}", thin_text(body));
-    }
-    for body in &breaking {
-        say!("# breaks     {}", breaking_text(body));
-    }
+    say_bodies(&overlaps, &thin, &breaking);
     if !scene.variants.is_empty() {
         say!("# variants   {}", scene.variants.keys().cloned().collect::<Vec<_>>().join(", "));
     }
@@ -83,6 +75,19 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     say_estimate(&estimate, duration.as_ref());
     say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
     Ok(())
+}
+
+/// What is to be known of the bodies, for people.
+fn say_bodies(overlaps: &[Overlap], thin: &[ThinBody], breaking: &[Breaking]) {
+    for overlap in overlaps {
+        say!("# overlap    {}", overlap_text(overlap));
+    }
+    for body in thin {
+        say!("# thin       {}", thin_text(body));
+    }
+    for body in breaking {
+        say!("# breaks     {}", breaking_text(body));
+    }
 }
 
 /// What a run will take, for people.

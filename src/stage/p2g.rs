@@ -73,7 +73,7 @@ fn flag(on: bool) -> f64 {
 
 /// Whether the driver of fracture goes with a stress: with that of the particles, where some material breaks.
 fn driver(parts: Parts<'_>, stress: &wgpu::Buffer) -> bool {
-    parts.state.breaks && stress == parts.state.particles.stress.raw()
+    parts.state.breaks() && stress == parts.state.particles.stress.raw()
 }
 
 impl Kernels {

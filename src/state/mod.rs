@@ -93,8 +93,6 @@ pub struct State {
     pub probe_cells: Buffer<u32>,
     /// Two entries per probe and step.
     pub probe_history: Buffer<[f32; 4]>,
-    /// Whether some material breaks.
-    pub breaks: bool,
     overrides: Vec<(&'static str, f64)>,
 }
 
@@ -170,7 +168,6 @@ impl State {
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
-            breaks: scene.breaks(),
             overrides,
         };
         state.fill(gpu, scene);
@@ -187,6 +184,12 @@ impl State {
         self.params_buffer.write(gpu, 0, &[self.params]);
         self.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, woken: 1, ..Control::default() }]);
         self.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
+    }
+
+    /// Whether some material breaks.
+    #[must_use]
+    pub fn breaks(&self) -> bool {
+        self.overrides.contains(&("FRACTURE", 1.0))
     }
 
     /// Initial gas and kinds of all slots.
