@@ -17,7 +17,7 @@ mod von_mises;
 mod wgsl;
 
 pub use fracture::{AtCoarse, BAND, Fracture, LEAST_RATIO, Softening, Weibull};
-pub use preset::{PRESETS, Preset, Units};
+pub use preset::{PRESETS, Preset, Units, kind_names};
 pub use wgsl::{wgsl_includes, wgsl_switch};
 
 use std::ops::{Bound, RangeBounds};
@@ -393,11 +393,4 @@ impl Parameter {
         let unit = if self.unit == "1" { String::new() } else { format!(" [{}]", self.unit) };
         format!("a finite number {limits}{unit}")
     }
-}
-
-/// The names of all kinds and presets, quoted, for messages.
-#[must_use]
-pub fn kind_names() -> String {
-    let names = KINDS.iter().map(|kind| kind.name).chain(PRESETS.iter().map(|preset| preset.name));
-    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }

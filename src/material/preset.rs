@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::KINDS;
 use super::fracture::{PresetFracture, Softening};
 
 /// A material that scenes may name instead of a law and its numbers.
@@ -158,3 +159,10 @@ pub const PRESETS: [Preset; 9] = [
         }),
     },
 ];
+
+/// The names of all kinds and presets, quoted, for messages.
+#[must_use]
+pub fn kind_names() -> String {
+    let names = KINDS.iter().map(|kind| kind.name).chain(PRESETS.iter().map(|preset| preset.name));
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
