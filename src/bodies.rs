@@ -51,20 +51,53 @@ impl Snapshot {
 
     /// Pieces of each body: connected groups of cells that hold particles of it that are not broken; and the number of cells with any.
     fn pieces(&self, count: usize) -> Vec<(u32, u32)> {
+        let (places, roots) = self.groups();
+        let mut pieces = vec![(0, 0); count];
+        for (index, (body, _)) in places.iter().enumerate() {
+            if let Some((pieces, _)) = pieces.get_mut(*body as usize) {
+                *pieces += u32::from(roots[index] == index);
+            }
+        }
+        let mut held: Vec<_> = self.particles.iter().map(|particle| self.place(particle)).collect();
+        held.sort_unstable();
+        held.dedup();
+        for (body, _) in held {
+            if let Some((_, cells)) = pieces.get_mut(body as usize) {
+                *cells += 1;
+            }
+        }
+        pieces
+    }
+
+    /// The piece that each particle belongs to, by the smallest [`ParticleSample::index`] in it: a piece keeps its number while it is
+    /// one, and of those that it splits into one keeps it. Broken particles away from all pieces have their own.
+    #[must_use]
+    pub fn piece_of_each(&self) -> Vec<u32> {
+        let (places, roots) = self.groups();
+        let root = |particle: &ParticleSample| places.binary_search(&self.place(particle)).ok().map(|at| roots[at]);
+        let mut smallest = vec![u32::MAX; places.len()];
+        for particle in &self.particles {
+            if let Some(root) = root(particle) {
+                smallest[root] = particle.index.min(smallest[root]);
+            }
+        }
+        self.particles.iter().map(|particle| root(particle).map_or(particle.index, |root| smallest[root])).collect()
+    }
+
+    /// Body and cell of a particle.
+    fn place(&self, particle: &ParticleSample) -> (u32, [i32; 3]) {
         let grid = &self.grid;
-        let cell = |particle: &ParticleSample| {
-            let at = |axis: usize| ((particle.position[axis] - grid.origin[axis]) / grid.spacing).floor() as i32;
-            let axis = |axis: usize| at(axis).clamp(0, grid.cells[axis] as i32 - 1);
-            (particle.body, [axis(2), axis(1), axis(0)])
-        };
-        let cells = |broken: bool| {
-            let chosen = self.particles.iter().filter(|particle| broken || particle.damage < 1.0);
-            let mut places: Vec<_> = chosen.map(cell).collect();
-            places.sort_unstable();
-            places.dedup();
-            places
-        };
-        let places = cells(false);
+        let at = |axis: usize| ((particle.position[axis] - grid.origin[axis]) / grid.spacing).floor() as i32;
+        let axis = |axis: usize| at(axis).clamp(0, grid.cells[axis] as i32 - 1);
+        (particle.body, [axis(2), axis(1), axis(0)])
+    }
+
+    /// Cells that hold particles that are not broken, body by body, and the first of those that each hangs together with.
+    fn groups(&self) -> (Vec<(u32, [i32; 3])>, Vec<usize>) {
+        let mut places: Vec<_> =
+            self.particles.iter().filter(|one| one.damage < 1.0).map(|one| self.place(one)).collect();
+        places.sort_unstable();
+        places.dedup();
         let mut groups = Groups((0..places.len()).collect());
         for (index, &(body, [z, y, x])) in places.iter().enumerate() {
             for offset in 0..13 {
@@ -75,18 +108,8 @@ impl Snapshot {
                 }
             }
         }
-        let mut pieces = vec![(0, 0); count];
-        for (index, (body, _)) in places.iter().enumerate() {
-            if let Some((pieces, _)) = pieces.get_mut(*body as usize) {
-                *pieces += u32::from(groups.root(index) == index);
-            }
-        }
-        for (body, _) in cells(true) {
-            if let Some((_, cells)) = pieces.get_mut(body as usize) {
-                *cells += 1;
-            }
-        }
-        pieces
+        let roots = (0..places.len()).map(|index| groups.root(index)).collect();
+        (places, roots)
     }
 }
 
@@ -159,6 +182,7 @@ mod tests {
             velocity: [1.0, 0.0, 0.0],
             vorticity: [0.0, 0.0, 4.0],
             mass: 2.0,
+            stress: [0.0; 6],
             kinetic_energy: 0.0,
             volume0: 1.0,
             ghost_pressure: 0.0,

@@ -1,9 +1,9 @@
 //! Totals, extremes and solver history of each step.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What a probe sees after a step.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbeRecord {
     /// Density \[kg m^-3\].
     pub density: f32,
@@ -16,7 +16,7 @@ pub struct ProbeRecord {
 }
 
 /// What the gas does to a body or an obstacle in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Load {
     /// Force, mean of the step \[N\].
     pub force: [f32; 3],
@@ -44,7 +44,7 @@ impl Load {
 }
 
 /// Mass, momentum and energy of a part of the scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Total {
     /// \[kg\]
     pub mass: f32,
@@ -55,7 +55,7 @@ pub struct Total {
 }
 
 /// One step, as the device recorded it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepRecord {
     /// Number, from 1.
     pub step: u32,

@@ -9,7 +9,7 @@ pub use warnings::{RULES, Rule, Warning, Watched, absent, marks, table, warnings
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::Result;
 use crate::diagnostics::StepRecord;
@@ -23,7 +23,7 @@ use crate::state::cut::gas_shares;
 
 /// What must stay constant without driven parts: everything inside plus what has crossed the boundary.
 /// Summed on the CPU in double precision, so that the sum itself loses nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Budget {
     /// Gas in gas cells and owed gas \[kg\].
     pub gas_mass: f64,
@@ -177,7 +177,7 @@ impl Budget {
 }
 
 /// What the steps of a run amount to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Steps.
     pub steps: u64,
@@ -258,7 +258,7 @@ impl Summary {
 }
 
 /// One line of the verdict.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// Key in `[expect]`.
     pub name: String,

@@ -15,7 +15,7 @@
 //! ```
 //!
 //! Modules stand on floors and use lower floors only: `math`, `error`, `input`, `riemann`, `spelling`; `material`, `gpu`; `scene`, `numerics`;
-//! `state`; `stage`, `snapshot`; `simulation`, `diagnostics`, `bodies`; `render`, `expect`; `export`, `verify`; `cli`, `viewer`. The rules of the
+//! `state`; `stage`, `snapshot`; `simulation`, `diagnostics`, `bodies`, `quantity`; `render`, `expect`; `export`, `verify`; `cli`, `viewer`. The rules of the
 //! house are in `docs/architecture.md`, the method in `docs/method.md`. Start reading at [`simulation::Simulation::record_step`].
 
 pub mod bodies;
@@ -29,6 +29,7 @@ pub mod input;
 pub mod material;
 pub mod math;
 pub mod numerics;
+pub mod quantity;
 pub mod render;
 pub mod riemann;
 pub mod scene;

@@ -5,10 +5,11 @@ mod fault;
 mod live;
 mod recorded;
 mod report;
+mod saved;
 
 use crate::diagnostics::{Load, StepRecord};
 use crate::error::Result;
-use crate::gpu::{Detail, Gpu, Pass, Times, readback};
+use crate::gpu::{Allocation, Detail, Gpu, Pass, Times, readback, watched};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
@@ -22,6 +23,7 @@ use crate::state::params::STILL_ASLEEP;
 use crate::state::{Control, HISTORY, State};
 pub use live::Blast;
 use recorded::Recorded;
+pub use saved::{Host, Saved, SavedArray};
 
 /// A running simulation: buffers, stages, clock.
 #[derive(Debug)]
@@ -64,6 +66,8 @@ pub struct Simulation {
     time: f64,
     step: u64,
     recorded: Recorded,
+    /// All buffers, in the order in which they were made.
+    buffers: Vec<Allocation>,
 }
 
 /// Steps per submission at most.
@@ -75,6 +79,11 @@ impl Simulation {
     /// # Errors
     /// If the scene does not fit or a shader is wrong.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Simulation> {
+        let (simulation, buffers) = watched(|| Self::build(gpu, scene));
+        Ok(Simulation { buffers, ..simulation? })
+    }
+
+    fn build(gpu: &Gpu, scene: &Scene) -> Result<Simulation> {
         let state = State::new(gpu, scene)?;
         let parts = Parts { gpu, state: &state };
         let solids = state.has_solids();
@@ -116,6 +125,7 @@ impl Simulation {
             time: 0.0,
             step: 0,
             recorded: Recorded::FIRST,
+            buffers: Vec::new(),
             gpu: gpu.clone(),
             state,
         };

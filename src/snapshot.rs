@@ -73,6 +73,8 @@ pub struct ParticleSample {
     pub damage: f32,
     /// Deformation gradient, columns.
     pub deformation: [[f32; 3]; 3],
+    /// Cauchy stress \[Pa\]: xx, yy, zz, xy, yz, zx.
+    pub stress: [f32; 6],
     /// Index of the body in the scene.
     pub body: u32,
     /// Index of the material in the scene.
@@ -94,41 +96,132 @@ impl Snapshot {
     /// Driver errors.
     pub(crate) fn read(gpu: &Gpu, state: &State, (time, step): (f64, u64), gamma: f64) -> Result<Snapshot> {
         let grid = state.grid;
-        let flow = grid.unpadded(&readback::read(gpu, &state.gas.conserved)?);
-        let energy = grid.unpadded(&readback::read_range(gpu, &state.gas.energy, 0, grid.slots())?);
-        let kind = grid.unpadded(&readback::read(gpu, &state.interface.cells)?);
-        let owed = owed(gpu, state, &flow, &kind)?;
+        let particles = &state.particles;
+        let rows = ParticleRows {
+            position: readback::read(gpu, &particles.position)?,
+            velocity: readback::read(gpu, &particles.velocity)?,
+            affine: readback::read(gpu, &particles.affine)?,
+            deformation: readback::read(gpu, &particles.deformation)?,
+            stress: readback::read(gpu, &particles.stress)?,
+        };
+        let books = state.gas.owed_flow.len() == grid.slots();
+        let owed = if books { readback::read(gpu, &state.gas.owed_flow)? } else { Vec::new() };
+        let cells = CellRows {
+            owed: owed.iter().map(|book| book[0]).collect(),
+            conserved: readback::read(gpu, &state.gas.conserved)?,
+            energy: readback::read_range(gpu, &state.gas.energy, 0, grid.slots())?,
+            kind: readback::read(gpu, &state.interface.cells)?.iter().map(|word| *word as u8 & kind::MASK).collect(),
+        };
+        Ok(Self::of(grid, gamma, (time, step), &cells, &rows))
+    }
+
+    /// From arrays in the layout of the device, of a grid and gas, at a time \[s\] after so many steps.
+    #[must_use]
+    pub fn of(grid: Grid, gamma: f64, (time, step): (f64, u64), cells: &CellRows, rows: &ParticleRows) -> Snapshot {
+        let flow = grid.unpadded(&cells.conserved);
+        let energy = grid.unpadded(&cells.energy);
         let pressure = |(u, e): (&[f32; 4], &f32)| {
             let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
             (gamma as f32 - 1.0) * (e - kinetic)
         };
-        Ok(Snapshot {
+        Snapshot {
             time,
             step,
             grid,
             gamma,
-            kind: kind.iter().map(|word| (word & 3) as u8).collect(),
+            kind: grid.unpadded(&cells.kind),
             density: flow.iter().map(|u| u[0]).collect(),
             velocity: flow.iter().map(|u| [u[1] / u[0], u[2] / u[0], u[3] / u[0]]).collect(),
             pressure: flow.iter().zip(&energy).map(pressure).collect(),
             energy,
-            owed,
-            particles: read_particles(gpu, state)?,
-        })
+            owed: cells.owed_density(&grid),
+            particles: rows.samples(&grid),
+        }
     }
 }
 
-/// What cells owe per volume; where only the ring has books they owe nothing.
-fn owed(gpu: &Gpu, state: &State, flow: &[[f32; 4]], kinds: &[u32]) -> Result<Vec<f32>> {
-    let grid = state.grid;
-    if state.gas.owed_flow.len() != grid.slots() {
-        return Ok(vec![0.0; grid.cell_count()]);
+/// The cells in the layout of the device, ring included.
+#[derive(Debug, Clone, Default)]
+pub struct CellRows {
+    /// Density and momentum per volume.
+    pub conserved: Vec<[f32; 4]>,
+    /// Total energy per volume.
+    pub energy: Vec<f32>,
+    /// Mass owed \[kg\]; empty where only the ring has books.
+    pub owed: Vec<f32>,
+    /// Kinds.
+    pub kind: Vec<u8>,
+}
+
+impl CellRows {
+    /// What cells owe per volume, and in covered cells all that they hold.
+    fn owed_density(&self, grid: &Grid) -> Vec<f32> {
+        if self.owed.is_empty() {
+            return vec![0.0; grid.cell_count()];
+        }
+        let volume = grid.spacing.powi(grid.dimension as i32);
+        let (books, flow, kinds) =
+            (grid.unpadded(&self.owed), grid.unpadded(&self.conserved), grid.unpadded(&self.kind));
+        let held = |cell: &u8, u: &[f32; 4]| if *cell == kind::SOLID { u[0] } else { 0.0 };
+        books.iter().zip(flow).zip(kinds).map(|((book, u), cell)| book / volume + held(&cell, &u)).collect()
     }
-    let volume = grid.spacing.powi(grid.dimension as i32);
-    let books = grid.unpadded(&readback::read(gpu, &state.gas.owed_flow)?);
-    let held = |word: &u32, u: &[f32; 4]| if word & 3 == u32::from(kind::SOLID) { u[0] } else { 0.0 };
-    let cells = books.iter().zip(flow).zip(kinds);
-    Ok(cells.map(|((book, u), word)| book[0] / volume + held(word, u)).collect())
+}
+
+/// The particles in the layout of the device, see [`crate::state::Particles`].
+#[derive(Debug, Clone, Default)]
+pub struct ParticleRows {
+    /// Position and mass.
+    pub position: Vec<[f32; 4]>,
+    /// Velocity and volume at rest.
+    pub velocity: Vec<[f32; 4]>,
+    /// Three rows per particle.
+    pub affine: Vec<[f32; 4]>,
+    /// Three rows per particle.
+    pub deformation: Vec<[f32; 4]>,
+    /// Two rows per particle.
+    pub stress: Vec<[f32; 4]>,
+}
+
+impl ParticleRows {
+    /// The particles that are inside the domain.
+    fn samples(&self, grid: &Grid) -> Vec<ParticleSample> {
+        let Self { position, velocity, affine, deformation, stress } = self;
+        let axes = grid.dimension as usize;
+        let xyz = |v: [f32; 4]| [v[0], v[1], v[2]];
+        let sample = |p: usize| ParticleSample {
+            index: p as u32,
+            position: xyz(position[p]),
+            velocity: xyz(velocity[p]),
+            vorticity: {
+                let [a, b, c] = [0, 1, 2].map(|column| affine[3 * p + column]);
+                [b[2] - c[1], c[0] - a[2], a[1] - b[0]]
+            },
+            mass: position[p][3],
+            kinetic_energy: {
+                let square = |v: [f32; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+                let turning = turning(&affine[3 * p..3 * p + axes]);
+                0.5 * position[p][3] * (square(velocity[p]) + 0.25 * grid.spacing * grid.spacing * turning)
+            },
+            volume0: velocity[p][3],
+            ghost_pressure: affine[3 * p][3],
+            plastic_strain: if deformation[3 * p + 2][3] < 1.0 { affine[3 * p + 1][3] } else { 0.0 },
+            damage: deformation[3 * p + 2][3],
+            deformation: std::array::from_fn(|column| {
+                let unit = |row: usize| if row == column { 1.0 } else { 0.0 };
+                std::array::from_fn(|row| unit(row) + deformation[3 * p + column][row])
+            }),
+            stress: {
+                let (diagonal, aside) = (stress[2 * p], stress[2 * p + 1]);
+                let all = [diagonal[0], diagonal[1], diagonal[2], aside[0], aside[1], aside[2]];
+                let column = |k: usize| glam::Vec3::from(xyz(deformation[3 * p + k])) + glam::Vec3::AXES[k];
+                let volume = velocity[p][3] * glam::Mat3::from_cols(column(0), column(1), column(2)).determinant();
+                all.map(|product| product / volume)
+            },
+            body: deformation[3 * p][3].to_bits(),
+            material: affine[3 * p + 2][3].to_bits() & 0xffff,
+        };
+        (0..position.len()).filter(|&p| deformation[3 * p + 1][3] > 0.0).map(sample).collect()
+    }
 }
 
 /// Of the particles that have left the domain: number, velocity, and the mean square of the velocity around them.
@@ -148,41 +241,4 @@ pub(crate) fn gone(gpu: &Gpu, state: &State) -> Result<Vec<(usize, [f64; 4])>> {
 
 fn turning(affine: &[[f32; 4]]) -> f32 {
     affine.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sum()
-}
-
-/// The particles that are inside the domain.
-fn read_particles(gpu: &Gpu, state: &State) -> Result<Vec<ParticleSample>> {
-    let particles = &state.particles;
-    let position = readback::read(gpu, &particles.position)?;
-    let velocity = readback::read(gpu, &particles.velocity)?;
-    let affine = readback::read(gpu, &particles.affine)?;
-    let deformation = readback::read(gpu, &particles.deformation)?;
-    let axes = state.grid.dimension as usize;
-    let xyz = |v: [f32; 4]| [v[0], v[1], v[2]];
-    let sample = |p: usize| ParticleSample {
-        index: p as u32,
-        position: xyz(position[p]),
-        velocity: xyz(velocity[p]),
-        vorticity: {
-            let [a, b, c] = [0, 1, 2].map(|column| affine[3 * p + column]);
-            [b[2] - c[1], c[0] - a[2], a[1] - b[0]]
-        },
-        mass: position[p][3],
-        kinetic_energy: {
-            let square = |v: [f32; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-            let turning = turning(&affine[3 * p..3 * p + axes]);
-            0.5 * position[p][3] * (square(velocity[p]) + 0.25 * state.grid.spacing * state.grid.spacing * turning)
-        },
-        volume0: velocity[p][3],
-        ghost_pressure: affine[3 * p][3],
-        plastic_strain: if deformation[3 * p + 2][3] < 1.0 { affine[3 * p + 1][3] } else { 0.0 },
-        damage: deformation[3 * p + 2][3],
-        deformation: std::array::from_fn(|column| {
-            let unit = |row: usize| if row == column { 1.0 } else { 0.0 };
-            std::array::from_fn(|row| unit(row) + deformation[3 * p + column][row])
-        }),
-        body: deformation[3 * p][3].to_bits(),
-        material: affine[3 * p + 2][3].to_bits() & 0xffff,
-    };
-    Ok((0..position.len()).filter(|&p| deformation[3 * p + 1][3] > 0.0).map(sample).collect())
 }

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use serde::{Deserialize, Serialize};
 
+use super::run::Every;
 use crate::gpu::Detail;
 
 /// Compressible gas, shock waves and the solids they bend, tear and shatter.
@@ -30,10 +32,14 @@ pub enum Command {
     Run(RunOptions),
     /// Draw the frames of a run again, with another camera or look, without simulating
     Render(RenderOptions),
+    /// Write the states of a run for other programs: vtk, vdb, usd, npz
+    Convert(ConvertOptions),
     /// Watch a scene in a live window; without a verb, the gallery of all scenes
     View(ViewOptions),
     /// Run scenes one after another and write one page that shows them all
     Gallery(GalleryOptions),
+    /// Run a scene over ranges of its keys, in one process that compiles its kernels once
+    Sweep(SweepOptions),
     /// Check a scene and print cells, particles, memory and every default
     Check(CheckOptions),
     /// Measure a scene: a table of stages, then totals per second
@@ -63,7 +69,7 @@ pub enum Command {
 }
 
 /// A scene and what to change about it.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args, Serialize, Deserialize)]
 pub struct SceneOptions {
     /// Scene file, or name of a shipped scene (see `brisance list`)
     pub scene: String,
@@ -121,7 +127,8 @@ pub struct CheckOptions {
 }
 
 /// Options of `run`.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args, Serialize, Deserialize)]
+#[serde(default)]
 pub struct RunOptions {
     /// What to run.
     #[command(flatten)]
@@ -138,6 +145,19 @@ pub struct RunOptions {
     /// Further formats: png16, exr, vtk, states; separated by commas, may be repeated
     #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
     pub export: Vec<String>,
+    /// Go on with a run from its latest checkpoint: SCENE is its folder; --until may be later
+    #[arg(long, conflicts_with = "branch")]
+    pub resume: bool,
+    /// Start a new run from a state of another one: SCENE is DIR@TIME; --set changes probes, output, look, gravity, states of sides,
+    /// times, tolerance, strength of materials
+    #[arg(long)]
+    pub branch: bool,
+    /// Leave a checkpoint every so often: 500steps, 90s, 10min, 2h on the clock, t=0.01 in simulated seconds, or off [default: 10min]
+    #[arg(long, value_name = "EVERY")]
+    pub checkpoint: Option<Every>,
+    /// Checkpoints that stay [default: 2]
+    #[arg(long, value_name = "N")]
+    pub keep: Option<usize>,
     /// A film.
     #[command(flatten)]
     pub film: FilmOptions,
@@ -162,7 +182,7 @@ pub struct RunOptions {
 }
 
 /// A film of the pictures.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args, Serialize, Deserialize)]
 pub struct FilmOptions {
     /// Make a film of the pictures with ffmpeg, where it is installed; the name says the format, as in film.mp4
     #[arg(long, value_name = "FILE")]
@@ -210,6 +230,63 @@ pub struct RenderOptions {
     /// A film.
     #[command(flatten)]
     pub film: FilmOptions,
+    /// Print nothing but warnings and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Options of `sweep`.
+#[derive(Debug, Args)]
+pub struct SweepOptions {
+    /// What to run.
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// A key and its values: KEY=a,b,c or KEY=low:high:count; may be repeated, then all combinations run
+    #[arg(long = "over", value_name = "KEY=VALUES", required = true)]
+    pub over: Vec<String>,
+    /// Instead of all combinations so many points of a Latin hypercube, for example lhs:50
+    #[arg(long, value_name = "lhs:COUNT")]
+    pub sample: Option<String>,
+    /// Seed of the sample
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Only one part of the runs, for array jobs, for example 3/10
+    #[arg(long, value_name = "PART/PARTS")]
+    pub shard: Option<String>,
+    /// Folder for the runs and sweep.csv; runs that are finished there are not run again
+    #[arg(long, value_name = "DIR", default_value = "out/sweep")]
+    pub out: PathBuf,
+    /// End of the runs [s], instead of time.until
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<f64>,
+    /// Pictures besides the first, instead of time.frames
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u32>,
+    /// Further formats, as those of `run`; separated by commas, may be repeated
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
+    pub export: Vec<String>,
+    /// Write tables and reports, but no pictures
+    #[arg(long)]
+    pub no_frames: bool,
+    /// Print nothing but warnings and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Options of `convert`.
+#[derive(Debug, Args)]
+pub struct ConvertOptions {
+    /// Folder of a run that has states (`brisance run SCENE --export states`) or checkpoints
+    pub run: PathBuf,
+    /// Formats: vtk, vdb, usd, npz; separated by commas, may be repeated
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',', required = true)]
+    pub to: Vec<String>,
+    /// Only this frame; may be repeated
+    #[arg(long = "frame", value_name = "N")]
+    pub frame: Vec<u32>,
+    /// Folder for the files [default: RUN]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     /// Print nothing but warnings and errors
     #[arg(long, short)]
     pub quiet: bool,

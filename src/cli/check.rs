@@ -73,6 +73,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
         say!("#   largest buffer: {}, {}", largest.name, size(largest.bytes));
     }
     say_estimate(&estimate, duration.as_ref());
+    say!("# checkpoint at most {} before compression", size(plan.bytes(None)));
     say!("#\n# The scene with every default, as TOML:\n\n{}", resolved.trim_end());
     Ok(())
 }

@@ -55,6 +55,18 @@ impl Folder {
         Err(Error::Usage(format!("{} and {MOST_NAMES} beside it hold runs; name another --out", path.display())))
     }
 
+    /// Takes the folder of a run that goes on; everything stays.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if another process writes there, or no run is there.
+    pub(super) fn again(path: &Path) -> Result<Self> {
+        let folder = Self::locked(path)?;
+        match folder.holds_a_run() {
+            true => Ok(folder),
+            false => Err(Error::Usage(format!("{} is no folder of a run: it has no report.json", path.display()))),
+        }
+    }
+
     fn locked(path: &Path) -> Result<Self> {
         fs::create_dir_all(path).map_err(|source| Error::io(path, source))?;
         let lock = path.join(LOCK);

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
+
 use crate::Result;
 use crate::diagnostics::{Load, StepRecord};
 use crate::export::csv::{Table, Value};
@@ -23,8 +25,8 @@ const OBSTACLE_COLUMNS: [&str; 13] = [
 ];
 
 /// Loads of a thing so far.
-#[derive(Clone, Debug, Default)]
-struct Sum {
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Sum {
     /// Impulse and work since the start.
     borne: [f64; 4],
     /// Impulse and angular impulse since the last row, and its time.
@@ -66,6 +68,22 @@ impl Loads {
             obstacles: named.collect(),
             table: (obstacles > 0).then(|| Table::new(&folder.join("obstacles.csv"), &OBSTACLE_COLUMNS)),
         }
+    }
+
+    /// What bodies and obstacles have borne so far.
+    pub(super) fn sums(&self) -> Vec<Sum> {
+        self.bodies.iter().chain(self.obstacles.iter().map(|(_, sum)| sum)).cloned().collect()
+    }
+
+    /// Goes on from what they had borne.
+    pub(super) fn go_on(&mut self, sums: &[Sum]) {
+        let own = self.bodies.iter_mut().chain(self.obstacles.iter_mut().map(|(_, sum)| sum));
+        own.zip(sums).for_each(|(own, sum)| own.clone_from(sum));
+    }
+
+    /// The table of obstacles.
+    pub(super) fn table(&mut self) -> Option<&mut Table> {
+        self.table.as_mut()
     }
 
     /// Whether bodies have them.

@@ -20,10 +20,12 @@ macro_rules! tell {
 mod args;
 mod bench;
 mod check;
+mod convert;
 mod duration;
 mod film;
 mod folder;
 mod gallery;
+mod index;
 mod init;
 mod interrupt;
 mod list;
@@ -33,6 +35,7 @@ mod progress;
 mod render;
 mod run;
 mod scenes;
+mod sweep;
 mod tables;
 mod verify;
 mod view;
@@ -135,7 +138,9 @@ fn execute(cli: &Cli) -> Result<()> {
         Command::View(options) => view::view(Some(options), cli),
         Command::Run(options) => run::run(options, cli),
         Command::Render(options) => render::render(options, cli),
+        Command::Convert(options) => convert::convert(options, cli),
         Command::Gallery(options) => gallery::gallery(options, cli),
+        Command::Sweep(options) => sweep::sweep(options, cli),
         Command::Check(options) => check::check(options, cli),
         Command::Bench(options) => bench::bench(options, cli),
         Command::Verify(options) => verify::verify(options, cli),

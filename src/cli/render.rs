@@ -24,11 +24,11 @@ const MAIN: &str = "main";
 
 /// What is needed of a run's report.
 #[derive(Deserialize)]
-struct Recorded {
-    scene_hash: String,
-    scene_file: String,
-    particles: u64,
-    scene: Scene,
+pub(super) struct Recorded {
+    pub(super) scene_hash: String,
+    pub(super) scene_file: String,
+    pub(super) particles: u64,
+    pub(super) scene: Scene,
 }
 
 /// Draws the frames of a run again.
@@ -56,7 +56,7 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     let mut drawn = Ok(());
     for (index, path) in &frames {
         let frame = if interrupt::wish() { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
-        let accepted = frame.map(|frame| writer.send(Message { records: Vec::new(), frame: Some(frame) }));
+        let accepted = frame.map(|frame| writer.send(Message { frame: Some(frame), ..Message::default() }));
         if !matches!(accepted, Ok(true)) {
             drawn = accepted.map(|_| ());
             break;
@@ -74,7 +74,11 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     Ok(())
 }
 
-fn read_report(run: &Path) -> Result<Recorded> {
+/// Reads the report of a run.
+///
+/// # Errors
+/// [`Error::Usage`] if the folder is none of a run.
+pub(super) fn read_report(run: &Path) -> Result<Recorded> {
     let path = run.join("report.json");
     let text = input::text(&path, input::MOST_REPORT).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => {
@@ -185,7 +189,7 @@ fn files(options: &RenderOptions, folder: PathBuf) -> Result<Files> {
     }
     without_coarse(&mut formats);
     let video = film::asked(&options.film, &folder.join("frames"));
-    Ok(Files { folder, formats, video, tables: false, listed: false })
+    Ok(Files { folder, formats, video, ..Files::default() })
 }
 
 /// Device, scene and look, and the buffers and kernels of the frames so far.

@@ -1,7 +1,10 @@
 //! `run`: a scene to pictures, tables and a report.
 
+mod beginning;
+mod checkpoint;
+mod formats;
+
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::args::{Cli, RunOptions};
@@ -12,7 +15,7 @@ use super::interrupt;
 use super::outcome::{Verdict, changed_by_hand, device, last_words, status, totals, verdict};
 use super::progress::{Progress, clock};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
-use super::{film, open_device, scenes};
+use super::{film, open_device};
 use crate::diagnostics::StepRecord;
 use crate::expect::{Budget, Check, Ending, Summary};
 use crate::export::Needs;
@@ -20,11 +23,16 @@ use crate::export::report::{self, Report, Status};
 use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::render::{Renderer, SceneBuffers, Stored};
-use crate::scene::{self, Scene};
+use crate::scene::Scene;
 use crate::simulation::{BATCH, Simulation};
 use crate::snapshot::Snapshot;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
+use beginning::Beginning;
+use checkpoint::Schedule;
+pub(super) use checkpoint::{Checkpoint, Every};
+use formats::formats;
+pub(super) use formats::{PICTURES, without_coarse};
 
 /// Runs a scene.
 ///
@@ -38,31 +46,46 @@ pub(super) fn run(options: &RunOptions, cli: &Cli) -> Result<()> {
 /// The same, with or without the report on standard output.
 pub(super) fn perform(options: &RunOptions, cli: &Cli, json: bool) -> Result<()> {
     let start = Instant::now();
-    let scene = scenes::load(&options.scene, &overrides(options))?;
-    let gpu = open_device(cli)?;
-    let plan = MemoryPlan::fitting(&scene, &gpu)?;
-    let folder = match &options.out {
-        Some(path) => Folder::take(path, options.force)?,
-        None => Folder::next_free(&Path::new("out").join(scene::stem(&options.scene.scene)))?,
-    };
+    let beginning = Beginning::of(options)?;
+    begun(&beginning, &open_device(cli)?, (start, json))
+}
+
+/// The same on a device that is open; its kernels are there for the next run.
+pub(super) fn perform_on(gpu: &Gpu, options: &RunOptions) -> Result<()> {
+    let start = Instant::now();
+    begun(&Beginning::of(options)?, gpu, (start, false))
+}
+
+fn begun(beginning: &Beginning, gpu: &Gpu, told: (Instant, bool)) -> Result<()> {
+    let plan = MemoryPlan::fitting(&beginning.scene, gpu)?;
+    let folder = beginning.folder()?;
     let path = folder.path.clone();
     interrupt::last_words(&path, Some(Box::new(last_words(&folder))));
-    let outcome = owning(options, (scene, &gpu, &plan), folder, (start, json));
+    let outcome = owning(beginning, (gpu, &plan), folder, told);
     interrupt::last_words(&path, None);
     outcome
 }
 
 /// The same in a folder of our own.
 fn owning(
-    options: &RunOptions,
-    (scene, gpu, plan): (Scene, &Gpu, &MemoryPlan),
+    beginning: &Beginning,
+    (gpu, plan): (&Gpu, &MemoryPlan),
     folder: Folder,
     (start, json): (Instant, bool),
 ) -> Result<()> {
-    let mut run = Run::prepare(options, scene, gpu, plan, folder, start)?;
+    let mut run = Run::prepare(beginning, gpu, plan, folder, start)?;
     interrupt::listen_between_steps();
     let outcome = run.frames();
     run.finish(outcome, json)
+}
+
+/// Tells what is about to run.
+fn announce(scene: &Scene, plan: &MemoryPlan, gpu: &Gpu) {
+    let cells = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join(" x ");
+    for overlap in scene.overlaps() {
+        tell!("warning: {}", overlap_text(&overlap));
+    }
+    tell!("{}: {cells} cells, {} particles, on {}", scene.title, plan.particles, gpu.info.name);
 }
 
 /// Options that are keys of the scene.
@@ -102,41 +125,57 @@ struct Run<'a> {
     batch: u32,
     clocks: Clocks,
     start: Instant,
+    /// Seconds that the run took before it goes on.
+    before: f64,
+    /// File or name of the scene.
+    place: String,
+    /// Last frame drawn, and whether the device is on its way to the next.
+    frame: Option<u32>,
+    under_way: bool,
+    schedule: Schedule,
 }
 
 impl<'a> Run<'a> {
     fn prepare(
-        options: &'a RunOptions,
-        scene: Scene,
+        beginning: &'a Beginning,
         gpu: &Gpu,
         plan: &'a MemoryPlan,
         folder: Folder,
         start: Instant,
     ) -> Result<Self> {
+        let (options, scene) = (&beginning.options, beginning.scene.clone());
         let (formats, video) = (formats(options, &scene), film::asked(&options.film, &folder.path.join("frames")));
         if let Some((film, _)) = &video {
             not_an_input(film, &options.scene.scene)?;
         }
         let pictures = !options.no_frames || video.is_some();
-        let files = Files { folder: folder.path.clone(), formats, video, tables: true, listed: true };
+        let (place, source) = (beginning.place.clone(), [beginning.place.clone(), device(gpu).text()]);
+        let before = beginning.tables();
+        let files = Files { folder: folder.path.clone(), formats, video, tables: true, listed: true, before, source };
         let mut needs = files.needs()?;
         needs.snapshot |= !scene.bodies.is_empty();
         let writer = Writer::start(files, &scene);
         if !options.quiet {
-            let cells = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join(" x ");
-            for overlap in scene.overlaps() {
-                tell!("warning: {}", overlap_text(&overlap));
-            }
-            tell!("{}: {cells} cells, {} particles, on {}", scene.title, plan.particles, gpu.info.name);
+            announce(&scene, plan, gpu);
         }
-        let simulation = Simulation::new(gpu, &scene)?;
-        let start_budget = Budget::read(&simulation, &scene, 0.0)?;
+        let simulation = beginning.simulation(gpu, plan)?;
+        let about = beginning.from.as_ref().map(|from| &from.about);
+        let start_budget =
+            about.map_or_else(|| Budget::read(&simulation, &scene, 0.0), |about| Ok(about.start_budget))?;
+        let (frame, under_way) =
+            beginning.reached().map_or((None, false), |(frame, under_way)| (Some(frame), under_way));
         let buffers = SceneBuffers::of(&simulation.state);
         let renderer = pictures.then(|| Renderer::new(gpu, &scene, &buffers)).transpose()?;
         let renderer = renderer.map(|renderer| renderer.with_depth(needs.depth));
         let progress = Progress::new(scene.time.until, options.quiet);
         let clocks = Clocks { setup: start.elapsed(), ..Clocks::default() };
         let run = Self {
+            schedule: Schedule::new(options, simulation.time(), simulation.step_count()),
+            before: about.map_or(0.0, |about| about.wall_seconds),
+            summary: about.map(|about| about.summary.clone()).unwrap_or_default(),
+            place,
+            frame,
+            under_way,
             options,
             scene,
             folder,
@@ -148,7 +187,6 @@ impl<'a> Run<'a> {
             needs,
             progress,
             pending: Vec::new(),
-            summary: Summary::default(),
             start_budget,
             batch: 1,
             clocks,
@@ -161,16 +199,16 @@ impl<'a> Run<'a> {
     /// Frame 0 is the start; frame k follows at k / frames of the time.
     fn frames(&mut self) -> Result<()> {
         let frames = self.scene.time.frames.max(1);
-        self.frame(0, 0.0)?;
-        for index in 1..=frames {
-            if interrupt::wish() {
-                return Err(Error::Interrupted);
-            }
-            let time = self.scene.time.until * f64::from(index) / f64::from(frames);
+        if self.frame.is_none() {
+            self.frame(0, 0.0)?;
+        }
+        for index in self.frame.map_or(1, |last| last + 1)..=frames {
+            self.stop_if_asked()?;
+            let time = self.scene.frame_time(index);
             self.advance(time)?;
             self.frame(index, time)?;
         }
-        Ok(())
+        self.checkpoint_at_end()
     }
 
     fn advance(&mut self, time: f64) -> Result<()> {
@@ -181,11 +219,17 @@ impl<'a> Run<'a> {
     }
 
     fn advance_steps(&mut self, time: f64) -> Result<()> {
-        self.simulation.set_target(time)?;
+        if !std::mem::replace(&mut self.under_way, true) {
+            self.simulation.set_target(time)?;
+        }
         loop {
+            self.checkpoint_if_due()?;
             let first = self.pending.len();
             let begun = Instant::now();
-            let outcome = self.simulation.advance_batch_of(&mut self.pending, self.batch);
+            let latest = self.summary.last.as_ref().map_or(0.0, |last| last.dt.into());
+            let now = (self.simulation.time(), self.simulation.step_count());
+            let batch = self.schedule.batch(self.batch, now, latest);
+            let outcome = self.simulation.advance_batch_of(&mut self.pending, batch);
             let steps = (self.pending.len() - first).max(1) as u32;
             self.batch = (BATCH_TIME.as_secs_f64() / (begun.elapsed() / steps).as_secs_f64().max(1e-9)) as u32;
             self.batch = self.batch.clamp(1, BATCH);
@@ -194,9 +238,7 @@ impl<'a> Run<'a> {
             if outcome? {
                 return Ok(());
             }
-            if interrupt::wish() {
-                return Err(Error::Interrupted);
-            }
+            self.stop_if_asked()?;
         }
     }
 
@@ -214,7 +256,8 @@ impl<'a> Run<'a> {
         self.clocks.pictures += start.elapsed();
         let start = Instant::now();
         let frame = Some(FrameToWrite { index, time, step: at.1, pictures, snapshot, stored });
-        let message = Message { records: std::mem::take(&mut self.pending), frame };
+        (self.frame, self.under_way) = (Some(index), false);
+        let message = Message { records: std::mem::take(&mut self.pending), frame, checkpoint: None };
         let accepted = self.writer.as_ref().is_some_and(|writer| writer.send(message));
         self.clocks.waiting += start.elapsed();
         if !accepted {
@@ -233,7 +276,7 @@ impl<'a> Run<'a> {
     fn finish(mut self, outcome: Result<()>, json: bool) -> Result<()> {
         self.progress.finish();
         if let Some(writer) = &self.writer {
-            writer.send(Message { records: std::mem::take(&mut self.pending), frame: None });
+            writer.send(Message { records: std::mem::take(&mut self.pending), ..Message::default() });
         }
         // The first error is the one to tell about.
         let (mut outcome, written) = match (outcome, self.close_writer()) {
@@ -317,7 +360,7 @@ impl<'a> Run<'a> {
             time: self.simulation.time(),
             steps: self.simulation.step_count(),
             frames: written.frames,
-            wall_seconds: self.start.elapsed().as_secs_f64(),
+            wall_seconds: self.wall_seconds(),
             device: device(&self.gpu),
             particles: self.plan.particles,
             memory: self.plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
@@ -329,11 +372,16 @@ impl<'a> Run<'a> {
             warnings: judged.warnings,
             absent_warnings: judged.absent,
             scene_hash: self.scene.hash(),
-            scene_file: scenes::place(&self.options.scene.scene),
+            scene_file: self.place.clone(),
             scene: &self.scene,
         };
         report::write(&self.folder.path.join("report.json"), &report)?;
         Ok(report)
+    }
+
+    /// Time on the clock, with that before the run went on \[s\].
+    fn wall_seconds(&self) -> f64 {
+        self.before + self.start.elapsed().as_secs_f64()
     }
 
     fn print(&self, report: &Report<&Scene>) {
@@ -344,31 +392,5 @@ impl<'a> Run<'a> {
         for check in &report.expect {
             say!("  {check}");
         }
-    }
-}
-
-/// Formats of a run: pictures unless unwanted, others if the scene or the command line asks.
-fn formats(options: &RunOptions, scene: &Scene) -> Vec<String> {
-    let mut formats: Vec<String> = if options.no_frames { Vec::new() } else { vec!["png".to_owned()] };
-    let asked = options.export.iter().cloned().chain(scene.output.formats().map(str::to_owned));
-    for name in asked {
-        if !formats.contains(&name) {
-            formats.push(name);
-        }
-    }
-    if options.no_frames {
-        formats.retain(|name| !PICTURES.contains(&name.as_str()));
-    }
-    without_coarse(&mut formats);
-    formats
-}
-
-/// Formats that hold pictures.
-pub(super) const PICTURES: [&str; 3] = ["png", "png16", "exr"];
-
-/// Pictures of 16 bits per channel take the place of those of 8.
-pub(super) fn without_coarse(formats: &mut Vec<String>) {
-    if formats.iter().any(|name| name == "png16") {
-        formats.retain(|name| name != "png");
     }
 }

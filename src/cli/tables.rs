@@ -1,11 +1,14 @@
 //! The tables of a run: one row per step in `diagnostics.csv` and `probes.csv`, one per frame and body in `bodies.csv`.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::loads::{self, Loads};
+use serde::{Deserialize, Serialize};
+
+use super::loads::{self, Loads, Sum};
 use crate::Result;
 use crate::diagnostics::{StepRecord, Total};
-use crate::export::csv::{Table, Value};
+use crate::export::csv::{Mark, Table, Value};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 
@@ -37,6 +40,15 @@ const BODY_COLUMNS: [&str; 22] = [
 /// Columns of `probes.csv` for each probe, after `step` and `time`.
 const PROBE_COLUMNS: [&str; 6] = ["density", "velocity_x", "velocity_y", "velocity_z", "pressure", "kind"];
 
+/// How far the tables had come, by the names of their files.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Marks {
+    /// How far each table had come.
+    pub(super) files: BTreeMap<String, Mark>,
+    /// What loads had come to.
+    loads: Vec<Sum>,
+}
+
 /// The tables of one run.
 #[derive(Debug)]
 pub(super) struct Tables {
@@ -65,6 +77,33 @@ impl Tables {
             loads,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
         }
+    }
+
+    /// The same after the rows of a run that goes on; its tables lie in `before`. A table whose columns have changed begins anew.
+    ///
+    /// # Errors
+    /// [`crate::Error::Io`] if a table is not what the run wrote.
+    pub(super) fn continued(folder: &Path, scene: &Scene, (before, marks): (&Path, &Marks)) -> Result<Self> {
+        let mut tables = Self::new(folder, scene);
+        for table in tables.all() {
+            let name = table.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if let Some(mark) = marks.files.get(&name) {
+                table.go_on_from((&before.join(name), mark))?;
+            }
+        }
+        tables.loads.go_on(&marks.loads);
+        Ok(tables)
+    }
+
+    /// How far each table has come, by the name of its file.
+    pub(super) fn marks(&mut self) -> Marks {
+        let name = |table: &Table| table.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let files = self.all().map(|table| (name(table), table.mark())).collect();
+        Marks { files, loads: self.loads.sums() }
+    }
+
+    fn all(&mut self) -> impl Iterator<Item = &mut Table> {
+        [&mut self.steps].into_iter().chain(&mut self.bodies).chain(&mut self.probes).chain(self.loads.table())
     }
 
     /// Adds steps.

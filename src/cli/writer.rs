@@ -7,12 +7,14 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::folder::Folder;
+use super::index::Index;
 use super::interrupt;
-use super::tables::Tables;
+use super::run::Checkpoint;
+use super::tables::{Marks, Tables};
 use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::export::video::VideoExporter;
-use crate::export::{self, Exporter, Moment, Needs, Origin, atomic};
+use crate::export::{self, Exporter, Moment, Needs, Origin, atomic, checkpoint};
 use crate::render::{Picture, Stored};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
@@ -27,6 +29,8 @@ pub(super) struct Message {
     pub(super) records: Vec<StepRecord>,
     /// The frame that they lead to; none at the end of a run that broke off.
     pub(super) frame: Option<FrameToWrite>,
+    /// The state that they lead to, to go on from.
+    pub(super) checkpoint: Option<Box<Checkpoint>>,
 }
 
 /// A frame on its way to the disk.
@@ -46,8 +50,19 @@ pub(super) struct FrameToWrite {
     pub(super) stored: Option<Stored>,
 }
 
+/// What a run has written before it goes on.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Before {
+    /// Where its tables lie.
+    pub(super) folder: PathBuf,
+    /// How far they had come.
+    pub(super) marks: Marks,
+    /// Frames that lie in the folder of the run.
+    pub(super) frames: u32,
+}
+
 /// What the thread writes of every frame, and where.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Files {
     /// Folder of the results.
     pub(super) folder: PathBuf,
@@ -59,6 +74,10 @@ pub(super) struct Files {
     pub(super) tables: bool,
     /// Whether the folder keeps a list of what is written.
     pub(super) listed: bool,
+    /// What was written before.
+    pub(super) before: Before,
+    /// File or name of the scene, and the device.
+    pub(super) source: [String; 2],
 }
 
 impl Files {
@@ -66,7 +85,7 @@ impl Files {
     fn open(&self) -> Result<Vec<Box<dyn Exporter>>> {
         let mut exporters = export::open(&self.formats, &self.folder)?;
         if let Some((path, rate)) = &self.video {
-            exporters.push(Box::new(VideoExporter::new(path, *rate)));
+            exporters.push(Box::new(VideoExporter::new(path, *rate, &self.folder.join("frames"))));
         }
         Ok(exporters)
     }
@@ -127,40 +146,91 @@ impl Writer {
 
 fn work(messages: &Receiver<Message>, files: &Files, scene: &Scene) -> Result<Written> {
     atomic::remember();
-    let mut exporters = files.open()?;
-    let mut tables = files.tables.then(|| Tables::new(&files.folder, scene));
-    let origin = Origin::of(scene);
-    let mut written = Written::default();
-    for Message { records, frame } in messages {
+    let mut work = Work::begin(files, scene)?;
+    for message in messages {
         let start = Instant::now();
-        if let Some(tables) = &mut tables {
-            tables.add_steps(&records);
-        }
-        if let Some(frame) = frame.filter(|_| !interrupt::urgent()) {
-            let FrameToWrite { index, time, step, pictures, snapshot, stored } = &frame;
-            if let (Some(tables), Some(snapshot)) = (&mut tables, snapshot) {
-                tables.add_bodies(*index, *time, snapshot);
-            }
-            let (snapshot, stored) = (snapshot.as_ref(), stored.as_ref());
-            let moment =
-                Moment { index: *index, origin: &origin, time: *time, step: *step, pictures, snapshot, stored };
-            for exporter in &mut exporters {
-                exporter.write(&moment)?;
-            }
-            written.frames += 1;
-        }
-        if let Some(tables) = &mut tables {
-            tables.save()?;
-        }
+        work.write(message)?;
         if files.listed {
             Folder::note(&files.folder, &atomic::newly_written())?;
         }
-        written.busy += start.elapsed();
+        work.written.busy += start.elapsed();
     }
     let start = Instant::now();
-    for exporter in &mut exporters {
-        written.films.extend(exporter.finish());
+    for exporter in &mut work.exporters {
+        work.written.films.extend(exporter.finish());
     }
-    written.busy += start.elapsed();
-    Ok(written)
+    work.written.busy += start.elapsed();
+    Ok(work.written)
+}
+
+/// The thread at work.
+struct Work<'a> {
+    files: &'a Files,
+    exporters: Vec<Box<dyn Exporter>>,
+    origin: Origin,
+    tables: Option<Tables>,
+    index: Option<Index>,
+    written: Written,
+    /// Whether a frame was given up.
+    given_up: bool,
+}
+
+impl<'a> Work<'a> {
+    fn begin(files: &'a Files, scene: &Scene) -> Result<Self> {
+        let Before { folder, marks, frames } = &files.before;
+        let mut exporters = files.open()?;
+        for exporter in &mut exporters {
+            exporter.go_on(*frames, &|index| scene.frame_time(index))?;
+        }
+        let tables = files.tables.then(|| Tables::continued(&files.folder, scene, (folder, marks)));
+        let mut tables = tables.transpose()?;
+        let origin = Origin::of(scene).at(&files.source[0], &files.source[1]);
+        let index = tables.as_mut().map(|tables| {
+            let names = tables.marks().files.into_keys().collect();
+            Index::begin(&files.folder, &origin, (&files.formats, names), *frames)
+        });
+        let written = Written { frames: *frames, ..Written::default() };
+        Ok(Self { files, exporters, origin, tables, index, written, given_up: false })
+    }
+
+    fn write(&mut self, Message { records, frame, checkpoint }: Message) -> Result<()> {
+        if let Some(tables) = &mut self.tables {
+            tables.add_steps(&records);
+        }
+        // a state behind a frame that was given up would leave a hole
+        self.given_up |= frame.is_some() && interrupt::urgent();
+        if let Some(frame) = frame.filter(|_| !interrupt::urgent()) {
+            self.write_frame(&frame)?;
+        }
+        let Some(tables) = &mut self.tables else { return Ok(()) };
+        tables.save()?;
+        let folder = &self.files.folder;
+        if let Some(mut checkpoint) = checkpoint.filter(|_| !self.given_up) {
+            let about = checkpoint.about(tables.marks());
+            let saved = &checkpoint.saved;
+            checkpoint::write(folder, &self.origin.source, saved, &about, checkpoint.keep)?;
+            if let Some(index) = &mut self.index {
+                index.add_checkpoint(folder, saved.time, saved.step);
+            }
+        }
+        self.index.as_ref().map_or(Ok(()), |index| index.save(folder))
+    }
+
+    fn write_frame(&mut self, frame: &FrameToWrite) -> Result<()> {
+        let FrameToWrite { index, time, step, pictures, snapshot, stored } = frame;
+        if let (Some(tables), Some(snapshot)) = (&mut self.tables, snapshot) {
+            tables.add_bodies(*index, *time, snapshot);
+        }
+        let (snapshot, stored) = (snapshot.as_ref(), stored.as_ref());
+        let moment =
+            Moment { index: *index, origin: &self.origin, time: *time, step: *step, pictures, snapshot, stored };
+        for exporter in &mut self.exporters {
+            exporter.write(&moment)?;
+        }
+        self.written.frames += 1;
+        if let Some(list) = &mut self.index {
+            list.add_frame(*index, *time, *step);
+        }
+        Ok(())
+    }
 }

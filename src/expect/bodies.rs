@@ -181,6 +181,7 @@ order = [{ quantity = "moved_x", bodies = ["near", "far"] }, { quantity = "moved
             position: [(seed.position[0] + [0.1, -0.2][seed.body as usize]) as f32, seed.position[1] as f32, 0.0],
             velocity: [0.0; 3],
             vorticity: [0.0; 3],
+            stress: [0.0; 6],
             mass: (seed.volume * seed.density) as f32,
             kinetic_energy: 0.0,
             volume0: seed.volume as f32,

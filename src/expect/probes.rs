@@ -1,6 +1,6 @@
 //! What probes have seen: the largest pressure, when a front and when a body came by.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Checks;
 use crate::diagnostics::{ProbeRecord, StepRecord};
@@ -12,7 +12,7 @@ use crate::snapshot::kind;
 const FRONT: f64 = 0.05;
 
 /// What one probe has seen in gas.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seen {
     /// Pressure after the first step \[Pa\].
     pub first: f64,

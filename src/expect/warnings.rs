@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Budget, Ending, Summary};
 use crate::diagnostics::{StepRecord, Total};
@@ -145,7 +145,7 @@ impl std::fmt::Display for Warning {
 }
 
 /// What single steps leave of the watched numbers.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Watched {
     /// Most owed gas over gas, and when \[s\].
     owed: [f64; 2],

@@ -1,10 +1,16 @@
 //! Tables that grow during a run: diagnostics.csv, bodies.csv, probes.csv.
 
 use std::fmt::Write as _;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::Result;
+use serde::{Deserialize, Serialize};
+
 use crate::export::atomic;
+use crate::{Error, Result, input};
+
+/// Bytes of a table that is read again.
+const MOST_TABLE: u64 = 4 << 30;
 
 /// One entry of a row.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +72,35 @@ impl Table {
         table
     }
 
+    /// Takes the rows of a file, as far as [`Table::mark`] says. Where it has other columns, the table stays as it is.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the file begins otherwise.
+    pub fn go_on_from(&mut self, (before, mark): (&Path, &Mark)) -> Result<()> {
+        let text = input::text(before, MOST_TABLE).map_err(|source| Error::io(before, source))?;
+        let kept = usize::try_from(mark.bytes).ok().and_then(|bytes| text.get(..bytes));
+        let Some(kept) = kept.filter(|kept| checksum(kept) == mark.checksum) else {
+            let reason = "its rows up to the checkpoint are not those that the run wrote";
+            return Err(Error::io(before, io::Error::new(io::ErrorKind::InvalidData, reason)));
+        };
+        if kept.lines().next() == self.text.lines().next() {
+            kept.clone_into(&mut self.text);
+        }
+        Ok(())
+    }
+
+    /// How far the table has come, for [`Table::continued`].
+    #[must_use]
+    pub fn mark(&self) -> Mark {
+        Mark { bytes: self.text.len() as u64, checksum: checksum(&self.text) }
+    }
+
+    /// Where the table lies.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Adds a row of as many values as the header has names.
     pub fn push(&mut self, row: impl IntoIterator<Item = Value>) {
         let mut count = 0;
@@ -88,6 +123,21 @@ impl Table {
         }
         Ok(())
     }
+}
+
+/// The beginning of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mark {
+    /// Its bytes.
+    pub bytes: u64,
+    /// Their CRC-32.
+    pub checksum: u32,
+}
+
+fn checksum(text: &str) -> u32 {
+    let mut crc = flate2::Crc::new();
+    crc.update(text.as_bytes());
+    crc.sum()
 }
 
 fn push_value(text: &mut String, value: &Value) {

@@ -3,13 +3,21 @@
 //! To add a format: one file here with its [`Exporter`], and one line in [`FORMATS`].
 
 pub mod apng;
+pub mod arrays;
 pub mod atomic;
+pub mod checkpoint;
+pub mod container;
 pub mod csv;
 mod encoder;
 pub mod exr;
+mod npy;
 pub mod png;
 pub mod report;
 pub mod states;
+mod units;
+pub mod usd;
+pub mod vdb;
+mod vdb_tree;
 pub mod video;
 pub mod vtk;
 
@@ -22,19 +30,29 @@ use crate::spelling::did_you_mean;
 use crate::{Error, Result};
 
 /// What files say about the scene that they come from.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Origin {
     /// Title of the scene.
     pub title: String,
     /// [`Scene::hash`].
     pub hash: String,
+    /// What states say.
+    pub source: container::Source,
 }
 
 impl Origin {
     /// That of a scene.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
-        Self { title: scene.title.clone(), hash: scene.hash() }
+        let source = container::Source::of(scene);
+        Self { title: scene.title.clone(), hash: source.scene_hash.clone(), source }
+    }
+
+    /// The same of a scene that lies at a place, on a device.
+    #[must_use]
+    pub fn at(mut self, place: &str, device: &str) -> Self {
+        (self.source.scene_file, self.source.device) = (place.to_owned(), device.to_owned());
+        self
     }
 }
 
@@ -121,6 +139,15 @@ pub trait Exporter {
         Needs::default()
     }
 
+    /// Called once before the first frame of a run that goes on: the first `frames` frames are there, and when each was.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if a file that is needed cannot be read.
+    fn go_on(&mut self, frames: u32, time: &dyn Fn(u32) -> f64) -> Result<()> {
+        let _ = (frames, time);
+        Ok(())
+    }
+
     /// Called once behind the last frame; what there is to tell the user, and what was not made.
     fn finish(&mut self) -> Vec<std::result::Result<String, String>> {
         Vec::new()
@@ -157,13 +184,28 @@ pub const FORMATS: &[Format] = &[
     },
     Format {
         name: "states",
-        description: "states/NNNN.state, from which `brisance render` draws again",
+        description: "states/NNNN.npz, from which `brisance render` draws again and numpy reads",
         open: |folder| Box::new(states::StateExporter::new(folder)),
     },
     Format {
         name: "vtk",
         description: "fields/NNNN.vti, particles/NNNN.vtp and .pvd time series for ParaView and VTK",
         open: |folder| Box::new(vtk::VtkExporter::new(folder)),
+    },
+    Format {
+        name: "vdb",
+        description: "vdb/NNNN.vdb: density, pressure, temperature, velocity, schlieren as sparse volumes for Blender and Houdini",
+        open: |folder| Box::new(vdb::VdbExporter::new(folder)),
+    },
+    Format {
+        name: "usd",
+        description: "stage.usda with camera, volumes (vdb/NNNN.vdb) and bodies as points, usd/NNNN.usda",
+        open: |folder| Box::new(usd::UsdExporter::new(folder)),
+    },
+    Format {
+        name: "npz",
+        description: "arrays/NNNN.npz: all quantities of cells and particles for numpy",
+        open: |folder| Box::new(arrays::ArrayExporter::new(folder)),
     },
 ];
 

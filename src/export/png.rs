@@ -1,13 +1,14 @@
 //! frames/NNNN.png: the pictures, with where they come from as text chunks.
 
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use ::png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
+use ::png::{BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, SrgbRenderingIntent};
 
-use crate::Result;
 use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::render::{Depth, Frame, Picture};
+use crate::{Error, Result};
 
 /// Writes the pictures of a frame to `frames/NNNN.png`, `frames/FIELD/NNNN.png` and `frames/VIEW/...`, see [`Moment::places`].
 #[derive(Debug)]
@@ -50,6 +51,23 @@ pub fn write(path: &Path, frame: &Frame, text: &[(&str, String)]) -> Result<()> 
     // Every pixel is opaque: three bytes say it all.
     let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     atomic::write(path, |out| encode(out, frame, (BitDepth::Eight, &rgb), text).map_err(io::Error::other))
+}
+
+/// Reads a picture that [`write`] wrote.
+///
+/// # Errors
+/// [`Error::Io`] if it cannot be read or has other pixels.
+pub fn read(path: &Path) -> Result<Frame> {
+    let file = File::open(path).map_err(|source| Error::io(path, source))?;
+    let failed = |error: &dyn std::fmt::Display| Error::io(path, io::Error::other(error.to_string()));
+    let mut reader = Decoder::new(io::BufReader::new(file)).read_info().map_err(|error| failed(&error))?;
+    let mut rgb = vec![0; reader.output_buffer_size().unwrap_or_default()];
+    let info = reader.next_frame(&mut rgb).map_err(|error| failed(&error))?;
+    if (info.color_type, info.bit_depth) != (ColorType::Rgb, BitDepth::Eight) {
+        return Err(failed(&"no picture with 8 bits per channel"));
+    }
+    let rgba = rgb.chunks_exact(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255]).collect();
+    Ok(Frame { width: info.width, height: info.height, rgba })
 }
 
 /// The same with 16 bits per channel.

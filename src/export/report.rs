@@ -23,6 +23,14 @@ pub struct DeviceReport {
     pub software: bool,
 }
 
+impl DeviceReport {
+    /// As one line.
+    #[must_use]
+    pub fn text(&self) -> String {
+        format!("{} ({}, {})", self.name, self.backend, self.driver)
+    }
+}
+
 /// How far a run came.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -1,55 +1,26 @@
-//! states/NNNN.state: what pictures are drawn from, bit by bit, so that they can be drawn again without simulating.
-//!
-//! A file is the line `brisance state 2`, a line of JSON (time, step, scene, and per array its name, the bytes of an element and its
-//! stored bytes), then the arrays. Each is a zlib stream of its bytes in little-endian order, sorted by their place in an element: first
-//! all first bytes, then all second ones. [RFC 1950]
+//! states/NNNN.npz: what pictures and converters need, bit by bit, so that they can be made again without simulating.
 
-use std::io::{self, Read, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
-use bytemuck::{Pod, cast_slice, pod_collect_to_vec};
-use flate2::Compression;
-use flate2::read::ZlibDecoder;
-use flate2::write::ZlibEncoder;
-use serde::{Deserialize, Serialize};
+use bytemuck::{Pod, cast_slice};
 
-use crate::export::{Exporter, Moment, Needs, atomic};
+use super::container::{self, Array, Contents, Form, Source};
+use super::npy::Kind;
+use crate::export::{Exporter, Moment, Needs};
 use crate::render::{Stored, StoredParticles};
-use crate::{Error, Result, input};
+use crate::snapshot::{CellRows, ParticleRows, Snapshot, kind};
+use crate::state::Grid;
+use crate::{Error, Result};
 
-/// First line of every file; the number is that of the format.
-const MAGIC: &str = "brisance state 2";
-
-/// Bytes of a number in all arrays but the kinds.
-const WORD: usize = 4;
 /// Bytes of a slot of the grid, and of a particle.
 const SLOT: u64 = 28;
 const PARTICLE: u64 = 160;
 
-/// Writes `states/NNNN.state`.
+/// Writes `states/NNNN.npz`.
 #[derive(Debug)]
 pub struct StateExporter {
     folder: PathBuf,
-}
-
-/// The second line of a file.
-#[derive(Debug, Serialize, Deserialize)]
-struct Head {
-    time: f64,
-    step: u64,
-    scene: String,
-    arrays: Vec<Array>,
-}
-
-/// An array of a file.
-#[derive(Debug, Serialize, Deserialize)]
-struct Array {
-    name: String,
-    /// Bytes of an element.
-    width: usize,
-    /// Bytes before and after compression.
-    bytes: usize,
-    stored: usize,
 }
 
 impl StateExporter {
@@ -63,7 +34,7 @@ impl StateExporter {
 impl Exporter for StateExporter {
     fn write(&mut self, moment: &Moment) -> Result<()> {
         let stored = moment.stored.expect("a run reads what an exporter needs");
-        write(&self.folder.join(format!("{:04}.state", moment.index)), &moment.origin.hash, stored)
+        write(&self.folder.join(format!("{:04}.npz", moment.index)), &moment.origin.source, stored)
     }
 
     fn needs(&self) -> Needs {
@@ -82,13 +53,24 @@ pub fn folder_of(run: &Path) -> PathBuf {
 /// # Errors
 /// [`Error::Io`] if the folder cannot be read.
 pub fn list(run: &Path) -> Result<Vec<(u32, PathBuf)>> {
-    let folder = folder_of(run);
-    let failed = |source: io::Error| Error::io(&folder, source);
+    Ok(numbered(&folder_of(run))?
+        .into_iter()
+        .filter_map(|(number, path)| Some((u32::try_from(number).ok()?, path)))
+        .collect())
+}
+
+/// Files of a folder that a number names, in order; none where there is no folder.
+pub(super) fn numbered(folder: &Path) -> Result<Vec<(u64, PathBuf)>> {
+    let failed = |source: io::Error| Error::io(folder, source);
     let mut found = Vec::new();
-    for entry in std::fs::read_dir(&folder).map_err(failed)? {
+    let entries = match std::fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(found),
+        entries => entries.map_err(failed)?,
+    };
+    for entry in entries {
         let path = entry.map_err(failed)?.path();
         let number = path.file_stem().and_then(|stem| stem.to_str()?.parse().ok());
-        if let Some(number) = number.filter(|_| path.extension().is_some_and(|extension| extension == "state")) {
+        if let Some(number) = number.filter(|_| path.extension().is_some_and(|extension| extension == "npz")) {
             found.push((number, path));
         }
     }
@@ -96,35 +78,25 @@ pub fn list(run: &Path) -> Result<Vec<(u32, PathBuf)>> {
     Ok(found)
 }
 
-/// Writes one state; `scene` is the hash of its scene.
+/// Writes one state of a run.
 ///
 /// # Errors
 /// [`Error::Io`].
-pub fn write(path: &Path, scene: &str, state: &Stored) -> Result<()> {
-    let mut arrays: Vec<(&str, usize, &[u8])> = vec![
-        ("conserved", WORD, cast_slice(&state.conserved)),
-        ("energy", WORD, cast_slice(&state.energy)),
-        ("kind", 1, &state.kind),
+pub fn write(path: &Path, source: &Source, state: &Stored) -> Result<()> {
+    let array = |name, kind, columns, bytes: &[u8]| Array::rows(name, kind, columns, bytes.to_vec());
+    let mut arrays = vec![
+        array("conserved", Kind::F32, 4, cast_slice(&state.conserved)),
+        array("energy", Kind::F32, 1, cast_slice(&state.energy)),
+        array("kind", Kind::U8, 1, &state.kind),
     ];
     if !state.owed.is_empty() {
-        arrays.push(("owed", WORD, cast_slice(&state.owed)));
+        arrays.push(array("owed", Kind::F32, 1, cast_slice(&state.owed)));
     }
     if let Some(particles) = &state.particles {
-        arrays.extend(particles.arrays().map(|(name, array)| (name, WORD, cast_slice(array))));
+        let own = particles.arrays();
+        arrays.extend(own.map(|(name, values)| array(name, Kind::F32, 4, cast_slice(values))));
     }
-    let mut head = Head { time: state.time, step: state.step, scene: scene.to_owned(), arrays: Vec::new() };
-    let mut streams = Vec::new();
-    for (name, width, bytes) in arrays {
-        let stream = deflated(bytes, width).map_err(|source| Error::io(path, source))?;
-        head.arrays.push(Array { name: name.to_owned(), width, bytes: bytes.len(), stored: stream.len() });
-        streams.push(stream);
-    }
-    atomic::write(path, |out| {
-        writeln!(out, "{MAGIC}")?;
-        serde_json::to_writer(&mut *out, &head)?;
-        out.write_all(b"\n")?;
-        streams.iter().try_for_each(|stream| out.write_all(stream))
-    })
+    container::write(path, (Form::Fields, source), (state.time, state.step), &[], &arrays)
 }
 
 /// Bytes that the arrays of a state have at most, in a scene of so many slots and particles.
@@ -138,82 +110,64 @@ pub fn most_bytes(slots: u64, particles: u64) -> u64 {
 /// # Errors
 /// [`Error::Io`] if the file cannot be read or is no whole state.
 pub fn read(path: &Path, most: u64) -> Result<(String, Stored)> {
-    // what does not compress grows by less than its head
-    let file =
-        input::bytes(path, most.saturating_add(most / 8) + (1 << 20)).map_err(|source| Error::io(path, source))?;
-    parse(&file, most).map_err(|reason| {
-        let text = format!("{reason}; run the scene again with --export states");
-        Error::io(path, io::Error::new(io::ErrorKind::InvalidData, text))
-    })
+    let contents = container::read(path, most)?;
+    let scene = contents.head.source.scene_hash.clone();
+    let stored = stored(contents).map_err(|reason| container::broken(path, &reason))?;
+    Ok((scene, stored))
 }
 
-fn parse(file: &[u8], most: u64) -> std::result::Result<(String, Stored), String> {
-    let mut lines = file.splitn(3, |byte| *byte == b'\n');
-    if lines.next() != Some(MAGIC.as_bytes()) {
-        return Err(format!("not a file that begins with `{MAGIC}`"));
-    }
-    let head: Head = serde_json::from_slice(lines.next().unwrap_or_default())
-        .map_err(|error| format!("its second line cannot be read: {error}"))?;
-    let mut rest = lines.next().unwrap_or_default();
-    let promised = head.arrays.iter().fold(0u64, |sum, array| sum.saturating_add(array.bytes as u64));
-    if promised > most {
-        return Err(format!("its arrays have {promised} bytes, those of the scene at most {most}"));
-    }
-    let mut arrays = Vec::new();
-    for array in head.arrays {
-        let (stream, behind) = rest.split_at_checked(array.stored).ok_or("the file is cut")?;
-        rest = behind;
-        let bytes = inflated(stream, &array).map_err(|error| format!("{}: {error}", array.name))?;
-        arrays.push((array.name, bytes));
-    }
-    let mut take = |name: &str| {
-        let place = arrays.iter().position(|(own, _)| own == name).ok_or(format!("{name} is missing"));
-        place.map(|place| arrays.swap_remove(place).1)
-    };
-    let conserved = typed(take("conserved")?)?;
-    let (energy, kind) = (typed(take("energy")?)?, take("kind")?);
-    let owed = take("owed").map_or(Ok(Vec::new()), typed)?;
-    let particles = match take("position") {
-        Err(_) => None,
-        Ok(position) => Some(StoredParticles {
-            position: typed(position)?,
-            velocity: typed(take("velocity")?)?,
-            affine: typed(take("affine")?)?,
-            deformation: typed(take("deformation")?)?,
-            stress: typed(take("stress")?)?,
-        }),
-    };
-    Ok((head.scene, Stored { time: head.time, step: head.step, conserved, energy, owed, kind, particles }))
+/// A state as tables and exporters see it, of a grid and gas.
+#[must_use]
+pub fn snapshot(stored: Stored, grid: Grid, gamma: f64) -> Snapshot {
+    let rows = stored.particles.unwrap_or_default();
+    let StoredParticles { position, velocity, affine, deformation, stress } = rows;
+    let cells = CellRows { conserved: stored.conserved, energy: stored.energy, owed: stored.owed, kind: stored.kind };
+    let rows = ParticleRows { position, velocity, affine, deformation, stress };
+    Snapshot::of(grid, gamma, (stored.time, stored.step), &cells, &rows)
 }
 
-fn typed<T: Pod>(bytes: Vec<u8>) -> std::result::Result<Vec<T>, String> {
-    if bytes.len().is_multiple_of(size_of::<T>()) {
-        Ok(pod_collect_to_vec(&bytes))
+/// What a file of either form holds of a state.
+fn stored(mut contents: Contents) -> std::result::Result<Stored, String> {
+    let conserved: Vec<[f32; 4]> = take(&mut contents, "conserved")?;
+    let mut energy: Vec<f32> = take(&mut contents, "energy")?;
+    energy.truncate(conserved.len()); // a full state has scratch behind it
+    let kind = match take::<u8>(&mut contents, "kind") {
+        Ok(kind) => kind,
+        Err(_) => take::<u32>(&mut contents, "cells")?.into_iter().map(|word| word as u8 & kind::MASK).collect(),
+    };
+    let owed =
+        if has(&contents, "owed") { take(&mut contents, "owed")? } else { owed_of(&mut contents, conserved.len())? };
+    let position: Vec<[f32; 4]> =
+        if has(&contents, "position") { take(&mut contents, "position")? } else { Vec::new() };
+    let particles = if position.is_empty() {
+        None
     } else {
-        Err("an array ends within an element".to_owned())
-    }
+        Some(StoredParticles {
+            position,
+            velocity: take(&mut contents, "velocity")?,
+            affine: take(&mut contents, "affine")?,
+            deformation: take(&mut contents, "deformation")?,
+            stress: take(&mut contents, "stress")?,
+        })
+    };
+    Ok(Stored { time: contents.head.time, step: contents.head.step, conserved, energy, owed, kind, particles })
 }
 
-/// Sorted by their place in an element, the bytes of neighbours are alike and compress well.
-fn deflated(bytes: &[u8], width: usize) -> io::Result<Vec<u8>> {
-    let sorted: Vec<u8> = (0..width).flat_map(|place| bytes.iter().skip(place).step_by(width).copied()).collect();
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-    encoder.write_all(&sorted)?;
-    encoder.finish()
+/// The mass owed, of a full state; nothing where only the ring has books.
+fn owed_of(contents: &mut Contents, slots: usize) -> std::result::Result<Vec<f32>, String> {
+    if !has(contents, "owed_flow") {
+        return Ok(Vec::new());
+    }
+    let books: Vec<[f32; 4]> = take(contents, "owed_flow")?;
+    Ok(if books.len() == slots { books.iter().map(|book| book[0]).collect() } else { Vec::new() })
 }
 
-fn inflated(stream: &[u8], Array { width, bytes, .. }: &Array) -> io::Result<Vec<u8>> {
-    let wrong = |text: &str| io::Error::new(io::ErrorKind::InvalidData, text.to_owned());
-    if *width == 0 || !bytes.is_multiple_of(*width) {
-        return Err(wrong("its size is no multiple of its elements"));
-    }
-    let mut sorted = Vec::new();
-    ZlibDecoder::new(stream).take(*bytes as u64 + 1).read_to_end(&mut sorted)?;
-    if sorted.len() != *bytes {
-        return Err(wrong("it has another size than the head says"));
-    }
-    let count = bytes / width;
-    Ok((0..*bytes).map(|i| sorted[i % width * count + i / width]).collect())
+fn has(contents: &Contents, name: &str) -> bool {
+    contents.arrays.iter().any(|array| array.name == name)
+}
+
+fn take<T: Pod>(contents: &mut Contents, name: &str) -> std::result::Result<Vec<T>, String> {
+    contents.take(name)?.typed()
 }
 
 #[cfg(test)]
@@ -235,6 +189,18 @@ mod tests {
         }
     }
 
+    fn source() -> Source {
+        let text = |text: &str| text.to_owned();
+        Source {
+            program: text("1"),
+            device: text("none"),
+            scene_hash: text("cafe"),
+            scene_file: text("a.toml"),
+            scene: text("title = \"a\"\n"),
+            ..Source::default()
+        }
+    }
+
     /// As text, where NaN equals itself and -0 is not 0.
     fn text(state: &Stored) -> String {
         format!("{state:?}")
@@ -243,32 +209,40 @@ mod tests {
     #[test]
     fn a_state_comes_back_bit_by_bit() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("states/0003.state");
+        let path = folder.path().join("states/0003.npz");
         for particles in [state().particles, None] {
             let state = Stored { particles, ..state() };
-            write(&path, "cafe", &state).unwrap();
+            write(&path, &source(), &state).unwrap();
             let (scene, again) = read(&path, 1 << 20).unwrap();
             assert_eq!((scene.as_str(), text(&again)), ("cafe", text(&state)));
+            let whole = container::read(&path, 1 << 20).unwrap();
+            assert_eq!(whole.texts[container::SCENE], source().scene);
+            assert_eq!((whole.head.time, whole.head.step, whole.head.form), (0.1 + 0.2, 7, Form::Fields));
+            assert!(whole.head.arrays["conserved"].contains("kg m^-3"));
         }
         assert_eq!(list(folder.path()).unwrap(), [(3, path)]);
+        assert_eq!(list(&folder.path().join("none")).unwrap(), []);
     }
 
     #[test]
     fn what_is_no_state_is_told() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("0000.state");
-        write(&path, "cafe", &state()).unwrap();
+        let path = folder.path().join("0000.npz");
+        write(&path, &source(), &state()).unwrap();
         let whole = std::fs::read(&path).unwrap();
         let told = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
             read(&path, 1 << 20).unwrap_err().to_string()
         };
-        assert!(told(b"P6 2 2").contains("brisance state 2"));
+        assert!(told(b"P6 2 2").contains("no state of brisance"));
         assert!(told(&whole[..whole.len() - 9]).contains("the file is cut"));
-        assert!(told(&whole[..30]).contains("second line"));
+        assert!(told(&whole[..whole.len() / 2]).contains("the file is cut"));
+        let found = whole.windows(10).position(|window| window == b"energy.npy").unwrap();
         let mut broken = whole.clone();
-        let last = broken.len() - 40;
-        broken[last..].fill(0xff);
-        assert!(told(&broken).contains("stress"), "{}", told(&broken));
+        broken[found + 40..found + 60].fill(0xff);
+        let message = told(&broken);
+        assert!(message.contains("energy"), "{message}");
+        std::fs::write(&path, &whole).unwrap();
+        assert!(read(&path, 100).unwrap_err().to_string().contains("at most"));
     }
 }

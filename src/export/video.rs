@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::export::encoder::{self, ENCODER, Encoder};
-use crate::export::{Exporter, Moment};
+use crate::export::{Exporter, Moment, png};
 use crate::render::Frame;
 use crate::{Error, Result};
 
@@ -27,6 +27,9 @@ pub struct VideoExporter {
     /// Pictures per second of the film.
     rate: u32,
     films: Vec<Film>,
+    /// Pictures that a run has drawn before it goes on, and where they lie.
+    before: u32,
+    frames: PathBuf,
 }
 
 /// One film in the making.
@@ -43,17 +46,21 @@ struct Film {
 }
 
 impl VideoExporter {
-    /// A film of so many pictures per second.
+    /// A film of so many pictures per second, which lie in a folder, too.
     #[must_use]
-    pub fn new(path: &Path, rate: u32) -> Self {
-        Self { path: path.to_owned(), rate, films: Vec::new() }
+    pub fn new(path: &Path, rate: u32, frames: &Path) -> Self {
+        Self { path: path.to_owned(), rate, films: Vec::new(), before: 0, frames: frames.to_owned() }
     }
 
     fn film(&mut self, view: &str, moment: &Moment, frame: &Frame) -> Result<&mut Film> {
         let place = match self.films.iter().position(|film| film.view == view) {
             Some(place) => place,
             None => {
-                self.films.push(Film::start(&self.path, self.rate, view, moment, frame)?);
+                let mut film = Film::start(&self.path, self.rate, view, moment, frame)?;
+                for index in 0..self.before {
+                    film.add_again(&self.frames.join(view).join(format!("{index:04}.png")));
+                }
+                self.films.push(film);
                 self.films.len() - 1
             }
         };
@@ -69,6 +76,11 @@ impl Exporter for VideoExporter {
                 self.film(&picture.view, moment, &picture.frame)?.add(&picture.frame);
             }
         }
+        Ok(())
+    }
+
+    fn go_on(&mut self, frames: u32, _: &dyn Fn(u32) -> f64) -> Result<()> {
+        self.before = frames;
         Ok(())
     }
 
@@ -119,6 +131,14 @@ impl Film {
         } else {
             Some("pictures of several sizes make no film".to_owned())
         };
+    }
+
+    /// Takes a picture that was drawn before.
+    fn add_again(&mut self, path: &Path) {
+        match png::read(path) {
+            Ok(frame) => self.add(&frame),
+            Err(error) => self.failed = Some(format!("{error}; a film that goes on needs the pictures before")),
+        }
     }
 
     /// Waits for the encoder; where the film is, or why there is none.

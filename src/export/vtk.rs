@@ -1,6 +1,6 @@
 //! VTK XML files: gas as image data (.vti), particles as poly data (.vtp), time series (.pvd).
 //!
-//! Arrays are appended raw, little endian, with 64-bit byte counts: the layout VTK and ParaView read without conversion.
+//! Arrays are those of the table of quantities, appended in blocks that zlib compresses, with 64-bit byte counts.
 //! [VTK file formats, docs.vtk.org]
 
 use std::fmt::Write as _;
@@ -8,10 +8,14 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use bytemuck::{Pod, cast_slice};
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use rayon::prelude::*;
 
 use crate::Result;
 use crate::export::{Exporter, Moment, Needs, atomic};
-use crate::snapshot::{ParticleSample, Snapshot, kind};
+use crate::quantity::{self, Place, Values};
+use crate::snapshot::{Snapshot, kind};
 
 /// Writes `fields/NNNN.vti`, `particles/NNNN.vtp`, and `fields.pvd`, `particles.pvd` that give each file its time.
 #[derive(Debug)]
@@ -38,9 +42,24 @@ impl Exporter for VtkExporter {
         write_series(&self.folder.join("fields.pvd"), &self.fields)?;
         if !snapshot.particles.is_empty() {
             let name = format!("particles/{:04}.vtp", moment.index);
-            write_particles(&self.folder.join(&name), snapshot)?;
+            let source = &moment.origin.source;
+            write_particles(&self.folder.join(&name), snapshot, [&source.bodies, &source.materials])?;
             self.particles.push((moment.time, name));
             write_series(&self.folder.join("particles.pvd"), &self.particles)?;
+        }
+        Ok(())
+    }
+
+    fn go_on(&mut self, frames: u32, time: &dyn Fn(u32) -> f64) -> Result<()> {
+        for index in 0..frames {
+            for (folder, extension, series) in
+                [("fields", "vti", &mut self.fields), ("particles", "vtp", &mut self.particles)]
+            {
+                let name = format!("{folder}/{index:04}.{extension}");
+                if self.folder.join(&name).is_file() {
+                    series.push((time(index), name));
+                }
+            }
         }
         Ok(())
     }
@@ -50,9 +69,9 @@ impl Exporter for VtkExporter {
     }
 }
 
-/// Writes the gas as cell data. Inactive axes have no extent and lie at the origin, as the particles do.
+/// Writes the quantities of the gas as cell data. Inactive axes have no extent and lie at the origin, as the particles do.
 ///
-/// Gas values of cells without gas are NaN, which viewers leave blank; `kind` says what those cells are.
+/// Cells without gas are hidden (`vtkGhostType`), and their values are 0; `kind` says what those cells are.
 pub fn write_fields(path: &Path, snapshot: &Snapshot) -> Result<()> {
     let grid = &snapshot.grid;
     let active = |axis: usize| (axis as u32) < grid.dimension;
@@ -67,59 +86,36 @@ pub fn write_fields(path: &Path, snapshot: &Snapshot) -> Result<()> {
         "<ImageData WholeExtent=\"{extent}\" Origin=\"{}\" Spacing=\"{spacing:?} {spacing:?} {spacing:?}\">",
         origin.join(" ")
     );
-    file.time_value(snapshot.time);
+    file.field_data(snapshot.time, Place::Cell, &[]);
     let _ = writeln!(file.head, "<Piece Extent=\"{extent}\">\n<CellData Scalars=\"density\" Vectors=\"velocity\">");
-    file.array("density", gas_only(snapshot, &snapshot.density, f32::NAN));
-    file.array("pressure", gas_only(snapshot, &snapshot.pressure, f32::NAN));
-    file.array("velocity", gas_only(snapshot, &snapshot.velocity, [f32::NAN; 3]));
-    file.array("energy", gas_only(snapshot, &snapshot.energy, f32::NAN));
-    let gamma = -snapshot.gamma as f32;
-    let entropy: Vec<f32> =
-        snapshot.pressure.iter().zip(&snapshot.density).map(|(p, rho)| p * rho.powf(gamma)).collect();
-    file.array("entropy", gas_only(snapshot, &entropy, f32::NAN));
-    file.array("owed", snapshot.owed.clone());
-    file.array("kind", snapshot.kind.clone());
+    file.quantities(snapshot, Place::Cell);
+    let hidden: Vec<u8> = snapshot.kind.iter().map(|cell| if *cell == kind::GAS { 0 } else { HIDDEN }).collect();
+    file.array("vtkGhostType", 1, &hidden);
     file.head.push_str("</CellData>\n</Piece>\n</ImageData>\n");
     atomic::write(path, |out| file.write(out))
 }
 
-fn gas_only<T: Copy>(snapshot: &Snapshot, values: &[T], blank: T) -> Vec<T> {
-    values.iter().zip(&snapshot.kind).map(|(&value, &cell)| if cell == kind::GAS { value } else { blank }).collect()
-}
-
-/// Writes the particles as points, with one poly-vertex cell that holds them all.
-pub fn write_particles(path: &Path, snapshot: &Snapshot) -> Result<()> {
+/// Writes the quantities of the particles, each a point with a vertex cell of its own. `names`: of the bodies and of the materials.
+pub fn write_particles(path: &Path, snapshot: &Snapshot, names: [&[String]; 2]) -> Result<()> {
     let particles = &snapshot.particles;
+    let count = particles.len();
     let mut file = Appended::new("PolyData");
     file.head.push_str("<PolyData>\n");
-    file.time_value(snapshot.time);
-    let vertices = usize::from(!particles.is_empty());
+    file.field_data(snapshot.time, Place::Particle, &[("bodies", names[0]), ("materials", names[1])]);
     let _ = writeln!(
         file.head,
-        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{vertices}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">",
-        particles.len()
+        "<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
     );
     file.head.push_str("<PointData Scalars=\"plastic_strain\" Vectors=\"velocity\">\n");
-    file.array("velocity", gather(particles, |particle| particle.velocity));
-    file.array("mass", gather(particles, |particle| particle.mass));
-    file.array("volume", gather(particles, |particle| particle.volume0 * particle.volume_ratio()));
-    file.array("ghost_pressure", gather(particles, |particle| particle.ghost_pressure));
-    file.array("plastic_strain", gather(particles, |particle| particle.plastic_strain));
-    file.array("damage", gather(particles, |particle| particle.damage));
-    file.array("J", gather(particles, ParticleSample::volume_ratio));
-    file.array("body", gather(particles, |particle| particle.body as i32));
-    file.array("material", gather(particles, |particle| particle.material as i32));
+    file.quantities(snapshot, Place::Particle);
     file.head.push_str("</PointData>\n<Points>\n");
-    file.array("Points", gather(particles, |particle| particle.position));
+    let position: Vec<f32> = particles.iter().flat_map(|particle| particle.position).collect();
+    file.array("Points", 3, &position);
     file.head.push_str("</Points>\n<Verts>\n");
-    file.array("connectivity", (0..particles.len() as i32).collect::<Vec<_>>());
-    file.array("offsets", vec![particles.len() as i32; vertices]);
+    file.array("connectivity", 1, &(0..count as i32).collect::<Vec<_>>());
+    file.array("offsets", 1, &(1..=count as i32).collect::<Vec<_>>());
     file.head.push_str("</Verts>\n</Piece>\n</PolyData>\n");
     atomic::write(path, |out| file.write(out))
-}
-
-fn gather<T>(particles: &[ParticleSample], value: impl Fn(&ParticleSample) -> T) -> Vec<T> {
-    particles.iter().map(value).collect()
 }
 
 /// Writes a collection that gives each file, relative to `path`, its physical time \[s\].
@@ -134,30 +130,33 @@ pub fn write_series(path: &Path, files: &[(f64, String)]) -> Result<()> {
     })
 }
 
-/// A VTK XML file in the making: the head, and the raw arrays that follow it.
+/// What `vtkGhostType` says of cells that are not shown. [vtkDataSetAttributes.h, HIDDENCELL]
+const HIDDEN: u8 = 32;
+/// Bytes of a block that is compressed on its own.
+const BLOCK: usize = 1 << 17;
+
+/// A VTK XML file in the making: the head, and the compressed arrays that follow it.
 struct Appended {
     head: String,
     blocks: Vec<Vec<u8>>,
     offset: u64,
 }
 
-/// A number type by its VTK name, as scalar or vector.
+/// A number type by its VTK name.
 trait Element: Pod {
     const TYPE: &'static str;
-    const COMPONENTS: usize = 1;
 }
 
 impl Element for f32 {
     const TYPE: &'static str = "Float32";
 }
 
-impl Element for [f32; 3] {
-    const TYPE: &'static str = "Float32";
-    const COMPONENTS: usize = 3;
-}
-
 impl Element for i32 {
     const TYPE: &'static str = "Int32";
+}
+
+impl Element for u32 {
+    const TYPE: &'static str = "UInt32";
 }
 
 impl Element for u8 {
@@ -168,39 +167,80 @@ impl Appended {
     fn new(data_set: &str) -> Self {
         let order = if cfg!(target_endian = "little") { "LittleEndian" } else { "BigEndian" };
         let head = format!(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{data_set}\" version=\"1.0\" byte_order=\"{order}\" header_type=\"UInt64\">\n"
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{data_set}\" version=\"1.0\" byte_order=\"{order}\" header_type=\"UInt64\" \
+             compressor=\"vtkZLibDataCompressor\">\n"
         );
         Self { head, blocks: Vec::new(), offset: 0 }
     }
 
-    /// The physical time, under the name ParaView looks for.
-    fn time_value(&mut self, time: f64) {
+    /// The physical time, under the name ParaView looks for, the units of the arrays, and further lists of names.
+    fn field_data(&mut self, time: f64, place: Place, lists: &[(&str, &[String])]) {
         let _ = writeln!(
             self.head,
-            "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray></FieldData>"
+            "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>"
+        );
+        let units: Vec<String> = quantity::all(place).map(|own| format!("{}: {}", own.name, own.unit)).collect();
+        self.texts("units", &units);
+        for (name, texts) in lists {
+            self.texts(name, texts);
+        }
+        self.head.push_str("</FieldData>\n");
+    }
+
+    /// A list of texts, as the numbers of their letters.
+    fn texts(&mut self, name: &str, texts: &[String]) {
+        let letters: Vec<String> =
+            texts.iter().flat_map(|text| text.bytes().chain([0])).map(|letter| letter.to_string()).collect();
+        let _ = writeln!(
+            self.head,
+            "<Array type=\"String\" Name=\"{name}\" NumberOfTuples=\"{}\" format=\"ascii\">{}</Array>",
+            texts.len(),
+            letters.join(" ")
         );
     }
 
-    fn array<T: Element>(&mut self, name: &str, values: Vec<T>) {
+    /// All quantities of cells or of particles.
+    fn quantities(&mut self, snapshot: &Snapshot, place: Place) {
+        for own in quantity::all(place) {
+            match own.of(snapshot) {
+                Values::Real(values) => self.array(own.name, own.components, &values),
+                Values::Whole(values) => self.array(own.name, own.components, &values),
+            }
+        }
+    }
+
+    fn array<T: Element>(&mut self, name: &str, components: usize, values: &[T]) {
         let _ = writeln!(
             self.head,
-            "<DataArray type=\"{}\" Name=\"{name}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>",
+            "<DataArray type=\"{}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{}\"/>",
             T::TYPE,
-            T::COMPONENTS,
             self.offset
         );
-        let bytes: Vec<u8> = cast_slice(&values).to_vec();
-        self.offset += (size_of::<u64>() + bytes.len()) as u64;
-        self.blocks.push(bytes);
+        let block = compressed(cast_slice(values));
+        self.offset += block.len() as u64;
+        self.blocks.push(block);
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         out.write_all(self.head.as_bytes())?;
         out.write_all(b"<AppendedData encoding=\"raw\">\n_")?;
         for block in &self.blocks {
-            out.write_all(&(block.len() as u64).to_ne_bytes())?;
             out.write_all(block)?;
         }
         out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
     }
+}
+
+/// Blocks of an array behind their number, their size, that of a last shorter one, and their sizes when compressed.
+fn compressed(bytes: &[u8]) -> Vec<u8> {
+    let deflated = |block: &[u8]| {
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+        // writing into memory does not fail
+        let _ = encoder.write_all(block);
+        encoder.finish().unwrap_or_default()
+    };
+    let blocks: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(deflated).collect();
+    let mut head = vec![blocks.len() as u64, BLOCK as u64, (bytes.len() % BLOCK) as u64];
+    head.extend(blocks.iter().map(|block| block.len() as u64));
+    head.iter().flat_map(|word| word.to_ne_bytes()).chain(blocks.concat()).collect()
 }

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use bytemuck::Pod;
 
+use super::allocations;
 use super::device::{GIB, Gpu};
 use crate::error::{Error, Result};
 
@@ -94,6 +95,7 @@ impl<T: Pod> Buffer<T> {
         });
         let ledger = Arc::clone(gpu.ledger());
         ledger.fetch_add(bytes, Ordering::Relaxed);
+        allocations::note::<T>(label, &raw, len);
         let buffer = Buffer { raw, len, ledger, element: PhantomData };
         gpu.check()?;
         Ok(buffer)

@@ -5,6 +5,7 @@
 //! [`readback::read`] brings numbers back. Nothing here panics on a driver error: the first one is kept and
 //! [`Gpu::check`] hands it out.
 
+mod allocations;
 mod buffer;
 mod device;
 mod kernel;
@@ -14,6 +15,7 @@ mod reflect;
 mod shader;
 mod sources;
 
+pub use allocations::{Allocation, watched};
 pub use buffer::Buffer;
 pub use device::{AdapterSummary, Gpu, GpuOptions};
 pub use kernel::{Bound, Constants, Extent, Kernel, MAX_GROUPS, WORKGROUP, group_counts};

@@ -1,5 +1,6 @@
 //! The fields as pictures know them: names, units, and the smallest range worth showing.
 
+use crate::quantity::{self, Place};
 use crate::scene::{Field, GasState, ParticleColor};
 
 /// All fields with the constants that shaders switch on.
@@ -51,12 +52,16 @@ pub(super) fn constants() -> String {
 pub fn particle_caption(color: ParticleColor) -> &'static str {
     match color {
         ParticleColor::Body | ParticleColor::Material => "",
-        ParticleColor::Speed => "speed of solids [m/s]",
-        ParticleColor::DeviatoricStress => "deviatoric stress [Pa]",
-        ParticleColor::PlasticStrain => "plastic strain",
-        ParticleColor::Damage => "damage",
+        ParticleColor::Speed => named(Place::Particle, "velocity"),
+        ParticleColor::DeviatoricStress => named(Place::Particle, "deviatoric_stress"),
+        ParticleColor::PlasticStrain => named(Place::Particle, "plastic_strain"),
+        ParticleColor::Damage => named(Place::Particle, "damage"),
         ParticleColor::Temperature => "p/rho around [m\u{b2}/s\u{b2}]",
     }
+}
+
+fn named(place: Place, name: &str) -> &'static str {
+    quantity::find(place, name).map_or("", |quantity| quantity.caption)
 }
 
 /// The range to show for values of the particles: all quantities but the temperature start at zero.
@@ -76,17 +81,20 @@ pub(super) fn shown_particle_range(color: ParticleColor, seen: [f64; 2], ambient
 /// Caption of a field's colour bar, with the unit.
 #[must_use]
 pub fn caption(field: Field) -> &'static str {
-    match field {
-        Field::Density => "density [kg/m\u{b3}]",
-        Field::Pressure => "pressure [Pa]",
-        Field::Velocity => "speed [m/s]",
-        Field::Temperature => "p/rho [m\u{b2}/s\u{b2}]",
-        Field::Schlieren => "density gradient [kg/m^4]",
-        Field::Mach => "Mach number",
-        Field::Vorticity => "vorticity [1/s]",
-        Field::Entropy => "p/rho^gamma",
-        Field::Owed => "owed gas [kg/m\u{b3}]",
-    }
+    named(
+        Place::Cell,
+        match field {
+            Field::Density => "density",
+            Field::Pressure => "pressure",
+            Field::Velocity => "velocity",
+            Field::Temperature => "temperature",
+            Field::Schlieren => "schlieren",
+            Field::Mach => "mach",
+            Field::Vorticity => "vorticity",
+            Field::Entropy => "entropy",
+            Field::Owed => "owed",
+        },
+    )
 }
 
 /// p / rho^gamma of a state.

@@ -59,17 +59,31 @@ impl Scene {
         RenderSettings { views: BTreeMap::new(), ..self.render.clone() }
     }
 
-    /// A number for everything that decides what the scene does, as 32 hexadecimal digits: not its pictures, its files and its
-    /// expectations. Mesh files count by their path. FNV-1a of 128 bits over the scene with all defaults, as JSON.
+    /// Time between two frames \[s\]: steps end there.
+    #[must_use]
+    pub fn frame_interval(&self) -> f64 {
+        self.time.until / f64::from(self.time.frames.max(1))
+    }
+
+    /// Time of a frame \[s\].
+    #[must_use]
+    pub fn frame_time(&self, index: u32) -> f64 {
+        self.time.until * f64::from(index) / f64::from(self.time.frames.max(1))
+    }
+
+    /// A number for everything that decides what the scene does, as 32 hexadecimal digits: not its pictures, its files, its
+    /// expectations and its end. Mesh files count by their path. FNV-1a of 128 bits over the scene with all defaults, as JSON.
     #[must_use]
     pub fn hash(&self) -> String {
-        let same = Scene {
+        let mut same = Scene {
             render: RenderSettings::default(),
             output: Output::default(),
             expect: Expect::default(),
             variants: BTreeMap::new(),
             ..self.clone()
         };
+        // frames end steps, so that their distance counts; up to the rounding of a longer run's
+        (same.time.until, same.time.frames) = (f64::from(self.frame_interval() as f32), 1);
         let text = serde_json::to_vec(&same).expect("a scene is data");
         let hash = text.iter().fold(FNV_OFFSET, |hash, byte| (hash ^ u128::from(*byte)).wrapping_mul(FNV_PRIME));
         format!("{hash:032x}")

@@ -24,7 +24,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::advance_to`].
-    fn settle(&mut self, records: &mut Vec<StepRecord>) -> Result<()> {
+    pub fn settle(&mut self, records: &mut Vec<StepRecord>) -> Result<()> {
         while self.control()?.phase != 0 {
             self.advance_batch_of(records, 1)?;
         }

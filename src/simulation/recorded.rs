@@ -7,6 +7,8 @@ use crate::state::constants::MAX_ROUNDS;
 
 /// Elastic sub-steps that are recorded at a time.
 const MOST_SUBSTEPS: u32 = 64;
+/// Iterations that a file may ask to be recorded at a time.
+const MOST_RECORDED: u32 = 4096;
 
 /// What is recorded per step; a step that needs more goes on in the next recording.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +26,17 @@ pub(super) struct Recorded {
 impl Recorded {
     /// Before the solver's habit is known.
     pub(super) const FIRST: Self = Self { iterations: 12, substeps: 1, rounds: 3, round_iterations: 12 };
+
+    /// As numbers, for files.
+    pub(super) fn numbers(self) -> [u32; 4] {
+        [self.iterations, self.substeps, self.rounds, self.round_iterations]
+    }
+
+    /// From numbers that a file holds.
+    pub(super) fn of(numbers: [u32; 4]) -> Self {
+        let [iterations, substeps, rounds, round_iterations] = numbers.map(|n| n.clamp(1, MOST_RECORDED));
+        Self { iterations, substeps: substeps.min(MOST_SUBSTEPS), rounds: rounds.min(MAX_ROUNDS), round_iterations }
+    }
 
     /// What the newest steps took, and twice as much of everything if a step was left unfinished.
     pub(super) fn next(self, newest: &[StepRecord], unfinished: bool, solves: u32, state: &State) -> Self {

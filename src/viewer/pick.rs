@@ -55,6 +55,7 @@ mod tests {
             position,
             velocity: [0.0; 3],
             vorticity: [0.0; 3],
+            stress: [0.0; 6],
             mass: 1.0,
             kinetic_energy: 0.0,
             volume0: 1e-3,

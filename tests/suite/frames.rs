@@ -22,7 +22,8 @@ fn deep(dimension: u32, look: &str) -> Vec<Picture> {
 
 /// Writes the pictures of frame 3.
 fn write(exporter: &mut dyn Exporter, pictures: &[Picture]) {
-    let origin = Origin { title: "Depth \u{2192} files".to_owned(), hash: "cafe".to_owned() };
+    let origin =
+        Origin { title: "Depth \u{2192} files".to_owned(), hash: "cafe".to_owned(), source: Default::default() };
     let (snapshot, stored) = (None, None);
     exporter.write(&Moment { index: 3, origin: &origin, time: 0.5, step: 9, pictures, snapshot, stored }).unwrap();
 }
@@ -225,8 +226,8 @@ fn frames_drawn_again_have_another_look() {
     }
     assert!(fails(3, &["render", run, "--field", "heat"]).contains("unknown variant `heat`"));
     assert!(fails(2, &["render", folder.path().to_str().unwrap()]).contains("no report.json"));
-    std::fs::write(out.join("states/0002.state"), "short").unwrap();
-    assert!(fails(9, &["render", run]).contains("0002.state"));
+    std::fs::write(out.join("states/0002.npz"), "short").unwrap();
+    assert!(fails(9, &["render", run]).contains("0002.npz"));
     std::fs::remove_dir_all(out.join("states")).unwrap();
     assert!(fails(2, &["render", run]).contains("--export states"));
 }

@@ -9,7 +9,7 @@ const FLOORS: [&[&str]; 10] = [
     &["scene", "numerics"],
     &["state"],
     &["stage", "snapshot"],
-    &["simulation", "diagnostics", "bodies"],
+    &["simulation", "diagnostics", "bodies", "quantity"],
     &["render", "expect"],
     &["export", "verify"],
     &["viewer", "cli"],

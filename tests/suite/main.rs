@@ -6,6 +6,7 @@ mod analytic;
 mod bench;
 mod books;
 mod boundaries;
+mod checkpoint;
 mod cli;
 mod cold;
 mod common;

@@ -156,7 +156,7 @@ fn a_recording_counts_its_pictures() {
 }
 
 fn origin() -> Origin {
-    Origin { title: "charge".to_owned(), hash: "cafe".to_owned() }
+    Origin { title: "charge".to_owned(), hash: "cafe".to_owned(), source: Default::default() }
 }
 
 #[test]

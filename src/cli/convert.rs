@@ -1,0 +1,82 @@
+//! `convert`: a finished run for other programs, from its states, without simulating.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use serde_json::json;
+
+use super::args::{Cli, ConvertOptions};
+use super::interrupt;
+use super::progress::clock;
+use super::render::{Recorded, read_report};
+use crate::export::{self, Moment, Needs, Origin, checkpoint, states};
+use crate::scene::{MOST_PARTICLES, Scene};
+use crate::state::{Grid, MemoryPlan};
+use crate::{Error, Result};
+
+/// Writes the states of a run in other formats.
+///
+/// # Errors
+/// [`Error::Usage`] if the run has no states or a format needs a device; [`Error::Io`].
+pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
+    interrupt::listen();
+    let start = Instant::now();
+    let folder = options.out.clone().unwrap_or_else(|| options.run.clone());
+    let mut exporters = export::open(&options.to, &folder)?;
+    let needs = Needs::of(&exporters);
+    if !needs.snapshot || needs.stored {
+        let text = "pictures and states are no formats to convert to; `brisance render DIR` draws png, png16 and exr";
+        return Err(Error::Usage(format!("--to {}: {text}", options.to.join(","))));
+    }
+    let Recorded { scene_hash, scene_file, particles, scene } = read_report(&options.run)?;
+    let origin = Origin::of(&scene).at(&scene_file, "");
+    let frames = frames(options, &scene)?;
+    let grid = Grid::of(&scene.domain);
+    let light = states::most_bytes(grid.slots() as u64, particles.min(MOST_PARTICLES));
+    let most = light.max(MemoryPlan::new(&scene, particles.min(MOST_PARTICLES) as usize).bytes(None));
+    interrupt::listen_between_steps();
+    for (index, path) in &frames {
+        if interrupt::wish() {
+            return Err(Error::Interrupted);
+        }
+        let (hash, stored) = states::read(path, most)?;
+        if hash != scene_hash || !stored.fits(&grid) {
+            return Err(Error::Usage(format!("{} is a state of another scene than report.json", path.display())));
+        }
+        let snapshot = states::snapshot(stored, grid, scene.gas.gamma);
+        let (time, step) = (snapshot.time, snapshot.step);
+        let snapshot = Some(&snapshot);
+        let moment = Moment { index: *index, origin: &origin, time, step, pictures: &[], snapshot, stored: None };
+        exporters.iter_mut().try_for_each(|exporter| exporter.write(&moment))?;
+    }
+    if cli.json {
+        let seconds = start.elapsed().as_secs_f64();
+        say!("{}", json!({ "frames": frames.len(), "folder": folder, "formats": options.to, "seconds": seconds }));
+    } else if !options.quiet {
+        say!("{} frames in {} in {}", frames.len(), folder.display(), clock(start.elapsed()));
+    }
+    Ok(())
+}
+
+/// The states to convert, with the numbers of their frames; where a run has none, its checkpoints.
+fn frames(options: &ConvertOptions, scene: &Scene) -> Result<Vec<(u32, PathBuf)>> {
+    let mut all = states::list(&options.run)?;
+    if all.is_empty() {
+        for (_, path) in checkpoint::list(&options.run)? {
+            let time = checkpoint::read_texts(&path)?.0.time;
+            all.push(((time / scene.frame_interval()).round() as u32, path));
+        }
+    }
+    if all.is_empty() {
+        let run = options.run.display();
+        return Err(Error::Usage(format!(
+            "{run} has neither states nor checkpoints; run the scene with --export states"
+        )));
+    }
+    if let Some(missing) = options.frame.iter().find(|number| all.iter().all(|(index, _)| index != *number)) {
+        let text = format!("{} has no state of frame {missing}; it has {} states", options.run.display(), all.len());
+        return Err(Error::Usage(text));
+    }
+    all.retain(|(index, _)| options.frame.is_empty() || options.frame.contains(index));
+    Ok(all)
+}

@@ -1,0 +1,328 @@
+//! What a run begins from: a scene, or a checkpoint of another run or of itself.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::super::args::RunOptions;
+use super::super::folder::Folder;
+use super::super::outcome::device;
+use super::super::tables::Marks;
+use super::super::{scenes, writer};
+use super::checkpoint::About;
+use super::overrides;
+use crate::export::checkpoint;
+use crate::export::container::Head;
+use crate::gpu::Gpu;
+use crate::math::plain;
+use crate::scene::{self, Scene};
+use crate::simulation::{Saved, Simulation};
+use crate::state::MemoryPlan;
+use crate::{Error, Result, input};
+
+/// Keys that a branch may change, with what may follow; materials of the same model may change their strength.
+const CHANGEABLE: [&str; 14] = [
+    "title",
+    "description",
+    "probes",
+    "output.",
+    "render.",
+    "expect.",
+    "boundary.",
+    "gravity",
+    "time.",
+    "numerics.tolerance",
+    "numerics.blending",
+    "materials.",
+    "gauges",
+    "fragments",
+];
+/// Last parts of the keys of materials that a branch may change.
+const STRENGTHS: [&str; 7] =
+    ["yield_stress", "hardening", "tensile_strength", "strength", "strain_limit", "cohesion", "friction_angle"];
+/// A frame counts as a multiple of the distance of frames up to this part of it.
+const ROUNDING: f64 = 1e-6;
+
+/// The start of a run.
+#[derive(Debug)]
+pub(super) struct Beginning {
+    /// The command line; of a run that goes on, that of its start.
+    pub(super) options: RunOptions,
+    /// The scene.
+    pub(super) scene: Scene,
+    /// File or name of the scene; paths in it start there.
+    pub(super) place: String,
+    /// The checkpoint.
+    pub(super) from: Option<From>,
+}
+
+/// A checkpoint to begin from.
+#[derive(Debug)]
+pub(super) struct From {
+    /// Folder of the run that left it.
+    run: PathBuf,
+    path: PathBuf,
+    head: Head,
+    /// Its scene.
+    scene: Scene,
+    /// What it says of the run.
+    pub(super) about: About,
+    /// Whether it is a run of its own that begins here.
+    branch: bool,
+}
+
+/// What is needed of a report.
+#[derive(Deserialize)]
+struct Recorded {
+    scene_hash: String,
+}
+
+impl Beginning {
+    /// What the command line asks for.
+    ///
+    /// # Errors
+    /// [`Error::Scene`], [`Error::Usage`], [`Error::Io`].
+    pub(super) fn of(options: &RunOptions) -> Result<Self> {
+        if options.resume {
+            return Self::resumed(options);
+        }
+        if options.branch {
+            return Self::branched(options);
+        }
+        let scene = scenes::load(&options.scene, &overrides(options))?;
+        let place = scenes::place(&options.scene.scene);
+        Ok(Self { options: options.clone(), scene, place, from: None })
+    }
+
+    /// A run goes on as it began, from its latest checkpoint.
+    fn resumed(given: &RunOptions) -> Result<Self> {
+        let run = Path::new(&given.scene.scene);
+        refuse_changes(given)?;
+        let all = listed(run)?;
+        let path = all.last().map(|(_, path)| path.clone()).unwrap_or_default();
+        let mut from = From::read(run, &path, &[]).map_err(|error| older(error, &all))?;
+        let mut options = from.about.options.clone();
+        (options.resume, options.quiet) = (true, given.quiet);
+        options.checkpoint = given.checkpoint.or(options.checkpoint);
+        options.keep = given.keep.or(options.keep);
+        options.no_expect = (options.no_expect || given.no_expect) && !given.expect;
+        options.expect |= given.expect;
+        if let Some(until) = given.until {
+            let frames = more_frames(&from, until)?;
+            (from.scene.time.until, from.scene.time.frames, options.until) = (until, frames, Some(until));
+        }
+        let (scene, place) = (from.scene.clone(), from.head.source.scene_file.clone());
+        Ok(Self { options, scene, place, from: Some(from) })
+    }
+
+    /// A new run from a state of another one.
+    fn branched(given: &RunOptions) -> Result<Self> {
+        let text = &given.scene.scene;
+        let wrong = || Error::Usage(format!("--branch {text}: write DIR@TIME, as in out/sod@0.1"));
+        let (run, time) = text.rsplit_once('@').ok_or_else(wrong)?;
+        let time: f64 = time.parse().map_err(|_| wrong())?;
+        if given.scene.resolution.is_some() || !given.scene.variant.is_empty() {
+            let reason = "the state has the cells and bodies of its run; --set changes what may change";
+            return Err(Error::Usage(format!("--resolution and --variant with --branch: {reason}")));
+        }
+        let key = |set: &str| set.split('=').next().unwrap_or_default().trim().to_owned();
+        if let Some(key) = given.scene.set.iter().map(|set| key(set)).find(|key| !may_change(key)) {
+            return Err(Error::Usage(format!("--set {key} with --branch: {REFUSED}")));
+        }
+        let path = latest_before(Path::new(run), time)?;
+        let mut from = From::read(Path::new(run), &path, &[])?;
+        from.branch = true;
+        let changes: Vec<String> = given.scene.set.iter().cloned().chain(overrides(given)).collect();
+        let scene = From::read(Path::new(run), &path, &changes)?.scene;
+        Ok(Self { options: given.clone(), scene, place: from.head.source.scene_file.clone(), from: Some(from) })
+    }
+
+    /// The folder of the run.
+    ///
+    /// # Errors
+    /// As those of [`Folder`].
+    pub(super) fn folder(&self) -> Result<Folder> {
+        match (&self.from, &self.options.out) {
+            (Some(from), _) if !from.branch => Folder::again(&from.run),
+            (_, Some(path)) => Folder::take(path, self.options.force),
+            (from, None) => {
+                let name = if from.is_some() { "branch" } else { &scene::stem(&self.options.scene.scene) };
+                Folder::next_free(&Path::new("out").join(name))
+            }
+        }
+    }
+
+    /// The tables that the run goes on with: where they lie, and how far they had come.
+    pub(super) fn tables(&self) -> writer::Before {
+        let marks = |from: &From| (from.run.clone(), from.about.tables.clone());
+        let (folder, marks) = self.from.as_ref().map_or_else(|| (PathBuf::new(), Marks::default()), marks);
+        let goes_on = self.from.as_ref().is_some_and(|from| !from.branch);
+        let frames = self.from.as_ref().map_or(0, |from| from.about.frame + 1);
+        writer::Before { folder, marks, frames: if goes_on { frames } else { 0 } }
+    }
+
+    /// The simulation at its start.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::new`]; [`Error::Usage`] if the checkpoint is not of this scene and program.
+    pub(super) fn simulation(&self, gpu: &Gpu, plan: &MemoryPlan) -> Result<Simulation> {
+        let Some(from) = &self.from else { return Simulation::new(gpu, &self.scene) };
+        from.warn(gpu);
+        // built as the run was, and then changed as a run at work is
+        let mut before = self.scene.clone();
+        let was = &from.scene;
+        (before.gravity, before.time, before.boundary) = (was.gravity, was.time.clone(), was.boundary.clone());
+        before.time.frames = self.scene.time.frames;
+        (before.numerics.tolerance, before.numerics.blending) = (was.numerics.tolerance, was.numerics.blending);
+        let mut simulation = Simulation::new(gpu, &before)?;
+        let read = checkpoint::read(&from.path, plan.bytes(None).max(simulation.saved_bytes()))?;
+        let saved = Saved { host: from.about.host.clone(), ..read };
+        let told = |error: Error| Error::Usage(format!("{}: {error}", from.path.display()));
+        simulation.restore(&saved).map_err(told)?;
+        if from.branch {
+            simulation.change(&before, &self.scene, &mut Vec::new())?;
+        }
+        Ok(simulation)
+    }
+
+    /// The last frame that exists, and whether the device is on its way to the next.
+    pub(super) fn reached(&self) -> Option<(u32, bool)> {
+        let from = self.from.as_ref()?;
+        let (new, old) = (self.scene.frame_interval(), from.scene.frame_interval());
+        if (new - old).abs() <= ROUNDING * old {
+            return Some((from.about.frame, from.about.under_way));
+        }
+        // a branch with other frames: those up to its time count as drawn
+        Some(((from.head.time / new + ROUNDING).floor() as u32, false))
+    }
+}
+
+const REFUSED: &str = "a state goes on only with the cells, bodies and gas that it has; a branch may change probes, output.*, render.*, \
+                       expect.*, boundary.* (states, not rules), gravity, time.*, numerics.tolerance, numerics.blending, and the \
+                       strength of materials; run the scene anew for the rest";
+
+/// Whether a branch may change a key.
+fn may_change(key: &str) -> bool {
+    let strength = |key: &str| STRENGTHS.iter().any(|name| key.rsplit('.').next() == Some(name));
+    CHANGEABLE.iter().any(|own| key.starts_with(own)) && (!key.starts_with("materials.") || strength(key))
+}
+
+/// A run that goes on does so as it began.
+fn refuse_changes(given: &RunOptions) -> Result<()> {
+    let RunOptions { scene, out, frames, export, film, no_frames, force, branch, .. } = given;
+    let asked = [
+        ("--branch", *branch),
+        ("--set", !scene.set.is_empty()),
+        ("--variant", !scene.variant.is_empty()),
+        ("--resolution", scene.resolution.is_some()),
+        ("--out", out.is_some()),
+        ("--frames", frames.is_some()),
+        ("--export", !export.is_empty()),
+        ("--video", film.video.is_some()),
+        ("--no-frames", *no_frames),
+        ("--force", *force),
+    ];
+    match asked.iter().find(|(_, asked)| *asked) {
+        None => Ok(()),
+        Some((name, _)) => Err(Error::Usage(format!(
+            "{name} with --resume: a run goes on as it began, up to a later --until; --branch DIR@TIME starts another one"
+        ))),
+    }
+}
+
+/// Checkpoints of a run.
+fn listed(run: &Path) -> Result<Vec<(u64, PathBuf)>> {
+    let all = checkpoint::list(run)?;
+    if all.is_empty() {
+        let hint = "`brisance run SCENE --checkpoint 10min` leaves some";
+        return Err(Error::Usage(format!("{} has no checkpoints to go on from; {hint}", run.display())));
+    }
+    Ok(all)
+}
+
+/// Says that an older checkpoint is there.
+fn older(error: Error, all: &[(u64, PathBuf)]) -> Error {
+    match (error, all) {
+        (Error::Io { path, source }, [.., (_, older), _]) => {
+            let text = format!("{source}; remove it to go on from {}", older.display());
+            Error::io(path, std::io::Error::new(source.kind(), text))
+        }
+        (error, _) => error,
+    }
+}
+
+/// The latest checkpoint up to a time \[s\].
+fn latest_before(run: &Path, time: f64) -> Result<PathBuf> {
+    let mut times = Vec::new();
+    for (_, path) in listed(run)? {
+        times.push((checkpoint::read_texts(&path)?.0.time, path));
+    }
+    let found = times.iter().rev().find(|(own, _)| *own <= time * (1.0 + ROUNDING));
+    found.map(|(_, path)| path.clone()).ok_or_else(|| {
+        let all: Vec<String> = times.iter().map(|(own, _)| plain(*own)).collect();
+        let text = format!("{} has no checkpoint up to {} s; it has: {} s", run.display(), plain(time), all.join(", "));
+        Error::Usage(format!("{text}. `--checkpoint t={} --keep 1000` leaves more", plain(time)))
+    })
+}
+
+/// Frames up to a later end: their distance stays.
+fn more_frames(from: &From, until: f64) -> Result<u32> {
+    let interval = from.scene.frame_interval();
+    let frames = until / interval;
+    let whole = frames.round();
+    if (frames - whole).abs() > ROUNDING || until <= from.head.time || whole > f64::from(u32::MAX) {
+        let next = ((from.head.time / interval + ROUNDING).floor() + 1.0) * interval;
+        return Err(Error::Usage(format!(
+            "--until {until}: the run has come to {} s and draws a frame every {} s; a later end is a multiple of it, from {} s on",
+            plain(from.head.time),
+            plain(interval),
+            plain(next)
+        )));
+    }
+    Ok(whole as u32)
+}
+
+impl From {
+    /// Reads head and texts of a checkpoint of a run; `changes` apply to its scene.
+    fn read(run: &Path, path: &Path, changes: &[String]) -> Result<Self> {
+        let (head, text, about) = checkpoint::read_texts(path)?;
+        let about: About = toml::from_str(&about)
+            .map_err(|error| Error::Usage(format!("{}: {}: {error}", path.display(), checkpoint::RUN)))?;
+        let outside = about.options.scene.allow_outside.then(|| "allow_outside=true".to_owned());
+        let parsed = |changes: &[String]| {
+            let all: Vec<String> = outside.iter().chain(changes).cloned().collect();
+            Scene::parse(&text, &head.source.scene_file, &all)
+        };
+        let foreign = |reason: &str| Error::Usage(format!("{}: {reason}", path.display()));
+        if parsed(&[])?.hash() != head.source.scene_hash {
+            return Err(foreign(
+                "its scene is read differently by this program, or a mesh file has changed; run it again",
+            ));
+        }
+        let report = input::text(&run.join("report.json"), input::MOST_REPORT).ok();
+        let report = report.and_then(|text| serde_json::from_str::<Recorded>(&text).ok());
+        if report.is_some_and(|report| report.scene_hash != head.source.scene_hash) {
+            return Err(foreign("it is a checkpoint of another scene than report.json"));
+        }
+        let scene = parsed(changes)?;
+        Ok(Self { run: run.to_owned(), path: path.to_owned(), head, scene, about, branch: false })
+    }
+
+    /// Tells where bits may differ.
+    fn warn(&self, gpu: &Gpu) {
+        let (source, here) = (&self.head.source, device(gpu).text());
+        if source.device != here {
+            tell!(
+                "warning: the checkpoint was made on {}; on {here} the run goes on, but not bit for bit",
+                source.device
+            );
+        }
+        if source.program != env!("CARGO_PKG_VERSION") {
+            tell!(
+                "warning: the checkpoint was made by brisance {}; this is {}",
+                source.program,
+                env!("CARGO_PKG_VERSION")
+            );
+        }
+    }
+}

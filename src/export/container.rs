@@ -1,0 +1,304 @@
+//! The container of states: a file of NumPy's format npz, which is a zip archive of named arrays, with texts beside them.
+//!
+//! `numpy.load` reads the arrays; `head.json` says what they are. Members are deflated and carry a CRC-32. [NEP 1; APPNOTE 6.3]
+
+use std::collections::BTreeMap;
+use std::io::{self, Cursor, Read, Seek, Write};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use zip::write::{SimpleFileOptions, ZipWriter};
+use zip::{CompressionMethod, ZipArchive};
+
+use super::npy::{self, Kind};
+use super::units;
+use crate::export::atomic;
+use crate::scene::{RenderSettings, Scene};
+use crate::{Error, Result, input};
+
+/// What the head of every file names.
+const FORMAT: &str = "brisance state";
+/// Version of the format: it grows when a reader of the version before would go wrong.
+pub const VERSION: u32 = 1;
+/// Member with the head.
+const HEAD: &str = "head.json";
+/// Member with the scene.
+pub const SCENE: &str = "scene.toml";
+/// Speed before size: a run waits for it.
+const LEVEL: i64 = 1;
+/// Texts of a file at most.
+const MOST_TEXTS: usize = 16;
+/// Bytes of texts and heads of arrays, and what arrays that do not compress may grow by.
+const ROOM: u64 = 80 << 20;
+
+/// How much a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Form {
+    /// What pictures and converters need.
+    Fields,
+    /// All that a run needs to go on bit by bit.
+    Full,
+    /// Quantities for people and their scripts.
+    Arrays,
+}
+
+/// Where a file comes from: the same for all files of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// Version of the program.
+    pub program: String,
+    /// Name of the device and its driver.
+    pub device: String,
+    /// [`Scene::hash`].
+    pub scene_hash: String,
+    /// File or name of the scene; paths in it start there.
+    pub scene_file: String,
+    /// The scene with every default, as TOML.
+    #[serde(skip)]
+    pub scene: String,
+    /// Its look.
+    #[serde(skip)]
+    pub render: RenderSettings,
+    /// Names of its bodies and of its materials, by index.
+    #[serde(skip)]
+    pub bodies: Vec<String>,
+    /// The same.
+    #[serde(skip)]
+    pub materials: Vec<String>,
+}
+
+impl Source {
+    /// Of a scene of which nobody says where it lies.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            scene_hash: scene.hash(),
+            scene: toml::to_string(scene).unwrap_or_default(),
+            render: scene.render.clone(),
+            bodies: scene.bodies.iter().map(|body| body.name.clone()).collect(),
+            materials: scene.materials.keys().cloned().collect(),
+            ..Self::default()
+        }
+    }
+}
+
+/// The head of a file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Head {
+    format: String,
+    /// [`VERSION`] of the program that wrote it.
+    pub version: u32,
+    /// How much it holds.
+    pub form: Form,
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub source: Source,
+    /// Simulated time \[s\].
+    pub time: f64,
+    /// Steps done.
+    pub step: u64,
+    /// What the arrays are: names, and the unit of each column.
+    pub arrays: BTreeMap<String, String>,
+}
+
+/// An array.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    /// Name.
+    pub name: String,
+    /// Of its numbers.
+    pub kind: Kind,
+    /// Elements along each axis, the last one fastest.
+    pub shape: Vec<usize>,
+    /// All numbers, lowest byte first.
+    pub bytes: Vec<u8>,
+    /// What it is, with units.
+    pub about: String,
+}
+
+impl Array {
+    /// Rows of so many numbers.
+    #[must_use]
+    pub fn rows(name: &str, kind: Kind, columns: usize, bytes: Vec<u8>) -> Self {
+        let rows = bytes.len() / (kind.width() * columns.max(1));
+        let shape = if columns == 1 { vec![rows] } else { vec![rows, columns] };
+        Self { name: name.to_owned(), kind, shape, bytes, about: units::of(name).to_owned() }
+    }
+
+    /// Numbers of a row.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.shape.iter().skip(1).fold(1, |all: usize, side| all.saturating_mul(*side))
+    }
+
+    /// The numbers as those of a type.
+    ///
+    /// # Errors
+    /// If they are of another size.
+    pub fn typed<T: bytemuck::Pod>(&self) -> std::result::Result<Vec<T>, String> {
+        if self.bytes.len().is_multiple_of(size_of::<T>()) && size_of::<T>() == self.kind.width() * self.columns() {
+            return Ok(bytemuck::pod_collect_to_vec(&self.bytes));
+        }
+        Err(format!(
+            "array `{}` has elements of {} numbers, which is not what belongs there",
+            self.name,
+            self.columns()
+        ))
+    }
+}
+
+/// A file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contents {
+    /// Its head.
+    pub head: Head,
+    /// Texts beside the head, by name.
+    pub texts: BTreeMap<String, String>,
+    /// The arrays.
+    pub arrays: Vec<Array>,
+}
+
+impl Contents {
+    /// Takes an array out.
+    ///
+    /// # Errors
+    /// If it is not there.
+    pub fn take(&mut self, name: &str) -> std::result::Result<Array, String> {
+        let place = self.arrays.iter().position(|array| array.name == name);
+        place.map(|place| self.arrays.swap_remove(place)).ok_or_else(|| format!("array `{name}` is missing"))
+    }
+}
+
+/// Writes a state at a time \[s\] after so many steps.
+///
+/// # Errors
+/// [`Error::Io`].
+pub fn write(
+    path: &Path,
+    (form, source): (Form, &Source),
+    (time, step): (f64, u64),
+    texts: &[(&str, &str)],
+    arrays: &[Array],
+) -> Result<()> {
+    let described = arrays.iter().map(|array| (array.name.clone(), array.about.clone())).collect();
+    let source = source.clone();
+    let scene = source.scene.clone();
+    let head = Head { format: FORMAT.to_owned(), version: VERSION, form, source, time, step, arrays: described };
+    atomic::write(path, |out| {
+        let mut zip = ZipWriter::new_stream(out);
+        let options =
+            SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).compression_level(Some(LEVEL));
+        zip.start_file(HEAD, options)?;
+        serde_json::to_writer_pretty(&mut zip, &head)?;
+        for (name, text) in [(SCENE, scene.as_str())].iter().chain(texts) {
+            zip.start_file(*name, options)?;
+            zip.write_all(text.as_bytes())?;
+        }
+        for array in arrays {
+            let large = array.bytes.len() as u64 >= u64::from(u32::MAX);
+            zip.start_file(format!("{}.npy", array.name), options.large_file(large))?;
+            zip.write_all(&npy::head(array.kind, &array.shape))?;
+            zip.write_all(&array.bytes)?;
+        }
+        zip.finish().map(|_| ()).map_err(io::Error::from)
+    })
+}
+
+/// Reads a file; its arrays may have `most` bytes in all.
+///
+/// # Errors
+/// [`Error::Io`] if it cannot be read or is no whole state.
+pub fn read(path: &Path, most: u64) -> Result<Contents> {
+    let bytes = input::bytes(path, most.saturating_add(ROOM)).map_err(|source| Error::io(path, source))?;
+    parse(&bytes, most).map_err(|reason| broken(path, &reason))
+}
+
+/// Reads the head and the texts of a file, without its arrays.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_texts(path: &Path) -> Result<(Head, BTreeMap<String, String>)> {
+    let about = std::fs::metadata(path).map_err(|source| Error::io(path, source))?;
+    if !about.is_file() {
+        return Err(broken(path, "no regular file"));
+    }
+    let file = std::fs::File::open(path).map_err(|source| Error::io(path, source))?;
+    let mut archive = opened(io::BufReader::new(file)).map_err(|reason| broken(path, &reason))?;
+    let read = head(&mut archive).and_then(|head| Ok((head, texts(&mut archive)?)));
+    read.map_err(|reason| broken(path, &reason))
+}
+
+/// A file that is no whole state.
+pub(super) fn broken(path: &Path, reason: &str) -> Error {
+    Error::io(path, io::Error::new(io::ErrorKind::InvalidData, reason.to_owned()))
+}
+
+fn opened<R: Read + Seek>(from: R) -> std::result::Result<ZipArchive<R>, String> {
+    ZipArchive::new(from).map_err(|error| format!("the file is cut, or no state of brisance: {error}"))
+}
+
+fn head<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<Head, String> {
+    let text = member(archive, HEAD, input::MOST_SCENE).map_err(|error| format!("no state of brisance: {error}"))?;
+    let about: serde_json::Value = serde_json::from_slice(&text).map_err(|error| format!("{HEAD}: {error}"))?;
+    if about["format"] != FORMAT {
+        return Err(format!("no state of brisance: {HEAD} names the format {}", about["format"]));
+    }
+    if about["version"] != VERSION {
+        let other = &about["version"];
+        return Err(format!("a state of version {other}; this program reads version {VERSION}: use a newer one"));
+    }
+    serde_json::from_value(about).map_err(|error| format!("{HEAD}: {error}"))
+}
+
+/// All bytes of a member; its checksum holds.
+fn member<R: Read + Seek>(archive: &mut ZipArchive<R>, name: &str, most: u64) -> std::result::Result<Vec<u8>, String> {
+    let file = archive.by_name(name).map_err(|error| format!("{name}: {error}"))?;
+    let size = file.size();
+    if size > most {
+        return Err(format!("{name} has {size} bytes, what belongs there has at most {most}"));
+    }
+    let mut bytes = Vec::new();
+    file.take(most + 1).read_to_end(&mut bytes).map_err(|error| format!("{name}: {error}"))?;
+    if bytes.len() as u64 > most {
+        return Err(format!("{name} has more than {most} bytes"));
+    }
+    Ok(bytes)
+}
+
+fn names<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<Vec<String>, String> {
+    let named = |name: zip::result::ZipResult<std::borrow::Cow<'_, str>>| name.map(std::borrow::Cow::into_owned);
+    archive.file_names().map(named).collect::<zip::result::ZipResult<_>>().map_err(|error| error.to_string())
+}
+
+/// All texts but the head.
+fn texts<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<BTreeMap<String, String>, String> {
+    let mut found = BTreeMap::new();
+    for name in names(archive)?.into_iter().filter(|name| name != HEAD && !name.ends_with(".npy")).take(MOST_TEXTS) {
+        let text = String::from_utf8(member(archive, &name, input::MOST_SCENE)?);
+        found.insert(name.clone(), text.map_err(|error| format!("{name}: {error}"))?);
+    }
+    Ok(found)
+}
+
+fn parse(bytes: &[u8], most: u64) -> std::result::Result<Contents, String> {
+    let mut archive = opened(Cursor::new(bytes))?;
+    let head = head(&mut archive)?;
+    let mut contents = Contents { head, texts: texts(&mut archive)?, arrays: Vec::new() };
+    let mut left = most;
+    for name in &names(&mut archive)? {
+        let Some(own) = name.strip_suffix(".npy") else { continue };
+        let whole = member(&mut archive, name, left.saturating_add(npy::MOST_HEAD))?;
+        let (kind, shape, start) = npy::parse(&whole).map_err(|reason| format!("{name}: {reason}"))?;
+        let about = contents.head.arrays.get(own).cloned().unwrap_or_default();
+        let array = Array { name: own.to_owned(), kind, shape, bytes: whole[start..].to_vec(), about };
+        left = left.saturating_sub(array.bytes.len() as u64);
+        contents.arrays.push(array);
+    }
+    let missing = contents.head.arrays.keys().find(|name| contents.arrays.iter().all(|array| array.name != **name));
+    match missing {
+        Some(name) => Err(format!("array `{name}` is missing")),
+        None => Ok(contents),
+    }
+}

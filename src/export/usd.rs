@@ -1,0 +1,229 @@
+//! stage.usda: a run as a USD stage with camera, volumes by reference to their vdb files, and bodies as points that move.
+//!
+//! Points lie in a file a frame, usd/NNNN.usda, which the stage takes as value clips [USD: Sequencable, Re-timeable Animated "Value
+//! Clips"]. Lengths are metres, z is up, a frame of the run is a time code.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use super::vdb::VdbExporter;
+use crate::Result;
+use crate::export::{Exporter, Moment, Needs, atomic};
+use crate::quantity::{self, Place, Values};
+use crate::snapshot::Snapshot;
+
+/// Frames a second of the stage.
+const RATE: u32 = 25;
+/// Height of the camera's film \[tenths of a unit\]; only its ratio to the focal length counts.
+const APERTURE: f64 = 24.0;
+/// Quantities of the points beside velocity, and their types.
+const PRIMVARS: [(&str, &str); 6] = [
+    ("plastic_strain", "float[]"),
+    ("damage", "float[]"),
+    ("deviatoric_stress", "float[]"),
+    ("body", "int[]"),
+    ("material", "int[]"),
+    ("piece", "int[]"),
+];
+
+/// Writes `stage.usda`, `usd/NNNN.usda` and `vdb/NNNN.vdb`.
+#[derive(Debug)]
+pub struct UsdExporter {
+    folder: PathBuf,
+    volumes: VdbExporter,
+    /// Frames with their times \[s\].
+    frames: Vec<(u32, f64)>,
+    /// Whether there are bodies.
+    points: bool,
+}
+
+impl UsdExporter {
+    /// For one output folder.
+    #[must_use]
+    pub fn new(folder: &Path) -> Self {
+        Self { folder: folder.to_owned(), volumes: VdbExporter::new(folder), frames: Vec::new(), points: false }
+    }
+}
+
+impl Exporter for UsdExporter {
+    fn write(&mut self, moment: &Moment) -> Result<()> {
+        let snapshot = moment.snapshot.expect("a run reads the snapshot when an exporter needs it");
+        self.volumes.write(moment)?;
+        self.points |= !moment.origin.source.bodies.is_empty();
+        if self.points {
+            let text = points(snapshot, moment.index);
+            let path = self.folder.join(format!("usd/{:04}.usda", moment.index));
+            atomic::write(&path, |out| out.write_all(text.as_bytes()))?;
+            let manifest = manifest();
+            atomic::write(&self.folder.join("usd/manifest.usda"), |out| out.write_all(manifest.as_bytes()))?;
+        }
+        self.frames.push((moment.index, moment.time));
+        let text = self.stage(moment, snapshot);
+        atomic::write(&self.folder.join("stage.usda"), |out| out.write_all(text.as_bytes()))
+    }
+
+    fn go_on(&mut self, frames: u32, time: &dyn Fn(u32) -> f64) -> Result<()> {
+        self.frames = (0..frames).map(|index| (index, time(index))).collect();
+        Ok(())
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { snapshot: true, ..Needs::default() }
+    }
+}
+
+impl UsdExporter {
+    fn stage(&self, moment: &Moment, snapshot: &Snapshot) -> String {
+        let (first, last) = (self.frames.first().map_or(0, |f| f.0), self.frames.last().map_or(0, |f| f.0));
+        let grid = &snapshot.grid;
+        let high: [f32; 3] = std::array::from_fn(|axis| grid.origin[axis] + grid.extent()[axis]);
+        let extent = format!("[{}, {}]", vector(grid.origin), vector(high));
+        let mut text = format!(
+            "#usda 1.0\n(\n    defaultPrim = \"run\"\n    doc = \"{}\"\n    metersPerUnit = 1\n    upAxis = \"Z\"\n    startTimeCode = {first}\n    \
+             endTimeCode = {last}\n    timeCodesPerSecond = {RATE}\n    framesPerSecond = {RATE}\n)\n\ndef Xform \"run\"\n{{\n",
+            quoted(&format!(
+                "{}, scene {}, brisance {}",
+                moment.origin.title,
+                moment.origin.hash,
+                env!("CARGO_PKG_VERSION")
+            ))
+        );
+        self.volume(&mut text, &extent);
+        if self.points {
+            self.clips(&mut text, &extent, (first, last), moment);
+        }
+        self.camera(&mut text, moment);
+        text.push_str("}\n");
+        text
+    }
+
+    fn volume(&self, text: &mut String, extent: &str) {
+        let names = ["density", "pressure", "temperature", "velocity", "schlieren"];
+        let _ = writeln!(text, "    def Volume \"gas\"\n    {{\n        float3[] extent = {extent}");
+        for name in names {
+            let _ = writeln!(text, "        rel field:{name} = </run/gas/{name}>");
+        }
+        for name in names {
+            let _ = writeln!(
+                text,
+                "        def OpenVDBAsset \"{name}\"\n        {{\n            token fieldName = \"{name}\""
+            );
+            text.push_str("            asset filePath.timeSamples = {\n");
+            for (index, _) in &self.frames {
+                let _ = writeln!(text, "                {index}: @./vdb/{index:04}.vdb@,");
+            }
+            text.push_str("            }\n        }\n");
+        }
+        text.push_str("    }\n");
+    }
+
+    fn clips(&self, text: &mut String, extent: &str, (first, last): (u32, u32), moment: &Moment) {
+        let source = &moment.origin.source;
+        let list =
+            |names: &[String]| names.iter().map(|name| format!("\"{}\"", quoted(name))).collect::<Vec<_>>().join(", ");
+        let _ = writeln!(
+            text,
+            "    def Points \"bodies\" (\n        clips = {{\n            dictionary default = {{\n                \
+             asset manifestAssetPath = @./usd/manifest.usda@\n                string primPath = \"/bodies\"\n                \
+             string templateAssetPath = \"./usd/####.usda\"\n                double templateStartTime = {first}\n                \
+             double templateEndTime = {last}\n                double templateStride = 1\n            }}\n        }}\n    )\n    {{\n        \
+             float3[] extent = {extent}\n        string[] userProperties:bodies = [{}]\n        \
+             string[] userProperties:materials = [{}]",
+            list(&source.bodies),
+            list(&source.materials)
+        );
+        // what no schema declares, clips alone do not bring into being
+        for (name, kind) in PRIMVARS {
+            let _ =
+                writeln!(text, "        {kind} primvars:{name} (\n            interpolation = \"vertex\"\n        )");
+        }
+        text.push_str("    }\n");
+    }
+
+    /// The camera of `[render]`, where the scene has one.
+    fn camera(&self, text: &mut String, moment: &Moment) {
+        let look = &moment.origin.source.render;
+        let Some(camera) = look.camera.as_ref() else { return };
+        let aspect = f64::from(look.size[0]) / f64::from(look.size[1].max(1));
+        let focal = 0.5 * APERTURE / (0.5 * camera.fov_degrees.to_radians()).tan();
+        let _ = writeln!(
+            text,
+            "    def Camera \"camera\"\n    {{\n        float horizontalAperture = {:?}\n        float verticalAperture = {APERTURE:?}\n        \
+             float focalLength = {focal:?}\n        float2 clippingRange = (0.01, 1000000)\n        \
+             matrix4d xformOp:transform.timeSamples = {{",
+            aspect * APERTURE
+        );
+        for (index, time) in &self.frames {
+            let at = look.path.as_ref().map_or(*camera, |path| path.at(*time, camera));
+            let _ = writeln!(text, "            {index}: {},", looking(at.eye, at.target, at.up));
+        }
+        text.push_str("        }\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n");
+    }
+}
+
+/// The matrix of a camera, which looks along its -z, with its y up; vectors are rows.
+fn looking(eye: [f64; 3], target: [f64; 3], up: [f64; 3]) -> String {
+    let (eye, target, up) = (glam::DVec3::from(eye), glam::DVec3::from(target), glam::DVec3::from(up));
+    let back = (eye - target).normalize_or(glam::DVec3::Z);
+    let right = up.cross(back).normalize_or(glam::DVec3::X);
+    let rows = [(right, 0), (back.cross(right), 0), (back, 0), (eye, 1)];
+    let rows: Vec<String> =
+        rows.iter().map(|(row, w)| format!("({:?}, {:?}, {:?}, {w})", row.x, row.y, row.z)).collect();
+    format!("( {} )", rows.join(", "))
+}
+
+/// What the clips hold.
+fn manifest() -> String {
+    let mut text = "#usda 1.0\n(\n    defaultPrim = \"bodies\"\n)\n\ndef Points \"bodies\"\n{\n    point3f[] points\n    vector3f[] velocities\n    \
+                    float[] widths\n    int64[] ids\n"
+        .to_owned();
+    for (name, kind) in PRIMVARS {
+        let _ = writeln!(text, "    {kind} primvars:{name} ( interpolation = \"vertex\" )");
+    }
+    text + "}\n"
+}
+
+/// The points of a frame.
+fn points(snapshot: &Snapshot, frame: u32) -> String {
+    let particles = &snapshot.particles;
+    let axes = snapshot.grid.dimension as f32;
+    let mut text = "#usda 1.0\n(\n    defaultPrim = \"bodies\"\n)\n\ndef Points \"bodies\"\n{\n".to_owned();
+    let mut samples = |kind: &str, name: &str, values: String, primvar: bool| {
+        let about = if primvar { " ( interpolation = \"vertex\" )" } else { "" };
+        if primvar {
+            let _ = writeln!(text, "    {kind} {name}{about}");
+        }
+        let _ = writeln!(text, "    {kind} {name}.timeSamples = {{ {frame}: [{values}] }}");
+    };
+    let all = |each: &dyn Fn(&crate::snapshot::ParticleSample) -> String| {
+        particles.iter().map(each).collect::<Vec<_>>().join(", ")
+    };
+    samples("point3f[]", "points", all(&|p| vector(p.position)), false);
+    samples("vector3f[]", "velocities", all(&|p| vector(p.velocity)), false);
+    samples(
+        "float[]",
+        "widths",
+        all(&|p| format!("{:?}", (p.volume0 * p.volume_ratio()).abs().powf(1.0 / axes))),
+        false,
+    );
+    samples("int64[]", "ids", all(&|p| p.index.to_string()), false);
+    for (name, kind) in PRIMVARS {
+        let values = quantity::find(Place::Particle, name).map(|quantity| quantity.of(snapshot));
+        let values = match values {
+            Some(Values::Real(values)) => values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>(),
+            Some(Values::Whole(values)) => values.iter().map(ToString::to_string).collect(),
+            None => continue,
+        };
+        samples(kind, &format!("primvars:{name}"), values.join(", "), true);
+    }
+    text + "}\n"
+}
+
+fn vector([x, y, z]: [f32; 3]) -> String {
+    format!("({x:?}, {y:?}, {z:?})")
+}
+
+/// A text between quotes, on one line.
+fn quoted(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('"', "\\\"").replace(['\n', '\r'], " ")
+}

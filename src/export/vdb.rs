@@ -1,0 +1,155 @@
+//! vdb/NNNN.vdb: the gas as sparse volumes for Blender, Houdini and others, in OpenVDB's file version 224.
+//!
+//! The layout is that of OpenVDB 10 [Museth 2013, ACM TOG 32(3):27; openvdb/io/Archive.cc]: grids of the tree 5-4-3, active values only,
+//! zlib. Values are halves where their range allows. Voxels that hold the ambient gas bit by bit, or none, are left out.
+
+use std::path::{Path, PathBuf};
+
+use crate::Result;
+use crate::export::vdb_tree::{Bytes, Tree};
+use crate::export::{Exporter, Moment, Needs, atomic};
+use crate::quantity::{self, Place, Values};
+use crate::snapshot::{Snapshot, kind};
+
+/// First word of every file.
+const MAGIC: u64 = 0x5644_4220;
+/// Version of the layout, and of the library that wrote it first.
+const FILE_VERSION: u32 = 224;
+const LIBRARY: [u32; 2] = [10, 0];
+/// zlib, and active values only.
+const COMPRESSION: u32 = 1 | 2;
+/// Largest number of the format of 16 bits.
+const MOST_HALF: f32 = 65504.0;
+/// Quantities that are written.
+const GRIDS: [&str; 5] = ["density", "pressure", "temperature", "velocity", "schlieren"];
+
+/// Writes `vdb/NNNN.vdb`.
+#[derive(Debug)]
+pub struct VdbExporter {
+    folder: PathBuf,
+}
+
+impl VdbExporter {
+    /// For one output folder.
+    #[must_use]
+    pub fn new(folder: &Path) -> Self {
+        Self { folder: folder.join("vdb") }
+    }
+}
+
+impl Exporter for VdbExporter {
+    fn write(&mut self, moment: &Moment) -> Result<()> {
+        let snapshot = moment.snapshot.expect("a run reads the snapshot when an exporter needs it");
+        write(&self.folder.join(format!("{:04}.vdb", moment.index)), snapshot, moment)
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { snapshot: true, ..Needs::default() }
+    }
+}
+
+/// Writes the gas of a state.
+///
+/// # Errors
+/// [`crate::Error::Io`].
+pub fn write(path: &Path, snapshot: &Snapshot, moment: &Moment) -> Result<()> {
+    let mut out = Bytes::default();
+    out.words64(&[MAGIC]);
+    out.words(&[FILE_VERSION, LIBRARY[0], LIBRARY[1]]);
+    out.0.push(1); // the places of the grids follow
+    out.0.extend_from_slice(unique(&moment.origin.hash, moment.index).as_bytes());
+    let creator = concat!("brisance ", env!("CARGO_PKG_VERSION"));
+    out.words(&[2]);
+    out.text_entry("creator", creator);
+    out.text_entry("scene", &moment.origin.title);
+    let grids: Vec<Volume> = GRIDS.iter().filter_map(|name| Volume::of(name, snapshot)).collect();
+    out.words(&[grids.len() as u32]);
+    for grid in &grids {
+        grid.write(&mut out, snapshot);
+    }
+    atomic::write(path, |file| file.write_all(&out.0))
+}
+
+/// Thirty-six letters that no other file has.
+fn unique(hash: &str, index: u32) -> String {
+    let text: String = hash.chars().chain("0".repeat(32).chars()).take(24).collect();
+    let text = format!("{text}{index:08x}");
+    [&text[..8], &text[8..12], &text[12..16], &text[16..20], &text[20..32]].join("-")
+}
+
+/// A grid in the making.
+struct Volume {
+    name: &'static str,
+    unit: &'static str,
+    components: usize,
+    values: Vec<f32>,
+    active: Vec<bool>,
+    background: [f32; 3],
+}
+
+impl Volume {
+    fn of(name: &str, snapshot: &Snapshot) -> Option<Self> {
+        let quantity = quantity::find(Place::Cell, name)?;
+        let Values::Real(values) = quantity.of(snapshot) else { return None };
+        let components = quantity.components;
+        // the background is what most of the far corner holds: gas at rest, which no front has reached
+        let gas = |cell: &usize| snapshot.kind[*cell] == kind::GAS;
+        let last = (0..snapshot.kind.len()).rev().find(gas);
+        let at = |cell: usize| &values[components * cell..components * (cell + 1)];
+        let mut background = [0.0; 3];
+        if let Some(last) = last {
+            background[..components].copy_from_slice(at(last));
+        }
+        let differs = |cell: usize| at(cell).iter().zip(&background).any(|(a, b)| a.to_bits() != b.to_bits());
+        let active = (0..snapshot.kind.len()).map(|cell| gas(&cell) && differs(cell)).collect();
+        Some(Self { name: quantity.name, unit: quantity.unit, components, values, active, background })
+    }
+
+    fn write(&self, out: &mut Bytes, snapshot: &Snapshot) {
+        let half = self.values.iter().all(|value| value.abs() < MOST_HALF);
+        let kind = if self.components == 3 { "Tree_vec3s_5_4_3" } else { "Tree_float_5_4_3" };
+        out.text(self.name);
+        out.text(&format!("{kind}{}", if half { "_HalfFloat" } else { "" }));
+        out.text("");
+        let places = out.0.len();
+        out.words64(&[0; 3]);
+        let start = out.0.len();
+        out.words(&[COMPRESSION]);
+        self.write_meta(out, snapshot, half);
+        write_transform(out, snapshot);
+        let tree = Tree::new(snapshot.grid.cells, (&self.values, self.components), &self.active, half);
+        tree.write_topology(out, self.background);
+        let blocks = out.0.len();
+        tree.write_values(out);
+        let end = out.0.len();
+        for (k, place) in [start, blocks, end].into_iter().enumerate() {
+            out.0[places + 8 * k..places + 8 * (k + 1)].copy_from_slice(&(place as u64).to_le_bytes());
+        }
+    }
+
+    fn write_meta(&self, out: &mut Bytes, snapshot: &Snapshot, half: bool) {
+        let fog = if self.name == "density" { "fog volume" } else { "unknown" };
+        out.words(&[if self.components == 3 { 8 } else { 7 }]);
+        out.text_entry("class", fog);
+        out.text_entry("name", self.name);
+        out.text_entry("unit", self.unit);
+        out.text_entry("up_axis", "Z");
+        out.entry("meters_per_unit", "double", &1.0f64.to_le_bytes());
+        out.entry("time", "double", &snapshot.time.to_le_bytes());
+        out.entry("is_saved_as_half_float", "bool", &[u8::from(half)]);
+        if self.components == 3 {
+            out.text_entry("vector_type", "contravariant relative");
+        }
+    }
+}
+
+/// Voxels lie where the cells do, in metres; the place of a voxel is its middle.
+fn write_transform(out: &mut Bytes, snapshot: &Snapshot) {
+    let edge = f64::from(snapshot.grid.spacing);
+    let middle = snapshot.grid.origin.map(|low| f64::from(low) + 0.5 * edge);
+    out.text("UniformScaleTranslateMap");
+    out.reals(&middle);
+    for value in [edge, edge, 1.0 / edge, 1.0 / (edge * edge), 0.5 / edge] {
+        out.reals(&[value; 3]);
+    }
+}

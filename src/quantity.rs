@@ -1,0 +1,212 @@
+//! The table of quantities: what pictures and files show of a state, by name, unit and caption, and how it is computed.
+
+use crate::snapshot::{ParticleSample, Snapshot, kind};
+
+/// What a quantity belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Each cell of the domain.
+    Cell,
+    /// Each particle of a body.
+    Particle,
+}
+
+/// The values of a quantity, element by element.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Numbers; in cells without gas 0.
+    Real(Vec<f32>),
+    /// Counts, indices and kinds.
+    Whole(Vec<u32>),
+}
+
+/// A line of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Quantity {
+    /// Its name in files.
+    pub name: &'static str,
+    /// Unit; of quantities without dimension `1`.
+    pub unit: &'static str,
+    /// Its name and unit in pictures, or what it means.
+    pub caption: &'static str,
+    /// What it belongs to.
+    pub place: Place,
+    /// Numbers of each element.
+    pub components: usize,
+    compute: fn(&Snapshot) -> Values,
+}
+
+impl Quantity {
+    /// Its values in a state.
+    #[must_use]
+    pub fn of(&self, snapshot: &Snapshot) -> Values {
+        (self.compute)(snapshot)
+    }
+}
+
+const fn cell(
+    name: &'static str,
+    unit: &'static str,
+    caption: &'static str,
+    components: usize,
+    compute: fn(&Snapshot) -> Values,
+) -> Quantity {
+    Quantity { name, unit, caption, place: Place::Cell, components, compute }
+}
+
+const fn particle(
+    name: &'static str,
+    unit: &'static str,
+    caption: &'static str,
+    components: usize,
+    compute: fn(&Snapshot) -> Values,
+) -> Quantity {
+    Quantity { name, unit, caption, place: Place::Particle, components, compute }
+}
+
+/// All quantities. Inside bodies and obstacles, values of the gas are 0, and `kind` says where that is.
+#[rustfmt::skip]
+pub const TABLE: &[Quantity] = &[
+    cell("density", "kg m^-3", "density [kg/m\u{b3}]", 1, |s| gas(s, |i| [s.density[i]])),
+    cell("pressure", "Pa", "pressure [Pa]", 1, |s| gas(s, |i| [s.pressure[i]])),
+    cell("velocity", "m s^-1", "speed [m/s]", 3, |s| gas(s, |i| s.velocity[i])),
+    cell("energy", "J m^-3", "total energy [J/m\u{b3}]", 1, |s| gas(s, |i| [s.energy[i]])),
+    cell("temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [s.pressure[i] / s.density[i]])),
+    cell("mach", "1", "Mach number", 1, |s| gas(s, |i| [mach(s, i)])),
+    cell("schlieren", "kg m^-4", "density gradient [kg/m^4]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
+    cell("vorticity", "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
+    cell("entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma as f32)])),
+    cell("owed", "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
+    cell("kind", "1", "0 gas, 1 solid, 2 wall, 3 beyond an open side", 1, |s| Values::Whole(s.kind.iter().map(|kind| u32::from(*kind)).collect())),
+    particle("velocity", "m s^-1", "speed of solids [m/s]", 3, |s| each(s, |p| p.velocity)),
+    particle("mass", "kg", "mass [kg]", 1, |s| each(s, |p| [p.mass])),
+    particle("volume", "m^3", "volume [m\u{b3}]", 1, |s| each(s, |p| [p.volume0 * p.volume_ratio()])),
+    particle("ghost_pressure", "Pa", "ghost pressure [Pa]", 1, |s| each(s, |p| [p.ghost_pressure])),
+    particle("plastic_strain", "1", "plastic strain", 1, |s| each(s, |p| [p.plastic_strain])),
+    particle("damage", "1", "damage", 1, |s| each(s, |p| [p.damage])),
+    particle("J", "1", "volume over volume at rest", 1, |s| each(s, |p| [p.volume_ratio()])),
+    particle("deviatoric_stress", "Pa", "deviatoric stress [Pa]", 1, |s| each(s, |p| [von_mises(p)])),
+    particle("stress", "Pa", "Cauchy stress xx, yy, zz, xy, yz, zx [Pa]", 6, |s| each(s, |p| p.stress)),
+    particle("body", "1", "index of the body in the scene", 1, |s| whole(s, |p| p.body)),
+    particle("material", "1", "index of the material in the scene", 1, |s| whole(s, |p| p.material)),
+    particle("id", "1", "number among the particles of the start", 1, |s| whole(s, |p| p.index)),
+    particle("piece", "1", "smallest id in the piece", 1, |s| Values::Whole(s.piece_of_each())),
+];
+
+/// The quantity of a name, of cells or of particles.
+#[must_use]
+pub fn find(place: Place, name: &str) -> Option<&'static Quantity> {
+    TABLE.iter().find(|quantity| quantity.place == place && quantity.name == name)
+}
+
+/// All quantities of cells or of particles.
+pub fn all(place: Place) -> impl Iterator<Item = &'static Quantity> {
+    TABLE.iter().filter(move |quantity| quantity.place == place)
+}
+
+fn gas<const N: usize>(snapshot: &Snapshot, value: impl Fn(usize) -> [f32; N]) -> Values {
+    let own = |i: usize| if snapshot.kind[i] == kind::GAS { value(i) } else { [0.0; N] };
+    Values::Real((0..snapshot.kind.len()).flat_map(own).collect())
+}
+
+fn each<const N: usize>(snapshot: &Snapshot, value: impl Fn(&ParticleSample) -> [f32; N]) -> Values {
+    Values::Real(snapshot.particles.iter().flat_map(value).collect())
+}
+
+fn whole(snapshot: &Snapshot, value: impl Fn(&ParticleSample) -> u32) -> Values {
+    Values::Whole(snapshot.particles.iter().map(value).collect())
+}
+
+fn length([x, y, z]: [f32; 3]) -> f32 {
+    (x * x + y * y + z * z).sqrt()
+}
+
+fn mach(snapshot: &Snapshot, i: usize) -> f32 {
+    length(snapshot.velocity[i]) / (snapshot.gamma as f32 * snapshot.pressure[i] / snapshot.density[i]).sqrt()
+}
+
+/// Of the Cauchy stress: sqrt(3/2 s:s).
+fn von_mises(particle: &ParticleSample) -> f32 {
+    let [x, y, z, xy, yz, zx] = particle.stress;
+    let normal = (x - y) * (x - y) + (y - z) * (y - z) + (z - x) * (z - x);
+    (0.5 * normal + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
+}
+
+/// Central difference along each axis; beside cells without gas, and at the edge, that to the one side.
+fn gradient(snapshot: &Snapshot, i: usize, value: impl Fn(usize) -> f32) -> [f32; 3] {
+    let grid = &snapshot.grid;
+    let mut stride = 1;
+    std::array::from_fn(|axis| {
+        let (step, cells) = (stride, grid.cells[axis] as usize);
+        stride *= cells;
+        let at = i / step % cells;
+        let open = |near: bool, j: usize| if near && snapshot.kind[j] == kind::GAS { j } else { i };
+        let low = open(at > 0, i.wrapping_sub(step));
+        let high = open(at + 1 < cells, i + step);
+        let span = (high - low) / step;
+        if span == 0 { 0.0 } else { (value(high) - value(low)) / (span as f32 * grid.spacing) }
+    })
+}
+
+fn vorticity(snapshot: &Snapshot, i: usize) -> [f32; 3] {
+    let [u, v, w] = [0, 1, 2].map(|component| gradient(snapshot, i, |j| snapshot.velocity[j][component]));
+    [w[1] - v[2], u[2] - w[0], v[0] - u[1]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::Grid;
+
+    /// Gas that turns as a rigid body about z, with a density that rises along x; the middle cell is solid.
+    fn turning() -> Snapshot {
+        let grid = Grid { dimension: 2, cells: [5, 5, 1], origin: [0.0; 3], spacing: 0.5 };
+        let at = |i: usize| grid.centre([(i % 5) as i32, (i / 5) as i32, 0]);
+        let mut kinds = vec![kind::GAS; 25];
+        kinds[12] = kind::SOLID;
+        let velocity = (0..25).map(|i| [-3.0 * at(i)[1], 3.0 * at(i)[0], 0.0]).collect();
+        let density = (0..25).map(|i| 1.0 + 2.0 * at(i)[0]).collect();
+        let (pressure, energy) = (vec![1.0; 25], vec![2.5; 25]);
+        Snapshot {
+            time: 0.0,
+            step: 0,
+            grid,
+            gamma: 1.4,
+            kind: kinds,
+            density,
+            velocity,
+            pressure,
+            energy,
+            owed: vec![0.0; 25],
+            particles: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn names_are_unique_and_values_complete() {
+        let state = turning();
+        for (k, quantity) in TABLE.iter().enumerate() {
+            assert!(!TABLE[..k].iter().any(|other| (other.place, other.name) == (quantity.place, quantity.name)));
+            let count = if quantity.place == Place::Cell { 25 } else { 0 };
+            let length = match quantity.of(&state) {
+                Values::Real(values) => values.len(),
+                Values::Whole(values) => values.len(),
+            };
+            assert_eq!(length, count * quantity.components, "{}", quantity.name);
+        }
+    }
+
+    #[test]
+    fn gradients_are_exact_for_linear_fields() {
+        let state = turning();
+        let real = |name: &str| match find(Place::Cell, name).unwrap().of(&state) {
+            Values::Real(values) => values,
+            Values::Whole(_) => Vec::new(),
+        };
+        let (schlieren, vorticity) = (real("schlieren"), real("vorticity"));
+        for i in (0..25).filter(|i| *i != 12) {
+            assert!((schlieren[i] - 2.0).abs() < 1e-5 && (vorticity[3 * i + 2] - 6.0).abs() < 1e-5, "cell {i}");
+        }
+        assert_eq!((schlieren[12], vorticity[38]), (0.0, 0.0));
+    }
+}

@@ -1,0 +1,152 @@
+//! Everything that a run needs to go on bit by bit, on the host: copied between two steps, and brought back.
+
+use serde::{Deserialize, Serialize};
+
+use super::Simulation;
+use super::recorded::Recorded;
+use crate::error::{Error, Result};
+use crate::gpu::{Allocation, readback};
+
+/// Buffers that follow from the scene alone; the device only reads them.
+const FROM_SCENE: [&str; 6] = ["params", "materials", "knots", "motions", "probe_cells", "probe_history"];
+
+/// Buffers that no step reads before it has written them, wherever nothing sleeps.
+const SCRATCH: [&str; 9] =
+    ["work", "stiffness", "solution", "residual", "direction", "inverse_diagonal", "surface rows", "elastic", "node"];
+
+/// Buffers whose numbers are checked before a run goes on from them.
+const CHECKED: [&str; 3] = ["conserved", "position", "velocity"];
+
+/// The state of a simulation between two steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Saved {
+    /// Simulated time \[s\].
+    pub time: f64,
+    /// Steps done.
+    pub step: u64,
+    /// What the host keeps.
+    pub host: Host,
+    /// The buffers.
+    pub arrays: Vec<SavedArray>,
+}
+
+/// What the host keeps of a simulation beside its buffers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Host {
+    /// What [`Simulation::given`] says.
+    given: [f64; 4],
+    /// What [`Simulation::pulled`] says, and the momentum of the gas before the next step.
+    pulled: [f64; 4],
+    gas_before: [f64; 3],
+    /// What [`Simulation::borne`] says, of bodies and then of obstacles.
+    borne: Vec<[f64; 4]>,
+    /// What [`Simulation::blasts`] says.
+    blasts: f64,
+    /// How much of each loop was recorded last.
+    recorded: [u32; 4],
+}
+
+/// One buffer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SavedArray {
+    /// Name, unique within a state.
+    pub name: String,
+    /// Whether its words are floating point numbers.
+    pub real: bool,
+    /// Words of an element.
+    pub columns: usize,
+    /// Its words, in the order of bytes of this machine.
+    pub words: Vec<u32>,
+}
+
+impl Simulation {
+    /// Copies what carries the state from step to step. Between two steps only, see [`Simulation::settle`].
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn save(&self) -> Result<Saved> {
+        let mut arrays = Vec::new();
+        for (name, buffer) in self.carried() {
+            let bytes = if buffer.bytes == 0 {
+                Vec::new()
+            } else {
+                readback::read_bytes(&self.gpu, &buffer.raw, 0, buffer.bytes)?
+            };
+            let words = bytemuck::pod_collect_to_vec(&bytes);
+            arrays.push(SavedArray { name, real: buffer.real, columns: buffer.columns, words });
+        }
+        let host = Host {
+            given: self.given,
+            pulled: self.pulled,
+            gas_before: self.gas_before,
+            borne: self.borne.clone(),
+            blasts: self.blasts,
+            recorded: self.recorded.numbers(),
+        };
+        Ok(Saved { time: self.time, step: self.step, host, arrays })
+    }
+
+    /// Goes on from a state that was saved of the same scene.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if an array is missing, foreign, of another length, or holds what is no number; driver errors.
+    pub fn restore(&mut self, saved: &Saved) -> Result<()> {
+        let wanted = self.carried();
+        for array in &saved.arrays {
+            if !wanted.iter().any(|(name, _)| *name == array.name) {
+                return Err(Error::Usage(format!("array `{}` is none of this scene's and program's", array.name)));
+            }
+        }
+        for (name, buffer) in &wanted {
+            let Some(array) = saved.arrays.iter().find(|array| array.name == *name) else {
+                return Err(Error::Usage(format!("array `{name}` is missing")));
+            };
+            let (words, expected) = (array.words.len(), buffer.bytes as usize / 4);
+            if words != expected {
+                return Err(Error::Usage(format!(
+                    "array `{name}` has {words} words; this scene and program have {expected}"
+                )));
+            }
+            let bad = |word: &u32| !f32::from_bits(*word).is_finite();
+            if let Some(at) = array.words.iter().position(bad).filter(|_| CHECKED.contains(&name.as_str())) {
+                return Err(Error::Usage(format!("array `{name}`, word {at}: not a finite number")));
+            }
+        }
+        for (name, buffer) in &wanted {
+            let array = saved.arrays.iter().find(|array| array.name == *name);
+            if let Some(array) = array.filter(|array| !array.words.is_empty()) {
+                self.gpu.queue.write_buffer(&buffer.raw, 0, bytemuck::cast_slice(&array.words));
+            }
+        }
+        let host = &saved.host;
+        if host.borne.len() != self.borne.len() {
+            return Err(Error::Usage("its loads are those of other bodies and obstacles".to_owned()));
+        }
+        (self.time, self.step, self.given, self.blasts) = (saved.time, saved.step, host.given, host.blasts);
+        (self.pulled, self.gas_before, self.borne) = (host.pulled, host.gas_before, host.borne.clone());
+        self.recorded = Recorded::of(host.recorded);
+        self.gpu.check()
+    }
+
+    /// Bytes of a saved state.
+    #[must_use]
+    pub fn saved_bytes(&self) -> u64 {
+        self.carried().iter().map(|(_, buffer)| buffer.bytes).sum()
+    }
+
+    /// The buffers that carry the state, by names that are unique.
+    fn carried(&self) -> Vec<(String, &Allocation)> {
+        let mut named: Vec<(String, &Allocation)> = Vec::new();
+        for buffer in self.buffers.iter().filter(|buffer| self.carries(&buffer.label)) {
+            let label = buffer.label.replace(' ', "_");
+            let before = named.iter().filter(|(_, other)| other.label == buffer.label).count();
+            named.push((if before == 0 { label } else { format!("{label}_{}", before + 1) }, buffer));
+        }
+        named
+    }
+
+    /// Whether a buffer carries the state. Where gas sleeps, every array still holds there what it would get again.
+    fn carries(&self, label: &str) -> bool {
+        !FROM_SCENE.contains(&label) && (self.state.sleeps() || !SCRATCH.contains(&label))
+    }
+}

@@ -1,0 +1,253 @@
+//! Stop and go on: a state that was saved leads to the same bits, and a run that was stopped to the same files.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use brisance::gpu::Gpu;
+use brisance::scene::Scene;
+use brisance::simulation::{Saved, Simulation};
+
+use crate::cli::{brisance, fails, succeeds};
+use crate::common::gpu_or_skip;
+
+/// Steps before the state is saved, and behind it.
+const STEPS: u64 = 3;
+
+/// Gas that sleeps, two solves a step, bodies with fragments, the implicit elastic step. scripts/resume-test does all scenes.
+const SCENES: [(&str, &[&str], u32); 4] = [
+    ("gas/sod.toml", &[], 64),
+    ("gas/sod.toml", &["numerics.integrator=ars222"], 64),
+    ("paper/fig03_elastic_shell_2d.toml", &["variant=small"], 32),
+    ("paper/fig03_elastic_shell_2d.toml", &["variant=small", "numerics.elasticity=\"implicit\""], 32),
+];
+
+/// Goes on to a number of steps, and settles.
+fn advance(simulation: &mut Simulation, steps: u64) {
+    let mut records = Vec::new();
+    while simulation.step_count() < steps {
+        simulation.advance_batch_of(&mut records, (steps - simulation.step_count()) as u32).unwrap();
+    }
+    simulation.settle(&mut records).unwrap();
+}
+
+/// Names of the arrays that differ.
+fn differing<'a>(one: &'a Saved, two: &Saved) -> Vec<&'a str> {
+    assert_eq!((one.time.to_bits(), one.step, &one.host), (two.time.to_bits(), two.step, &two.host));
+    assert_eq!(one.arrays.len(), two.arrays.len());
+    let pairs = one.arrays.iter().zip(&two.arrays);
+    pairs.filter(|(one, two)| one != two).map(|(one, _)| one.name.as_str()).collect()
+}
+
+fn scene(path: &str, changes: &[&str], cells: u32) -> Scene {
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    Scene::shipped(path, &changes).unwrap().with_resolution(cells).unwrap()
+}
+
+/// A state after some steps, and what the same run comes to after as many more.
+fn halves(gpu: &Gpu, scene: &Scene) -> (Saved, Saved) {
+    let mut simulation = Simulation::new(gpu, scene).unwrap();
+    simulation.set_target(scene.time.until).unwrap();
+    advance(&mut simulation, STEPS);
+    let middle = simulation.save().unwrap();
+    advance(&mut simulation, 2 * STEPS);
+    (middle, simulation.save().unwrap())
+}
+
+#[test]
+fn a_saved_state_leads_to_the_same_bits() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for (path, changes, cells) in SCENES {
+        let scene = scene(path, changes, cells);
+        let (middle, end) = halves(&gpu, &scene);
+        let mut again = Simulation::new(&gpu, &scene).unwrap();
+        advance(&mut again, 2); // what is left out of a state must not matter
+        again.restore(&middle).unwrap();
+        assert_eq!(differing(&middle, &again.save().unwrap()), [""; 0], "{path} {changes:?}");
+        advance(&mut again, 2 * STEPS);
+        assert_eq!(differing(&end, &again.save().unwrap()), [""; 0], "{path} {changes:?}");
+    }
+}
+
+/// All files of a run but those that know the clock, in order.
+fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let known = ["report.json", "run.json", "written.txt"];
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            match path.is_dir() {
+                true if name != "checkpoints" => folders.push(path),
+                false if !known.contains(&name.as_str()) => found.push((path.clone(), std::fs::read(&path).unwrap())),
+                _ => {}
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+fn same_files(one: &Path, two: &Path) {
+    let (a, b) = (files(one), files(two));
+    let names = |all: &[(PathBuf, Vec<u8>)], from: &Path| -> Vec<PathBuf> {
+        all.iter().map(|(path, _)| path.strip_prefix(from).unwrap().to_owned()).collect()
+    };
+    assert_eq!(names(&a, one), names(&b, two));
+    for ((path, first), (_, second)) in a.iter().zip(&b) {
+        assert!(first == second, "{} differs", path.display());
+    }
+}
+
+#[test]
+fn a_stopped_run_goes_on_to_the_same_files() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let place = tempfile::tempdir().unwrap();
+    let text = |path: &Path| path.to_str().unwrap().to_owned();
+    let (whole, parts) = (place.path().join("whole"), place.path().join("parts"));
+    let given = [
+        "run",
+        "sod",
+        "--resolution",
+        "64",
+        "--until",
+        "0.05",
+        "--frames",
+        "4",
+        "--no-expect",
+        "-q",
+        "--export",
+        "vtk,states",
+    ];
+    let every = ["--checkpoint", "3steps", "--keep", "100"];
+    succeeds(&[&given[..], &every, &["--out", &text(&whole)]].concat());
+    succeeds(&[&given[..], &every, &["--out", &text(&parts)]].concat());
+    same_files(&whole, &parts);
+    // what a run leaves that was ended at once behind its second checkpoint, with files that are ahead of it
+    let mut kept = std::fs::read_dir(parts.join("checkpoints")).unwrap().map(|e| e.unwrap().path()).collect::<Vec<_>>();
+    kept.sort();
+    assert!(kept.len() >= 4, "{kept:?}");
+    kept.iter().skip(2).for_each(|path| std::fs::remove_file(path).unwrap());
+    let rows = std::fs::read_to_string(parts.join("diagnostics.csv")).unwrap();
+    std::fs::remove_file(parts.join("frames/0004.png")).unwrap();
+    succeeds(&["run", "--resume", &text(&parts), "-q"]);
+    same_files(&whole, &parts);
+    assert_eq!(rows, std::fs::read_to_string(parts.join("diagnostics.csv")).unwrap());
+
+    later_end(&parts, &place.path().join("longer"), &given);
+    bad_checkpoints(&parts);
+}
+
+/// A finished run goes on to a later end as if that had been asked for at once.
+fn later_end(parts: &Path, longer: &Path, given: &[&str]) {
+    let text = |path: &Path| path.to_str().unwrap().to_owned();
+    succeeds(&["run", "--resume", &text(parts), "-q", "--until", "0.1"]);
+    let end: Vec<&str> = given
+        .iter()
+        .map(|word| {
+            if *word == "0.05" {
+                "0.1"
+            } else if *word == "4" {
+                "8"
+            } else {
+                word
+            }
+        })
+        .collect();
+    succeeds(&[&end[..], &["--out", &text(longer)]].concat());
+    for name in ["diagnostics.csv", "frames/0008.png", "fields/0008.vti", "fields.pvd"] {
+        assert!(
+            std::fs::read(longer.join(name)).unwrap() == std::fs::read(parts.join(name)).unwrap(),
+            "{name} differs"
+        );
+    }
+    assert!(fails(2, &["run", "--resume", &text(parts), "--until", "0.107"]).contains("a multiple of it"));
+    assert!(fails(2, &["run", "--resume", &text(parts), "--set", "gas.gamma=2"]).contains("--set with --resume"));
+}
+
+/// What cannot be gone on from is told.
+fn bad_checkpoints(run: &Path) {
+    let resume = ["run", "--resume", run.to_str().unwrap(), "-q"];
+    let mut all = std::fs::read_dir(run.join("checkpoints")).unwrap().map(|e| e.unwrap().path()).collect::<Vec<_>>();
+    all.sort();
+    let newest = all.last().unwrap();
+    let good = std::fs::read(newest).unwrap();
+    std::fs::write(newest, &good[..good.len() / 2]).unwrap();
+    let message = fails(9, &resume);
+    assert!(message.contains("the file is cut") && message.contains("remove it to go on from"), "{message}");
+    let mut damaged = good.clone();
+    let at = good.windows(13).position(|window| window == b"conserved.npy").unwrap() + 60;
+    damaged[at..at + 8].fill(0xff);
+    std::fs::write(newest, &damaged).unwrap();
+    let message = fails(9, &resume);
+    assert!(message.contains("conserved"), "{message}");
+    std::fs::write(newest, &good).unwrap();
+    std::fs::write(run.join("diagnostics.csv"), "step,time\n1,2\n").unwrap();
+    assert!(fails(9, &resume).contains("not those that the run wrote"));
+    let report = std::fs::read_to_string(run.join("report.json")).unwrap();
+    let hash = report.split("\"scene_hash\": \"").nth(1).unwrap()[..32].to_owned();
+    std::fs::write(run.join("report.json"), report.replace(&hash, &"0".repeat(32))).unwrap();
+    assert!(fails(2, &resume).contains("another scene than report.json"));
+    std::fs::remove_dir_all(run.join("checkpoints")).unwrap();
+    assert!(fails(2, &resume).contains("no checkpoints"));
+}
+
+#[test]
+fn a_branch_starts_from_a_state_of_another_run() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let place = tempfile::tempdir().unwrap();
+    let (run, branch) = (place.path().join("run"), place.path().join("branch"));
+    let text = |path: &Path| path.to_str().unwrap().to_owned();
+    let given = ["run", "sod", "--resolution", "64", "--until", "0.05", "--frames", "4", "--no-expect", "-q"];
+    succeeds(&[&given[..], &["--checkpoint", "t=0.02", "--keep", "9", "--out", &text(&run)]].concat());
+    let from = format!("{}@0.03", run.display());
+    let changes = ["--set", "render.colormap=inferno", "--set", "time.cfl=0.2", "--until", "0.06", "--frames", "6"];
+    succeeds(&[&["run", "--branch", &from, "--no-expect", "-q", "--out", &text(&branch)], &changes[..]].concat());
+    let rows = |folder: &Path| std::fs::read_to_string(folder.join("diagnostics.csv")).unwrap();
+    let (before, after) = (rows(&run), rows(&branch));
+    let shared = before.lines().zip(after.lines()).take_while(|(one, two)| one == two).count();
+    assert!(shared > 6 && shared < before.lines().count(), "{shared} rows are shared");
+    let time = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap();
+    assert!(after.lines().skip(1).map(time).is_sorted() && time(after.lines().last().unwrap()) > 0.0599);
+    assert!(!branch.join("frames/0001.png").exists() && branch.join("frames/0006.png").exists());
+    let refused = fails(2, &["run", "--branch", &from, "--set", "gas.gamma=1.3"]);
+    assert!(refused.contains("gas.gamma") && refused.contains("boundary"), "{refused}");
+    assert!(fails(2, &["run", "--branch", &text(&run)]).contains("DIR@TIME"));
+    assert!(fails(2, &["run", "--branch", &format!("{}@0.001", run.display())]).contains("it has: "));
+}
+
+#[test]
+fn an_interrupted_run_leaves_a_checkpoint() {
+    if gpu_or_skip().is_none() || cfg!(not(unix)) {
+        return;
+    }
+    let place = tempfile::tempdir().unwrap();
+    let out = place.path().join("run");
+    let given = [
+        "run",
+        "sod",
+        "--resolution",
+        "64",
+        "--until",
+        "50",
+        "--frames",
+        "2000",
+        "-q",
+        "--no-frames",
+        "--no-expect",
+        "--out",
+    ];
+    let mut child = brisance(&given).arg(&out).spawn().unwrap();
+    while !out.join("diagnostics.csv").exists() {
+        assert!(child.try_wait().unwrap().is_none());
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let rows = std::fs::read_to_string(out.join("diagnostics.csv")).unwrap().lines().count() - 1;
+    assert!(out.join(format!("checkpoints/{rows:08}.npz")).exists(), "of the last step, {rows}");
+}
