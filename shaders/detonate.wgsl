@@ -24,11 +24,9 @@ struct Blast {
 // Gas of a slot that belongs to the ball, in cells.
 fn share_in_ball(slot: u32) -> f32 {
     if kind_of(cells[slot]) != GAS || !inside(cell_of(slot)) || is_alias(cell_of(slot)) { return 0.0; }
-    var away = vec3f(cell_of(cluster_first(slot))) + 0.5 - blast.center;
-    for (var a = 0u; a < 3u; a++) {
-        if a >= DIM { away[a] = 0.0; }
-        if periodic_axes()[a] { away[a] -= f32(params.cells[a]) * round(away[a] / f32(params.cells[a])); }
-    }
+    var away = (vec3f(cell_of(cluster_first(slot))) + 0.5 - blast.center) * vec3f(reach());
+    let size = vec3f(params.cells);
+    away = select(away, away - size * round(away / size), periodic_axes());
     return select(0.0, gas_share(slot), length(away) < blast.radius);
 }
 

@@ -184,12 +184,13 @@ fn totals_record(@builtin(local_invocation_index) lane: u32) {
     history[base + 5u].w = bitcast<f32>(atomicLoad(&coldest_slot));
     control.sound = history[base + 7u].z;
     history[base + 7u].z = bitcast<f32>(atomicLoad(&control.raised));
+    history[base + 7u].w = bitcast<f32>(control.extra);
     let unit = borrowed_unit();
     history[base + 3u] += unit.x * vec4f(0.0, borrowed(0u), borrowed(1u), borrowed(2u));
     history[base + 5u].y += unit.y * borrowed(3u);
     history[base + 10u] = vec4f(history[base + 10u].x, bitcast<vec3f>(vec3u(control.rounds, control.elastic_iterations, control.longest_round)));
     history[base] = vec4f(control.duration, control.residual, bitcast<f32>(control.step), bitcast<f32>(control.iterations));
-    history[base + 1u] = vec4f(bitcast<f32>(control.substeps | (control.extra << 12u)), bitcast<f32>(atomicLoad(&control.limited)),
+    history[base + 1u] = vec4f(bitcast<f32>(control.substeps), bitcast<f32>(atomicLoad(&control.limited)),
         bitcast<f32>(atomicLoad(&control.floored)), bitcast<f32>(atomicLoad(&control.clamped)));
 }
 

@@ -114,8 +114,8 @@ fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invoca
     var hot = NO_VALUE;
     if (has_gas(slot)) {
         let computed = value(cell, slot);
-        // The comparison is false for NaN.
-        if (abs(computed) < -NO_VALUE) {
+        // By its bits: fast arithmetic may take every comparison with NaN for true.
+        if ((bitcast<u32>(computed) & 0x7f800000u) != 0x7f800000u && abs(computed) < -NO_VALUE) {
             result = computed;
         }
         hot = max(pressure(slot) / conserved[slot].x, 0.0);

@@ -161,7 +161,7 @@ fn shares_pressure(v: vec3i) -> bool {
         }
     }
     // 2 of 16 cells in 2D: half of a sheet one cell thick that passes through the block, in any dimension.
-    return volume >= 2.0 * pow(4.0, f32(DIM) - 2.0) * cell_volume();
+    return volume >= select(select(0.5, 2.0, DIM == 2u), 8.0, DIM == 3u) * cell_volume();
 }
 
 // After the scan of `wanted`.

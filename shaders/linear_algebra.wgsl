@@ -124,10 +124,14 @@ fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
     }
 }
 
+// By its bits: fast arithmetic may take every comparison with NaN for true.
+fn is_no_number(x: f32) -> bool { return (bitcast<u32>(x) & 0x7f800000u) == 0x7f800000u; }
+
 fn decide() {
     pcg.outcome = PCG_RUNNING;
-    if pcg.size <= pcg.tolerance * pcg.tolerance * pcg.reference { pcg.outcome = PCG_CONVERGED; }
-    else if pcg.iterations >= pcg.max_iterations || !(pcg.rho < 1e38) { pcg.outcome = PCG_STALLED; }
+    if is_no_number(pcg.size) || is_no_number(pcg.rho) { pcg.outcome = PCG_STALLED; }
+    else if pcg.size <= pcg.tolerance * pcg.tolerance * pcg.reference { pcg.outcome = PCG_CONVERGED; }
+    else if pcg.iterations >= pcg.max_iterations || pcg.rho >= 1e38 { pcg.outcome = PCG_STALLED; }
     open_iteration(pcg.outcome == PCG_RUNNING);
 }
 

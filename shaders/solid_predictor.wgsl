@@ -119,7 +119,8 @@ fn film_force(c: vec3i, count: u32) -> vec3f {
             if !face_holds(-offset, n, up) { continue; }
             let beyond = kind_in_block(kinds, offset + step);
             if beyond != WALL && beyond != GHOST { continue; }
-            force[n] += select(-1.0, 1.0, up) * face_mean(c + offset + select(vec3i(0), step, up), n, -offset);
+            let push = select(-1.0, 1.0, up) * face_mean(c + offset + select(vec3i(0), step, up), n, -offset);
+            force = select(force, force + push, along(n));
         }
     }
     return force * face_area();

@@ -3,13 +3,16 @@
 mod elastic;
 mod fault;
 mod live;
+mod pace;
 mod recorded;
 mod report;
 mod saved;
 
+use std::time::Instant;
+
 use crate::diagnostics::{Load, StepRecord};
 use crate::error::Result;
-use crate::gpu::{Allocation, Detail, Gpu, Pass, Times, readback, watched};
+use crate::gpu::{Allocation, Detail, Gpu, Pass, Settings, Times, readback, watched};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
@@ -22,6 +25,7 @@ use crate::state::loads::LOAD_WIDTH;
 use crate::state::params::STILL_ASLEEP;
 use crate::state::{Control, HISTORY, State};
 pub use live::Blast;
+use pace::Pace;
 use recorded::Recorded;
 pub use saved::{Host, Saved, SavedArray};
 
@@ -68,6 +72,7 @@ pub struct Simulation {
     recorded: Recorded,
     /// All buffers, in the order in which they were made.
     buffers: Vec<Allocation>,
+    pace: Pace,
 }
 
 /// Steps per submission at most.
@@ -90,7 +95,7 @@ impl Simulation {
         let transfer = match scene.numerics.transfer {
             scene::Transfer::Gather => Transfer::Gather,
             scene::Transfer::Scatter => Transfer::Scatter,
-            scene::Transfer::Auto if gpu.is_software() => Transfer::Gather,
+            scene::Transfer::Auto if gpu.settings == Settings::Software => Transfer::Gather,
             scene::Transfer::Auto => Transfer::Scatter,
         };
         let coupled_solve = CoupledSolve::new(parts, scene)?;
@@ -126,6 +131,7 @@ impl Simulation {
             step: 0,
             recorded: Recorded::FIRST,
             buffers: Vec::new(),
+            pace: Pace::default(),
             gpu: gpu.clone(),
             state,
         };
@@ -283,13 +289,19 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_batch_of(&mut self, records: &mut Vec<StepRecord>, steps: u32) -> Result<bool> {
-        let mut pass = Pass::new(&self.gpu, "steps");
-        for _ in 0..steps.clamp(1, BATCH) {
+        let hardware = self.gpu.settings == Settings::Hardware;
+        // A processor serves others beside a long submission.
+        let steps = if hardware { self.pace.steps(steps.clamp(1, BATCH)) } else { steps.clamp(1, BATCH) };
+        let (start, before) = (Instant::now(), records.len());
+        let mut pass = Pass::new(&self.gpu, "steps").cut(hardware && self.pace.cut());
+        for _ in 0..steps {
             self.record_step(&mut pass);
             self.record_totals(&mut pass);
         }
         pass.submit()?;
-        self.after_batch(records)
+        let reached = self.after_batch(records)?;
+        self.pace.note((steps, records.len() - before), 1e3 * start.elapsed().as_secs_f64());
+        Ok(reached)
     }
 
     /// Runs one recording with a stopwatch: as [`Simulation::advance_batch`] with the milliseconds of each stage or kernel.

@@ -51,8 +51,7 @@ fn gas_from_afar(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
     if outward * u >= 0.0 { return here; }
     if outward * u <= -sound_speed(here.flow.x, pressure_of(here)) { return Gas(o.flow, o.energy); }
     let sound = sound_from_afar(o, n, outward, u);
-    var velocity = velocity_of(o.flow);
-    velocity[n] = u;
+    let velocity = select(velocity_of(o.flow), vec3f(u), along(n));
     return gas_from_primitive(o.flow.x * pow(sound, 2.0 / (params.gamma - 1.0)), velocity, pressure_from_afar(o, sound));
 }
 
@@ -63,8 +62,7 @@ fn gas_beyond(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
     if follows(o, RULE_TOTAL) {
         let speed = inflow_speed(o, outward * here.flow[n + 1u] / here.flow.x);
         let pressure = reservoir_pressure(o, speed);
-        var u = vec3f(0.0);
-        u[n] = -outward * speed;
+        let u = select(vec3f(0.0), vec3f(-outward * speed), along(n));
         return gas_from_primitive(o.flow.x * pow(pressure / o.pressure, 1.0 / params.gamma), u, pressure);
     }
     if follows(o, RULE_ATTENUATED) { return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share)); }

@@ -11,18 +11,26 @@ fn spline_at(position: vec3f) -> Spline {
     var s: Spline;
     let x = (position - params.origin) / params.spacing;
     s.base = cell_at(position);
-    for (var a = 0u; a < 3u; a++) {
-        if a < DIM {
-            let f = x[a] - f32(s.base[a]) - 0.5; // distance to the middle node, in cells
-            s.weight[a] = vec3f(0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f));
-            s.slope[a] = vec3f(f - 0.5, -2.0 * f, f + 0.5) / params.spacing;
-        } else {
-            s.weight[a] = vec3f(0.0, 1.0, 0.0);
-            s.slope[a] = vec3f(0.0);
-        }
+    let f = x - vec3f(s.base) - 0.5; // distance to the middle node, in cells
+    s.weight = mat3x3f(weights(f.x), NO_WEIGHTS, NO_WEIGHTS);
+    s.slope = mat3x3f(slopes(f.x), vec3f(0.0), vec3f(0.0));
+    if DIM > 1u {
+        s.weight[1] = weights(f.y);
+        s.slope[1] = slopes(f.y);
+    }
+    if DIM > 2u {
+        s.weight[2] = weights(f.z);
+        s.slope[2] = slopes(f.z);
     }
     return s;
 }
+
+// Along an inactive axis.
+const NO_WEIGHTS = vec3f(0.0, 1.0, 0.0);
+
+fn weights(f: f32) -> vec3f { return vec3f(0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f)); }
+
+fn slopes(f: f32) -> vec3f { return vec3f(f - 0.5, -2.0 * f, f + 0.5) / params.spacing; }
 
 // Weight and gradient of the node at `base + offset`.
 fn spline_node(s: Spline, offset: vec3i) -> vec4f {

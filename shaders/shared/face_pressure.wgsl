@@ -38,11 +38,7 @@ fn face_pressure(c: vec3i, n: u32, up: bool, beyond: u32) -> f32 {
 }
 
 fn wide_range(n: u32) -> array<vec3i, 2> {
-    var first = -reach();
-    var last = 2 * reach();
-    first[n] = -1;
-    last[n] = 1;
-    return array<vec3i, 2>(first, last);
+    return array<vec3i, 2>(select(-reach(), vec3i(-1), along(n)), select(2 * reach(), vec3i(1), along(n)));
 }
 
 fn wide_face_is_gas(low: vec3i, n: u32) -> bool {
@@ -77,8 +73,10 @@ fn wide_face_pressure(low: vec3i, n: u32) -> f32 {
     var rows: vec4f;
     for (var k = -reach()[b]; k <= 2 * reach()[b]; k++) {
         var lines: vec4f;
-        for (var j = -reach()[a]; j <= 2 * reach()[a]; j++) { lines[j + 1] = face_line(low + j * axis(a) + k * axis(b), n, reference); }
-        rows[k + 1] = paired(lines * across_weights(a));
+        for (var j = -reach()[a]; j <= 2 * reach()[a]; j++) {
+            lines = select(lines, vec4f(face_line(low + j * axis(a) + k * axis(b), n, reference)), vec4i(-1, 0, 1, 2) == vec4i(j));
+        }
+        rows = select(rows, vec4f(paired(lines * across_weights(a))), vec4i(-1, 0, 1, 2) == vec4i(k));
     }
     return reference + paired(rows * across_weights(b));
 }

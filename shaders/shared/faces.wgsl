@@ -9,7 +9,7 @@ fn is_open(word: u32) -> bool { return kind_of(word) == GAS || kind_of(word) == 
 // What a plane of symmetry across axis n makes of a state.
 fn image(n: u32, gas: Gas) -> Gas {
     var out = gas;
-    out.flow[n + 1u] = -gas.flow[n + 1u];
+    out.flow = select(gas.flow, -gas.flow, vec4<bool>(false, along(n)));
     return out;
 }
 
@@ -92,7 +92,7 @@ fn carrier_beside(slot: u32, c: vec3i, n: u32, offset: i32, word: u32) -> vec4f 
     let nearest = clamp(place, 0, i32(params.cells[n]) - 1);
     var here = node[u32(i32(slot) + (nearest - c[n]) * i32(step_of(n)))];
     if is_reflected(n, c[n] + offset) {
-        here[n] = -here[n];
+        here = vec4f(select(here.xyz, -here.xyz, along(n)), here.w);
     } else if place != nearest && kind_of(word) == GHOST {
         let opening = opening_of(word);
         if prescribes(opening) { return vec4f(velocity_of(opening.flow), 0.0); }

@@ -17,15 +17,15 @@ fn stopped_at_wall(c: vec3i, v: vec3f) -> vec3f {
     for (var a = 0u; a < DIM; a++) { surface = surface || (here && inside(c) && any(ends_at(slot, a))); }
     for (var a = 0u; a < DIM; a++) {
         if c[a] < 0 {
-            if stops_at(2u * a) { out[a] = max(out[a], 0.0); }
+            if stops_at(2u * a) { out = select(out, max(out, vec3f(0.0)), along(a)); }
         } else if c[a] >= i32(params.cells[a]) {
-            if stops_at(2u * a + 1u) { out[a] = min(out[a], 0.0); }
+            if stops_at(2u * a + 1u) { out = select(out, min(out, vec3f(0.0)), along(a)); }
         } else if here && inside(c) {
             // Inside an obstacle: outward is where the wall ends.
             let ends = ends_at(slot, a);
             if surface && !any(ends) { continue; }
-            if !ends.y { out[a] = min(out[a], 0.0); }
-            if !ends.x { out[a] = max(out[a], 0.0); }
+            if !ends.y { out = select(out, min(out, vec3f(0.0)), along(a)); }
+            if !ends.x { out = select(out, max(out, vec3f(0.0)), along(a)); }
         }
     }
     return out;

@@ -27,6 +27,10 @@ fn cell_of(slot: u32) -> vec3i {
 
 fn axis(a: u32) -> vec3i { return vec3i(i32(a == 0u), i32(a == 1u), i32(a == 2u)); }
 
+// Which component belongs to an axis. Components are set through it: one with an index that is not known when a kernel is compiled
+// (`v[a] = x`) forces older compilers to unroll, and slows all down.
+fn along(a: u32) -> vec3<bool> { return vec3u(0u, 1u, 2u) == vec3u(a); }
+
 // A term as it is, rounded on its own: no driver may reorder or fuse it with what it is added to. Sums of two such terms, one per axis,
 // keep what is symmetric in x and y so, to the last bit. NaN becomes the lowest number: what it is added to may look
 // like a number, so kernels that find faults must see momentum or density, which NaN reaches in the next step at the latest.

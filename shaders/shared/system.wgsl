@@ -28,8 +28,7 @@ fn corner_index(corner: vec3i) -> u32 { return u32(corner.x + 2 * corner.y + 4 *
 
 // Kind of the cell beyond the face, across axis n, that the element at `corner` has on the vertex' side.
 fn kind_across(kinds: u32, corner: vec3i, n: u32) -> u32 {
-    var other = corner;
-    other[n] = 1 - other[n];
+    let other = select(corner, 1 - corner, along(n));
     return (kinds >> (2u * corner_index(other))) & 3u;
 }
 

@@ -46,8 +46,12 @@ pub enum Command {
     Bench(BenchOptions),
     /// Compare the method with numbers from elsewhere: a table, a page with plots, an exit code
     Verify(VerifyOptions),
-    /// List the devices, best first
+    /// List the devices, best first, with limits, features, and which one is chosen and why
     Devices,
+    /// Check that the device computes what it should: a table, a file for an issue, exit code 8 with the first wrong stage
+    Selftest(SelftestOptions),
+    /// Write every kernel of scenes as other compilers get it: final text, entry point, overrides
+    Shaders(ShadersOptions),
     /// List the shipped scenes
     List,
     /// Print the JSON schema of scene files
@@ -85,6 +89,30 @@ pub struct SceneOptions {
     /// Cells along the longest axis
     #[arg(long, value_name = "CELLS")]
     pub resolution: Option<u32>,
+}
+
+/// Options of `selftest`.
+#[derive(Debug, Args)]
+pub struct SelftestOptions {
+    /// Larger cases, and a larger bench
+    #[arg(long)]
+    pub full: bool,
+    /// Only cases whose names contain this
+    #[arg(long, value_name = "TEXT")]
+    pub filter: Option<String>,
+    /// Where the file goes [default: selftest-DEVICE.json]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+/// Options of `shaders`.
+#[derive(Debug, Args)]
+pub struct ShadersOptions {
+    /// Shipped scenes or scene files [default: all shipped scenes]
+    pub scenes: Vec<String>,
+    /// Folder that gets them; what is there stays
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
 }
 
 /// Options of `init`.

@@ -28,7 +28,7 @@ pub(super) struct Duration {
 impl Duration {
     /// For the device that a run would take; nothing where there is none.
     pub(super) fn of(scene: &Scene, plan: &MemoryPlan, estimate: &Estimate, cli: &Cli) -> Option<Self> {
-        let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None }).ok()?;
+        let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), ..GpuOptions::default() }).ok()?;
         let copy = 1e9 * copy_bandwidth(&gpu, Rounds::FEW).ok()?;
         let ring = |n: u32| u64::from(if n > 1 { n + 2 } else { 1 });
         let slots = scene.domain.cells.map(ring).iter().product();

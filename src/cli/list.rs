@@ -2,7 +2,9 @@
 
 use serde_json::json;
 
-use crate::gpu::Gpu;
+use super::args::Cli;
+use super::check::size;
+use crate::gpu::{AdapterSummary, Gpu, GpuOptions, Settings};
 use crate::scene::{self, Scene};
 use crate::{Error, Result};
 
@@ -10,24 +12,68 @@ use crate::{Error, Result};
 ///
 /// # Errors
 /// [`Error::NoAdapter`] if there is none.
-pub(super) fn devices(as_json: bool) -> Result<()> {
+pub(super) fn devices(cli: &Cli) -> Result<()> {
     let adapters = Gpu::adapters();
-    if adapters.is_empty() {
-        // Opening says what to install.
-        return Gpu::new(&crate::gpu::GpuOptions::default()).map(|_| ());
-    }
-    if as_json {
+    // Opening says what to install where there is none, and which one it takes.
+    let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), ..GpuOptions::default() })?;
+    let chosen = AdapterSummary { index: 0, ..gpu.summary() };
+    let taken = adapters.iter().position(|adapter| AdapterSummary { index: 0, ..adapter.clone() } == chosen);
+    let why = reason(cli);
+    let memory = crate::state::memory_together(&gpu);
+    if cli.json {
         let list: Vec<_> = adapters
             .iter()
-            .map(|a| json!({ "index": a.index, "name": a.name, "kind": a.kind, "driver": a.driver, "max_binding": a.max_binding }))
+            .map(|a| {
+                let limits: serde_json::Map<_, _> =
+                    a.limits.iter().map(|(name, value)| ((*name).to_owned(), json!(value))).collect();
+                let features: Vec<_> = a.features.iter().filter(|(_, has)| *has).map(|(name, _)| name).collect();
+                json!({ "index": a.index, "name": a.name, "kind": a.kind, "backend": a.backend, "driver": a.driver,
+                    "max_binding": a.max_binding, "max_buffer": a.max_buffer, "limits": limits, "features": features,
+                    "known": a.known() })
+            })
             .collect();
-        say!("{}", json!({ "devices": list }));
+        say!(
+            "{}",
+            json!({ "devices": list, "chosen": { "index": taken, "why": why, "settings": settings(&gpu), "memory": memory } })
+        );
         return Ok(());
     }
     for adapter in &adapters {
         say!("{adapter}");
+        if Some(adapter.index) == taken {
+            say!("   chosen    {why}; settings of {}", settings(&gpu));
+            let told = memory.map_or("not told by the driver; buffers that do not fit are errors".to_owned(), size);
+            say!("   memory    {told}");
+        }
+        let features: Vec<_> = adapter
+            .features
+            .iter()
+            .map(|(name, has)| if *has { (*name).to_owned() } else { format!("no {name}") })
+            .collect();
+        say!("   features  {}", features.join(", "));
+        let limits: Vec<_> = adapter.limits.iter().map(|(name, value)| format!("{name} {value}")).collect();
+        say!("   limits    {}", limits.join(", "));
+        say!("   known     {}", adapter.known());
     }
     Ok(())
+}
+
+/// Why the chosen device is chosen.
+fn reason(cli: &Cli) -> String {
+    let wish = std::env::var("BRISANCE_DEVICE").ok().filter(|value| !value.is_empty());
+    match (&cli.device, wish) {
+        (Some(wish), _) => format!("--device {wish}"),
+        (None, Some(wish)) => format!("BRISANCE_DEVICE={wish}"),
+        (None, None) => "the first of the list: discrete before integrated, virtual, other and software".to_owned(),
+    }
+}
+
+/// Whose settings a device takes, for people.
+pub(super) fn settings(gpu: &Gpu) -> &'static str {
+    match gpu.settings {
+        Settings::Software => "a software device: gather, long marches, few groups",
+        Settings::Hardware => "hardware: scatter, short marches, many groups, submissions of 100 ms",
+    }
 }
 
 /// Prints the shipped scenes with their titles.

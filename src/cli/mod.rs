@@ -35,6 +35,8 @@ mod progress;
 mod render;
 mod run;
 mod scenes;
+mod selftest;
+mod shaders;
 mod sweep;
 mod tables;
 mod verify;
@@ -144,7 +146,9 @@ fn execute(cli: &Cli) -> Result<()> {
         Command::Check(options) => check::check(options, cli),
         Command::Bench(options) => bench::bench(options, cli),
         Command::Verify(options) => verify::verify(options, cli),
-        Command::Devices => list::devices(cli.json),
+        Command::Devices => list::devices(cli),
+        Command::Selftest(options) => selftest::selftest(options, cli),
+        Command::Shaders(options) => shaders::shaders(options, cli),
         Command::List => list::scenes(cli.json),
         Command::Schema => {
             say!("{}", crate::scene::schema());
@@ -180,7 +184,7 @@ fn window(cli: &Cli) -> Result<()> {
 /// Opens the device that the command line names; a processor in the role of a GPU is announced, once.
 fn open_device(cli: &Cli) -> Result<Gpu> {
     static ANNOUNCED: AtomicBool = AtomicBool::new(false);
-    let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })?;
+    let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), ..GpuOptions::default() })?;
     if gpu.is_software() && !ANNOUNCED.swap(true, Ordering::Relaxed) {
         let name = &gpu.info.name;
         tell!("warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU");

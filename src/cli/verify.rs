@@ -90,7 +90,7 @@ fn share_cores_by_cases() {
 fn more_devices(cli: &Cli, first: &Gpu) -> Result<Vec<Gpu>> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let all = cores.min(AT_A_TIME[usize::from(first.is_software())]);
-    (1..all).map(|_| Gpu::new(&GpuOptions { device: cli.device.clone(), shaders: None })).collect()
+    (1..all).map(|_| Gpu::new(&GpuOptions { device: cli.device.clone(), ..GpuOptions::default() })).collect()
 }
 
 fn list(cases: &[&Case], as_json: bool) {

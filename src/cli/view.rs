@@ -22,7 +22,7 @@ pub(super) fn view(options: Option<&ViewOptions>, cli: &Cli) -> Result<()> {
         request.load()?;
     }
     let pace = options.filter(|options| options.full_speed).map(|_| Pace::Fastest);
-    let options = GpuOptions { device: cli.device.clone(), shaders: None };
+    let options = GpuOptions { device: cli.device.clone(), ..GpuOptions::default() };
     let (steps, seconds) = crate::viewer::run(options, request, pace)?;
     if steps > 0 {
         tell!(

@@ -1,10 +1,12 @@
-//! Choosing an adapter, opening the device, and keeping its first error.
+//! Opening the device, and keeping its first error.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
+use super::adapters::{choose, enough, new_instance, ranked_adapters};
 use super::kernel::Kernel;
 use super::reflect::Compiled;
 use super::shader::Folder;
@@ -18,27 +20,32 @@ pub struct GpuOptions {
     pub device: Option<String>,
     /// Folder to read shaders from instead of the embedded ones. `None` asks the environment variable `BRISANCE_SHADERS`.
     pub shaders: Option<PathBuf>,
+    /// Whose settings to take. `None` asks the environment variable `BRISANCE_AS` (`gpu` or `software`), then the device.
+    pub settings: Option<Settings>,
+    /// Folder that gets the final text, entry point and overrides of every kernel that is compiled. `None` asks the environment
+    /// variable `BRISANCE_KERNELS`.
+    pub kernels: Option<PathBuf>,
 }
 
-/// One line of the list of devices, best first.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct AdapterSummary {
-    /// Position in the list; `--device` accepts it.
-    pub index: usize,
-    /// Name the driver gives.
-    pub name: String,
-    /// `discrete`, `integrated`, `virtual`, `software` or `other`.
-    pub kind: &'static str,
-    /// Programming interface and driver, for example `vulkan, llvmpipe, Mesa 22.3.6`.
-    pub driver: String,
-    /// Largest storage buffer a kernel may bind \[bytes\].
-    pub max_binding: u64,
+/// Choices that are about speed: which transfer to the grid, how many groups, how long a march, how long a submission. Results agree to
+/// rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Settings {
+    /// For a processor that plays a GPU.
+    Software,
+    /// For hardware.
+    Hardware,
 }
 
-impl std::fmt::Display for AdapterSummary {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let gib = self.max_binding as f64 / GIB;
-        write!(f, "{}: {} ({}; {}; {gib:.2} GiB per buffer)", self.index, self.name, self.kind, self.driver)
+impl Settings {
+    /// What the environment asks for.
+    fn from_environment() -> Result<Option<Settings>> {
+        match environment("BRISANCE_AS").as_deref() {
+            None => Ok(None),
+            Some("gpu") => Ok(Some(Settings::Hardware)),
+            Some("software") => Ok(Some(Settings::Software)),
+            Some(other) => Err(Error::Usage(format!("BRISANCE_AS={other}: it may be gpu or software, or not be set"))),
+        }
     }
 }
 
@@ -64,6 +71,14 @@ pub struct Gpu {
     pub timestamps: bool,
     /// Where shaders come from.
     pub folder: Folder,
+    /// Whose settings the simulation takes.
+    pub settings: Settings,
+    /// Where every kernel that is compiled is written down.
+    pub(super) written: Option<PathBuf>,
+    /// Longest wait for a submission.
+    patience: Duration,
+    /// What was submitted last, for whom it does not end.
+    at_work: Arc<Mutex<String>>,
     /// Shaders compiled so far.
     pub(super) shaders: ShaderCache,
     /// Their entry points with the overrides they were specialised for.
@@ -107,6 +122,7 @@ impl Gpu {
         let adapter = choose(ranked_adapters(&instance), wanted.as_deref())?;
         let info = adapter.get_info();
         let limits = adapter.limits();
+        enough(&info.name, &limits)?;
         let timestamps = adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("brisance"),
@@ -121,6 +137,11 @@ impl Gpu {
             Some(path) => Folder::Disk(path),
             None => Folder::Embedded,
         };
+        let software = info.device_type == wgpu::DeviceType::Cpu;
+        let of_device = if software { Settings::Software } else { Settings::Hardware };
+        let settings = options.settings.or(Settings::from_environment()?).unwrap_or(of_device);
+        let written = options.kernels.clone().or_else(|| environment("BRISANCE_KERNELS").map(PathBuf::from));
+        let patience = patience(software)?;
         let (shaders, kernels, allocated) = (Arc::default(), Arc::default(), Arc::default());
         Ok(Gpu {
             instance,
@@ -131,17 +152,15 @@ impl Gpu {
             limits,
             timestamps,
             folder,
+            settings,
+            written,
+            patience,
+            at_work: Arc::default(),
             shaders,
             kernels,
             faults,
             allocated,
         })
-    }
-
-    /// All devices, best first: discrete, integrated, virtual, other, software.
-    #[must_use]
-    pub fn adapters() -> Vec<AdapterSummary> {
-        ranked_adapters(&new_instance()).iter().enumerate().map(|(index, adapter)| summary(index, adapter)).collect()
     }
 
     /// Whether the device is a processor that plays a GPU: correct, slow.
@@ -188,11 +207,24 @@ impl Gpu {
     /// Waits until a submission, or everything submitted, is done; then [`Gpu::check`]s.
     ///
     /// # Errors
-    /// Those of [`Gpu::check`], and [`Error::Gpu`] if the device cannot be waited for.
+    /// Those of [`Gpu::check`], and [`Error::Gpu`] with the stage if the device cannot be waited for, or takes longer than any
+    /// submission may.
     pub fn wait(&self, submission: Option<wgpu::SubmissionIndex>) -> Result<()> {
-        let waited = self.device.poll(wgpu::PollType::Wait { submission_index: submission, timeout: None });
+        let timeout = Some(self.patience);
+        let waited = self.device.poll(wgpu::PollType::Wait { submission_index: submission, timeout });
         self.check()?;
-        waited.map(|_| ()).map_err(|error| Error::Gpu(format!("waiting for {}: {error}", self.info.name)))
+        waited.map(|_| ()).map_err(|error| {
+            let (name, stage, seconds) = (&self.info.name, lock(&self.at_work), self.patience.as_secs());
+            Error::Gpu(format!(
+                "{name} has not finished {stage} after {seconds} s ({error}); try another --device, a newer driver or a coarser \
+                 --resolution, or wait longer with BRISANCE_WAIT=SECONDS"
+            ))
+        })
+    }
+
+    /// Remembers what was submitted, for [`Gpu::wait`].
+    pub(super) fn note_work(&self, what: String) {
+        *lock(&self.at_work) = what;
     }
 
     /// Forgets compiled shaders, so that the next [`super::Kernel`] reads the sources again (live editing).
@@ -211,82 +243,20 @@ pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Longest wait for a submission: on hardware a hundred times what one may take; a software driver compiles while it runs.
+fn patience(software: bool) -> Result<Duration> {
+    let Some(text) = environment("BRISANCE_WAIT") else {
+        return Ok(Duration::from_secs(if software { 1800 } else { 60 }));
+    };
+    let seconds = text.parse::<u64>().ok().filter(|seconds| *seconds > 0);
+    let wrong = || Error::Usage(format!("BRISANCE_WAIT={text}: it must be a whole number of seconds above 0"));
+    seconds.map(Duration::from_secs).ok_or_else(wrong)
+}
+
 /// A set, not empty environment variable.
-fn environment(name: &str) -> Option<String> {
+pub(super) fn environment(name: &str) -> Option<String> {
     std::env::var(name).ok().filter(|value| !value.is_empty())
 }
-
-/// An instance without the check that wgpu inserts before each indirect dispatch: it makes a dispatch of zero groups, our
-/// way to skip work, cost as much as a real one.
-fn new_instance() -> wgpu::Instance {
-    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle().with_env();
-    descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
-    wgpu::Instance::new(descriptor)
-}
-
-/// All adapters, best first; equal ones keep the driver's order.
-fn ranked_adapters(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
-    let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-    adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
-        wgpu::DeviceType::DiscreteGpu => 0,
-        wgpu::DeviceType::IntegratedGpu => 1,
-        wgpu::DeviceType::VirtualGpu => 2,
-        wgpu::DeviceType::Other => 3,
-        wgpu::DeviceType::Cpu => 4,
-    });
-    adapters
-}
-
-/// Describes one adapter of the ranked list.
-fn summary(index: usize, adapter: &wgpu::Adapter) -> AdapterSummary {
-    let info = adapter.get_info();
-    let kind = match info.device_type {
-        wgpu::DeviceType::DiscreteGpu => "discrete",
-        wgpu::DeviceType::IntegratedGpu => "integrated",
-        wgpu::DeviceType::VirtualGpu => "virtual",
-        wgpu::DeviceType::Cpu => "software",
-        wgpu::DeviceType::Other => "other",
-    };
-    let driver = [info.backend.to_string(), info.driver, info.driver_info]
-        .into_iter()
-        .filter(|part| !part.is_empty())
-        .collect::<Vec<_>>()
-        .join(", ");
-    let max_binding = adapter.limits().max_storage_buffer_binding_size;
-    AdapterSummary { index, name: info.name, kind, driver, max_binding }
-}
-
-/// The adapter `wanted` names by index or by a part of its description; the first without a wish.
-fn choose(mut adapters: Vec<wgpu::Adapter>, wanted: Option<&str>) -> Result<wgpu::Adapter> {
-    let list: Vec<String> =
-        adapters.iter().enumerate().map(|(index, adapter)| summary(index, adapter).to_string()).collect();
-    if adapters.is_empty() {
-        return Err(Error::NoAdapter(NO_ADAPTER.to_owned()));
-    }
-    let found = match wanted {
-        None => Some(0),
-        Some(text) => match text.parse::<usize>() {
-            Ok(index) => (index < list.len()).then_some(index),
-            Err(_) => list.iter().position(|line| line.to_lowercase().contains(&text.to_lowercase())),
-        },
-    };
-    match found {
-        Some(index) => Ok(adapters.swap_remove(index)),
-        None => Err(Error::NoAdapter(format!(
-            "no device matches `{}`; there are\n  {}",
-            wanted.unwrap_or_default(),
-            list.join("\n  ")
-        ))),
-    }
-}
-
-/// What to install where nothing was found.
-const NO_ADAPTER: &str =
-    "no Vulkan, Metal or DirectX 12 device was found. Install your GPU's driver, or a software one:
-  Debian, Ubuntu: apt install mesa-vulkan-drivers
-  Fedora:         dnf install mesa-vulkan-drivers vulkan-loader
-  Arch:           pacman -S vulkan-swrast vulkan-icd-loader
-  Alpine:         apk add mesa-vulkan-swrast vulkan-loader";
 
 /// What wgpu says of a device that is gone.
 const GONE: &str = "device is lost";

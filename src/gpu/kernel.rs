@@ -122,10 +122,13 @@ impl Kernel {
             compilation_options: wgpu::PipelineCompilationOptions { constants: &overrides, ..Default::default() },
             cache: None,
         });
-        match pollster::block_on(scope.pop()) {
-            Some(error) => Err(Error::Shader(format!("{label}: {error}"))),
-            None => Ok(Kernel { label, pipeline, layout, bindings, threads_per_group, name: name.into() }),
+        if let Some(error) = pollster::block_on(scope.pop()) {
+            return Err(Error::Shader(format!("{label}: {error}")));
         }
+        if let Some(folder) = &gpu.written {
+            super::written::write(folder, compiled, entry, &overrides)?;
+        }
+        Ok(Kernel { label, pipeline, layout, bindings, threads_per_group, name: name.into() })
     }
 
     /// The variables of group 0 this entry point uses, by binding number.

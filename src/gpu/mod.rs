@@ -5,6 +5,7 @@
 //! [`readback::read`] brings numbers back. Nothing here panics on a driver error: the first one is kept and
 //! [`Gpu::check`] hands it out.
 
+mod adapters;
 mod allocations;
 mod buffer;
 mod device;
@@ -14,10 +15,12 @@ pub mod readback;
 mod reflect;
 mod shader;
 mod sources;
+mod written;
 
+pub use adapters::AdapterSummary;
 pub use allocations::{Allocation, watched};
 pub use buffer::Buffer;
-pub use device::{AdapterSummary, Gpu, GpuOptions};
+pub use device::{Gpu, GpuOptions, Settings};
 pub use kernel::{Bound, Constants, Extent, Kernel, MAX_GROUPS, WORKGROUP, group_counts};
 pub use pass::{Detail, Pass, Times, add_time};
 pub use reflect::{Access, Binding, Compiled, MAX_STORAGE_BUFFERS};

@@ -18,6 +18,9 @@ pub struct Pass {
     stage: String,
     in_group: bool,
     clock: Option<Clock>,
+    label: String,
+    /// Whether each stage is a submission of its own.
+    cut: bool,
 }
 
 /// What a stopwatch tells apart.
@@ -61,7 +64,16 @@ impl Pass {
     #[must_use]
     pub fn new(gpu: &Gpu, label: &str) -> Pass {
         let encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) });
-        Pass { gpu: gpu.clone(), encoder, open: None, stage: label.to_owned(), in_group: false, clock: None }
+        Pass {
+            gpu: gpu.clone(),
+            encoder,
+            open: None,
+            stage: label.to_owned(),
+            in_group: false,
+            clock: None,
+            label: label.to_owned(),
+            cut: false,
+        }
     }
 
     /// Starts recording with a stopwatch per stage or kernel: timestamps of the device, or, where it has none ([`Gpu::timestamps`]), a
@@ -82,9 +94,22 @@ impl Pass {
         pass
     }
 
+    /// Submits each stage on its own, where all together would take longer than a system lets a submission run.
+    #[must_use]
+    pub fn cut(mut self, each: bool) -> Pass {
+        self.cut = each;
+        self
+    }
+
     /// Names what follows, for debuggers and the stopwatch.
     pub fn stage(&mut self, name: &str) {
         self.close_group();
+        if self.cut {
+            self.open = None;
+            let label = wgpu::CommandEncoderDescriptor { label: Some(name) };
+            let encoder = std::mem::replace(&mut self.encoder, self.gpu.device.create_command_encoder(&label));
+            self.gpu.queue.submit([encoder.finish()]);
+        }
         if self.clock.is_some() {
             self.open = None;
             self.wait_for_span(None);
@@ -99,6 +124,7 @@ impl Pass {
         let encoder = std::mem::replace(&mut self.encoder, self.gpu.device.create_command_encoder(&label));
         let start = Instant::now();
         let submission = self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.note_work(format!("`{}`, stage {}", self.label, self.stage));
         let outcome = self.gpu.wait(Some(submission));
         let time = 1e3 * start.elapsed().as_secs_f64();
         let name = kernel.map_or_else(|| self.stage.clone(), |kernel| format!("{}: {kernel}", self.stage));
@@ -159,7 +185,8 @@ impl Pass {
     /// # Errors
     /// What the driver found wrong while recording, see [`Gpu::check`].
     pub fn submit(self) -> Result<wgpu::SubmissionIndex> {
-        let Pass { gpu, encoder, .. } = self.finish();
+        let Pass { gpu, encoder, label, stage, .. } = self.finish();
+        gpu.note_work(format!("`{label}` up to its stage {stage}"));
         let submission = gpu.queue.submit([encoder.finish()]);
         gpu.check()?;
         Ok(submission)

@@ -3,9 +3,10 @@
 use std::time::Instant;
 
 use crate::error::Result;
-use crate::gpu::{Buffer, Constants, Extent, Gpu, Kernel, Pass};
+use crate::gpu::{Buffer, Constants, Extent, Gpu, Kernel, Pass, Settings};
 
-/// Length of each array, in vec4f: 64 MiB, more than caches hold; on GPUs, whose caches are larger, four times as much.
+/// Length of each array, in vec4f: 64 MiB, more than caches hold; on GPUs, whose caches are larger, four times as much, as far as the
+/// device can bind it.
 const LENGTH: usize = 4 << 20;
 /// How often the array is copied.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +29,9 @@ impl Rounds {
 /// # Errors
 /// If the device has no room for two arrays, or a driver error.
 pub fn copy_bandwidth(gpu: &Gpu, Rounds { copies, rounds }: Rounds) -> Result<f64> {
-    let length = if gpu.is_software() { LENGTH } else { 4 * LENGTH };
+    let most = (gpu.limits.max_storage_buffer_binding_size.min(gpu.limits.max_buffer_size) / 16) as usize;
+    let wanted = if gpu.settings == Settings::Software { LENGTH } else { 4 * LENGTH };
+    let length = wanted.min(most);
     let from = Buffer::<[f32; 4]>::new(gpu, "copy source", length)?;
     let to = Buffer::<[f32; 4]>::new(gpu, "copy target", length)?;
     let kernel = Kernel::new(gpu, "copy.wgsl", "copy", &Constants::default())?;

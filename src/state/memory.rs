@@ -239,8 +239,7 @@ impl MemoryPlan {
     /// As [`MemoryPlan::check`].
     pub fn check_device(&self, scene: &Scene, gpu: &Gpu) -> Result<()> {
         let per_buffer = gpu.limits.max_storage_buffer_binding_size.min(gpu.limits.max_buffer_size);
-        let together = if gpu.is_software() { free_memory() } else { None };
-        self.check(scene, &gpu.info.name, per_buffer, together)
+        self.check(scene, &gpu.info.name, per_buffer, memory_together(gpu))
     }
 
     /// The plan at another number of cells along the longest axis, with particles in proportion.
@@ -256,6 +255,12 @@ impl MemoryPlan {
         let cut = self.cut_cells as f64 * ratio.powi(scene.domain.dimension as i32 - 1);
         Self::with_cut_cells(&scaled, particles.ceil() as usize, cut.ceil() as u64)
     }
+}
+
+/// Bytes that a device has for all buffers together, where that is known: a software device takes main memory.
+#[must_use]
+pub fn memory_together(gpu: &Gpu) -> Option<u64> {
+    if gpu.is_software() { free_memory() } else { None }
 }
 
 /// Bytes of main memory that are free, where the system says so; a software device takes its memory there.

@@ -21,14 +21,14 @@ pub use elastic_solve::ElasticBuffers;
 pub use gas::GasState;
 pub use grid::Grid;
 pub use interface::Interface;
-pub use memory::MemoryPlan;
+pub use memory::{MemoryPlan, memory_together};
 pub use openings::{Knot, MAX_OPENINGS, Opening, Openings};
 pub use params::{HISTORY, Params};
 pub use particles::{ParticleStart, Particles};
 pub use supports::{MotionAt, Support, Supports};
 
 use crate::error::Result;
-use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel};
+use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel, Settings};
 use crate::numerics::PcgVectors;
 use crate::scene::Scene;
 use params::{DeviceLimits, SolidLimits};
@@ -132,7 +132,7 @@ impl State {
         let start_entropy = gas::start_entropy(scene, &start_gas, &openings);
         let params = Params {
             least_entropy: gas::least_entropy(scene, start_entropy),
-            ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.is_software(), capacity))
+            ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.settings == Settings::Software, capacity))
         };
         let table = cut::table(&grid, &geometry);
         let load_count = loads::count(scene);

@@ -72,6 +72,8 @@ fn help_and_usage() {
         "bench",
         "verify",
         "devices",
+        "selftest",
+        "shaders",
         "list",
         "schema",
         "init",

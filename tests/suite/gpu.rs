@@ -210,7 +210,11 @@ fn includes_are_taken_once_and_wrong_ones_are_errors() {
     let files = [("main.wgsl", twice), ("a.wgsl", "fn a() -> u32 { return 1u; }"), ("b.wgsl", "#include \"a.wgsl\"")];
     let given = files.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect();
     let shader = Shader::load("main.wgsl", "const A: u32 = 1u;", &Folder::Given(given)).unwrap();
-    assert!(shader.text.starts_with("enable f16;\nconst WORKGROUP: u32 = 64u;\nconst A"), "{}", shader.text);
+    assert!(
+        shader.text.starts_with("enable f16;\nconst WORKGROUP: u32 = 64u; const MAX_GROUPS: u32 = 65535u;\nconst A"),
+        "{}",
+        shader.text
+    );
     assert_eq!(shader.text.matches("fn a()").count(), 1);
     assert_eq!(shader.files(), ["main.wgsl", "a.wgsl", "b.wgsl"]);
     for (files, expected) in [

@@ -20,6 +20,7 @@ mod frames;
 mod fuzz;
 mod gallery;
 mod gpu;
+mod hardware;
 mod images;
 mod kernels;
 mod layering;
