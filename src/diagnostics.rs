@@ -147,7 +147,7 @@ impl StepRecord {
             residual: head[1],
             iterations: head[3].to_bits(),
             substeps: counts[0].to_bits(),
-            extra: gas_speed[3].to_bits(),
+            extra: more[3].to_bits(),
             limited: counts[1].to_bits(),
             floored: counts[2].to_bits(),
             clamped: counts[3].to_bits(),
