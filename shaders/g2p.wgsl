@@ -39,11 +39,11 @@ fn keep_inside(x: ptr<function, vec3f>) -> bool {
     let gap = WALL_GAP * params.spacing;
     for (var a = 0u; a < DIM; a++) {
         if (*x)[a] < low[a] + gap {
-            if side_is_wall(2u * a) { (*x)[a] = low[a] + gap; atomicAdd(&control.clamped, 1u); }
+            if side_is_wall(2u * a) { *x = select(*x, low + gap, along(a)); atomicAdd(&control.clamped, 1u); }
             else if (*x)[a] < low[a] { return false; }
         }
         if (*x)[a] > high[a] - gap {
-            if side_is_wall(2u * a + 1u) { (*x)[a] = high[a] - gap; atomicAdd(&control.clamped, 1u); }
+            if side_is_wall(2u * a + 1u) { *x = select(*x, high - gap, along(a)); atomicAdd(&control.clamped, 1u); }
             else if (*x)[a] > high[a] { return false; }
         }
     }
