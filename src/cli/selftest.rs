@@ -39,10 +39,11 @@ impl Found {
         let scale = should.iter().fold(0.0, |most: f64, value| most.max(value.abs())).max(f64::MIN_POSITIVE);
         let mut found = Self { difference: 0.0, limit, place: String::new() };
         for (index, (is, should)) in is.iter().zip(should).enumerate() {
-            let difference = (is - should).abs() / scale;
+            let apart = (is - should).abs() / scale;
             // A value that is no number is the worst.
-            if !(difference <= found.difference) {
-                found.difference = if difference.is_nan() { f64::INFINITY } else { difference };
+            let difference = if apart.is_nan() { f64::INFINITY } else { apart };
+            if difference > found.difference {
+                found.difference = difference;
                 found.place = format!("{}: {} instead of {}", name(index), plain(*is), plain(*should));
             }
         }
