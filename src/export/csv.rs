@@ -89,7 +89,7 @@ impl Table {
         Ok(())
     }
 
-    /// How far the table has come, for [`Table::continued`].
+    /// How far the table has come, for [`Table::go_on_from`].
     #[must_use]
     pub fn mark(&self) -> Mark {
         Mark { bytes: self.text.len() as u64, checksum: checksum(&self.text) }

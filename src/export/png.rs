@@ -53,7 +53,7 @@ pub fn write(path: &Path, frame: &Frame, text: &[(&str, String)]) -> Result<()> 
     atomic::write(path, |out| encode(out, frame, (BitDepth::Eight, &rgb), text).map_err(io::Error::other))
 }
 
-/// Reads a picture that [`write`] wrote.
+/// Reads a picture that [`write()`] wrote.
 ///
 /// # Errors
 /// [`Error::Io`] if it cannot be read or has other pixels.
