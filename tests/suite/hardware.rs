@@ -116,7 +116,7 @@ fn kernels_are_written_for_other_compilers() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let text = succeeds(&["shaders", "blast", "--out", folder.path().to_str().unwrap()]);
+    let text = succeeds(&["shaders", "riemann_2d", "--out", folder.path().to_str().unwrap()]);
     assert!(text.contains("kernels of 1 scenes"), "{text}");
     let files: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
     let mut entries = Vec::new();
