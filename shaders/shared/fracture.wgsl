@@ -90,7 +90,7 @@ fn without_tension(m: MaterialParams, h: mat3x3f, open: f32, q: f32) -> Opened {
     let least = min(l.strain.x, min(l.strain.y, l.strain.z));
     // What has opened closes before it bears pressure.
     let closing = clamp(-least, 0.0, open);
-    let strain = select(l.strain, vec3f(least + closing), l.strain == vec3f(least) & vec3<bool>(closing > 0.0));
+    let strain = select(l.strain, vec3f(least + closing), (l.strain == vec3f(least)) & vec3<bool>(closing > 0.0));
     let change = strains_without_tension(m, strain) - l.strain;
     if all(change == vec3f(0.0)) { return Opened(h, open, q); }
     let moved = stretched(h, l, change);
