@@ -134,7 +134,20 @@ fn material() {
         "g2p.wgsl",
         "MaterialParams",
         MaterialParams,
-        [mu, lambda, yield_stress, kind, ghost_modulus, hardening, friction, elastic_lambda]
+        [
+            mu,
+            lambda,
+            yield_stress,
+            kind,
+            ghost_modulus,
+            hardening,
+            friction,
+            elastic_lambda,
+            tensile_strength,
+            toughness,
+            softening,
+            crack_modulus
+        ]
     );
 }
 
