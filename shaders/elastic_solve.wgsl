@@ -108,7 +108,7 @@ fn elastic_trial(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
 
 // Volumetric stiffness of the elastic stress.
 fn lambda_of(m: MaterialParams, h: mat3x3f, q: f32) -> f32 {
-    if SHARED_VOLUME || !keeps_volume(m.kind) { return m.elastic_lambda; }
+    if !bears_volume(m) { return m.elastic_lambda; }
     return m.elastic_lambda + ghost_stiffness(m, ghost_pressure_of(m, swelling_of(m, h, q)));
 }
 

@@ -72,10 +72,13 @@ fn put_at(p: u32, place: vec3f) {
     position[p] = vec4f(x, select(0.0, position[p].w, inside_domain));
 }
 
-// The ghost pressure that the solve gave, from the first sub-step on: its force acts in all of them. An implicit step has it already
-// [elastic_ghost].
+// The ghost pressure that the solve gave. The force of the solve has all of it in each sub-step: where the elastic force bears the
+// difference, so must q. Elsewhere q is picked up on the way of the particle. An implicit step has it already [elastic_ghost].
 fn follow_ghost(p: u32) {
-    if !IMPLICIT && control.substep <= 1u { affine[3u * p].w += ghost_between(position[p].xyz); }
+    if IMPLICIT { return; }
+    let whole = bears_volume(materials[material_index(affine[3u * p + 2u].w)]);
+    let share = select(1.0 / f32(control.substeps), select(0.0, 1.0, control.substep <= 1u), whole);
+    affine[3u * p].w += share * ghost_between(position[p].xyz);
 }
 
 // Moves a driven particle.

@@ -41,10 +41,13 @@ fn ghost_energy(m: MaterialParams, swelling: f32) -> f32 {
     return m.ghost_modulus * shape - params.ambient_pressure * swelling;
 }
 
+// Whether the elastic force bears what q(J) has beyond q.
+fn bears_volume(m: MaterialParams) -> bool { return !SHARED_VOLUME && keeps_volume(m.kind); }
+
 // Kirchhoff stress that the elastic force bears: that of the law, and what q(J) has beyond q.
 fn elastic_stress(m: MaterialParams, h: mat3x3f, q: f32) -> mat3x3f {
     let tau = kirchhoff_stress(m.kind, h, elastic_part(m));
-    if SHARED_VOLUME || !keeps_volume(m.kind) { return tau; }
+    if !bears_volume(m) { return tau; }
     let swelling = swelling_of(m, h, q);
     return tau + (1.0 + swelling) * (q - ghost_pressure_of(m, swelling)) * IDENTITY;
 }

@@ -148,7 +148,8 @@ fn elastic_substeps(
             mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, sub_dt);
         }
         mpm_grid_update::walls(problem, cells, &mut nodes.velocity);
-        let share = if index == 0 { 1.0 } else { 0.0 };
+        let whole = if index == 0 { 1.0 } else { 0.0 };
+        let share = if problem.numerics.shared_volume { 1.0 / substeps as f64 } else { whole };
         g2p::g2p(problem, &nodes.velocity, change, share, sub_dt, &mut state.particles);
     }
     substeps
