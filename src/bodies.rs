@@ -192,19 +192,8 @@ mod tests {
             body,
             material: 0,
         };
-        Snapshot {
-            time: 0.0,
-            step: 0,
-            grid: Grid { dimension: 3, cells: [8; 3], origin: [0.0; 3], spacing: 1.0 },
-            gamma: 1.4,
-            kind: Vec::new(),
-            density: Vec::new(),
-            velocity: Vec::new(),
-            pressure: Vec::new(),
-            energy: Vec::new(),
-            owed: Vec::new(),
-            particles: particles.iter().map(sample).collect(),
-        }
+        let grid = Grid { dimension: 3, cells: [8; 3], origin: [0.0; 3], spacing: 1.0 };
+        Snapshot::of_particles((0.0, 0), grid, particles.iter().map(sample).collect())
     }
 
     #[test]

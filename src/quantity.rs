@@ -44,53 +44,44 @@ impl Quantity {
     }
 }
 
-const fn cell(
+const fn quantity(
+    place: Place,
     name: &'static str,
     unit: &'static str,
     caption: &'static str,
     components: usize,
     compute: fn(&Snapshot) -> Values,
 ) -> Quantity {
-    Quantity { name, unit, caption, place: Place::Cell, components, compute }
-}
-
-const fn particle(
-    name: &'static str,
-    unit: &'static str,
-    caption: &'static str,
-    components: usize,
-    compute: fn(&Snapshot) -> Values,
-) -> Quantity {
-    Quantity { name, unit, caption, place: Place::Particle, components, compute }
+    Quantity { name, unit, caption, place, components, compute }
 }
 
 /// All quantities. Inside bodies and obstacles, values of the gas are 0, and `kind` says where that is.
 #[rustfmt::skip]
 pub const TABLE: &[Quantity] = &[
-    cell("density", "kg m^-3", "density [kg/m\u{b3}]", 1, |s| gas(s, |i| [s.density[i]])),
-    cell("pressure", "Pa", "pressure [Pa]", 1, |s| gas(s, |i| [s.pressure[i]])),
-    cell("velocity", "m s^-1", "speed [m/s]", 3, |s| gas(s, |i| s.velocity[i])),
-    cell("energy", "J m^-3", "total energy [J/m\u{b3}]", 1, |s| gas(s, |i| [s.energy[i]])),
-    cell("temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [s.pressure[i] / s.density[i]])),
-    cell("mach", "1", "Mach number", 1, |s| gas(s, |i| [mach(s, i)])),
-    cell("schlieren", "kg m^-4", "density gradient [kg/m^4]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
-    cell("vorticity", "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
-    cell("entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma as f32)])),
-    cell("owed", "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
-    cell("kind", "1", "0 gas, 1 solid, 2 wall, 3 beyond an open side", 1, |s| Values::Whole(s.kind.iter().map(|kind| u32::from(*kind)).collect())),
-    particle("velocity", "m s^-1", "speed of solids [m/s]", 3, |s| each(s, |p| p.velocity)),
-    particle("mass", "kg", "mass [kg]", 1, |s| each(s, |p| [p.mass])),
-    particle("volume", "m^3", "volume [m\u{b3}]", 1, |s| each(s, |p| [p.volume0 * p.volume_ratio()])),
-    particle("ghost_pressure", "Pa", "ghost pressure [Pa]", 1, |s| each(s, |p| [p.ghost_pressure])),
-    particle("plastic_strain", "1", "plastic strain", 1, |s| each(s, |p| [p.plastic_strain])),
-    particle("damage", "1", "damage", 1, |s| each(s, |p| [p.damage])),
-    particle("J", "1", "volume over volume at rest", 1, |s| each(s, |p| [p.volume_ratio()])),
-    particle("deviatoric_stress", "Pa", "deviatoric stress [Pa]", 1, |s| each(s, |p| [von_mises(p)])),
-    particle("stress", "Pa", "Cauchy stress xx, yy, zz, xy, yz, zx [Pa]", 6, |s| each(s, |p| p.stress)),
-    particle("body", "1", "index of the body in the scene", 1, |s| whole(s, |p| p.body)),
-    particle("material", "1", "index of the material in the scene", 1, |s| whole(s, |p| p.material)),
-    particle("id", "1", "number among the particles of the start", 1, |s| whole(s, |p| p.index)),
-    particle("piece", "1", "smallest id in the piece", 1, |s| Values::Whole(s.piece_of_each())),
+    quantity(Place::Cell, "density", "kg m^-3", "density [kg/m\u{b3}]", 1, |s| gas(s, |i| [s.density[i]])),
+    quantity(Place::Cell, "pressure", "Pa", "pressure [Pa]", 1, |s| gas(s, |i| [s.pressure[i]])),
+    quantity(Place::Cell, "velocity", "m s^-1", "speed [m/s]", 3, |s| gas(s, |i| s.velocity[i])),
+    quantity(Place::Cell, "energy", "J m^-3", "total energy [J/m\u{b3}]", 1, |s| gas(s, |i| [s.energy[i]])),
+    quantity(Place::Cell, "temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [s.pressure[i] / s.density[i]])),
+    quantity(Place::Cell, "mach", "1", "Mach number", 1, |s| gas(s, |i| [mach(s, i)])),
+    quantity(Place::Cell, "schlieren", "kg m^-4", "density gradient [kg/m^4]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
+    quantity(Place::Cell, "vorticity", "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
+    quantity(Place::Cell, "entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma as f32)])),
+    quantity(Place::Cell, "owed", "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
+    quantity(Place::Cell, "kind", "1", "0 gas, 1 solid, 2 wall, 3 beyond an open side", 1, |s| Values::Whole(s.kind.iter().map(|kind| u32::from(*kind)).collect())),
+    quantity(Place::Particle, "velocity", "m s^-1", "speed of solids [m/s]", 3, |s| each(s, |p| p.velocity)),
+    quantity(Place::Particle, "mass", "kg", "mass [kg]", 1, |s| each(s, |p| [p.mass])),
+    quantity(Place::Particle, "volume", "m^3", "volume [m\u{b3}]", 1, |s| each(s, |p| [p.volume0 * p.volume_ratio()])),
+    quantity(Place::Particle, "ghost_pressure", "Pa", "ghost pressure [Pa]", 1, |s| each(s, |p| [p.ghost_pressure])),
+    quantity(Place::Particle, "plastic_strain", "1", "plastic strain", 1, |s| each(s, |p| [p.plastic_strain])),
+    quantity(Place::Particle, "damage", "1", "damage", 1, |s| each(s, |p| [p.damage])),
+    quantity(Place::Particle, "J", "1", "volume over volume at rest", 1, |s| each(s, |p| [p.volume_ratio()])),
+    quantity(Place::Particle, "deviatoric_stress", "Pa", "deviatoric stress [Pa]", 1, |s| each(s, |p| [von_mises(p)])),
+    quantity(Place::Particle, "stress", "Pa", "Cauchy stress xx, yy, zz, xy, yz, zx [Pa]", 6, |s| each(s, |p| p.stress)),
+    quantity(Place::Particle, "body", "1", "index of the body in the scene", 1, |s| whole(s, |p| p.body)),
+    quantity(Place::Particle, "material", "1", "index of the material in the scene", 1, |s| whole(s, |p| p.material)),
+    quantity(Place::Particle, "id", "1", "number among the particles of the start", 1, |s| whole(s, |p| p.index)),
+    quantity(Place::Particle, "piece", "1", "smallest id in the piece", 1, |s| Values::Whole(s.piece_of_each())),
 ];
 
 /// The quantity of a name, of cells or of particles.

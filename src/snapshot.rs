@@ -89,6 +89,26 @@ impl ParticleSample {
     }
 }
 
+#[cfg(test)]
+impl Snapshot {
+    /// Particles alone, without a cell of gas.
+    pub(crate) fn of_particles((time, step): (f64, u64), grid: Grid, particles: Vec<ParticleSample>) -> Snapshot {
+        Snapshot {
+            time,
+            step,
+            grid,
+            gamma: 1.4,
+            kind: Vec::new(),
+            density: Vec::new(),
+            velocity: Vec::new(),
+            pressure: Vec::new(),
+            energy: Vec::new(),
+            owed: Vec::new(),
+            particles,
+        }
+    }
+}
+
 impl Snapshot {
     /// Copies the state of the device at a time \[s\] after so many steps.
     ///

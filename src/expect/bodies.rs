@@ -193,19 +193,8 @@ order = [{ quantity = "moved_x", bodies = ["near", "far"] }, { quantity = "moved
             material: 0,
         };
         let particles = scene.seed_particles().into_iter().enumerate().map(sample);
-        Snapshot {
-            time: 1.0,
-            step: 1,
-            grid: Grid { dimension: 2, cells: [20, 10, 1], origin: [0.0; 3], spacing: 0.1 },
-            gamma: 1.4,
-            kind: Vec::new(),
-            density: Vec::new(),
-            velocity: Vec::new(),
-            pressure: Vec::new(),
-            energy: Vec::new(),
-            owed: Vec::new(),
-            particles: particles.filter(|particle| particle.position[0] < 1.3).collect(),
-        }
+        let grid = Grid { dimension: 2, cells: [20, 10, 1], origin: [0.0; 3], spacing: 0.1 };
+        Snapshot::of_particles((1.0, 1), grid, particles.filter(|particle| particle.position[0] < 1.3).collect())
     }
 
     #[test]

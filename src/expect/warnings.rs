@@ -341,19 +341,7 @@ mod tests {
         let end = Budget { start_entropy: 1.0, noise_momentum: 1e-3, ..end };
         let mut summary = Summary::default();
         summary.add(records);
-        let snapshot = Snapshot {
-            time: 1.0,
-            step: 1,
-            grid: Grid::of(&scene.domain),
-            gamma: 1.4,
-            kind: Vec::new(),
-            density: Vec::new(),
-            velocity: Vec::new(),
-            pressure: Vec::new(),
-            energy: Vec::new(),
-            owed: Vec::new(),
-            particles: Vec::new(),
-        };
+        let snapshot = Snapshot::of_particles((1.0, 1), Grid::of(&scene.domain), Vec::new());
         warnings(&scene, &Ending { start: &start, end: &end, summary: &summary, snapshot: &snapshot })
     }
 

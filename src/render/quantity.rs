@@ -81,20 +81,7 @@ pub(super) fn shown_particle_range(color: ParticleColor, seen: [f64; 2], ambient
 /// Caption of a field's colour bar, with the unit.
 #[must_use]
 pub fn caption(field: Field) -> &'static str {
-    named(
-        Place::Cell,
-        match field {
-            Field::Density => "density",
-            Field::Pressure => "pressure",
-            Field::Velocity => "velocity",
-            Field::Temperature => "temperature",
-            Field::Schlieren => "schlieren",
-            Field::Mach => "mach",
-            Field::Vorticity => "vorticity",
-            Field::Entropy => "entropy",
-            Field::Owed => "owed",
-        },
-    )
+    named(Place::Cell, field.keyword())
 }
 
 /// p / rho^gamma of a state.

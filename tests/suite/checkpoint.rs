@@ -21,6 +21,9 @@ const SCENES: [(&str, &[&str], u32); 4] = [
     ("paper/fig03_elastic_shell_2d.toml", &["variant=small", "numerics.elasticity=\"implicit\""], 32),
 ];
 
+/// A run whose end and files are still to be named.
+const SHORT: [&str; 6] = ["run", "sod", "--resolution", "64", "--no-expect", "-q"];
+
 /// Goes on to a number of steps, and settles.
 fn advance(simulation: &mut Simulation, steps: u64) {
     let mut records = Vec::new();
@@ -108,20 +111,7 @@ fn a_stopped_run_goes_on_to_the_same_files() {
     let place = tempfile::tempdir().unwrap();
     let text = |path: &Path| path.to_str().unwrap().to_owned();
     let (whole, parts) = (place.path().join("whole"), place.path().join("parts"));
-    let given = [
-        "run",
-        "sod",
-        "--resolution",
-        "64",
-        "--until",
-        "0.05",
-        "--frames",
-        "4",
-        "--no-expect",
-        "-q",
-        "--export",
-        "vtk,states",
-    ];
+    let given = [&SHORT[..], &["--until", "0.05", "--frames", "4", "--export", "vtk,states"]].concat();
     let every = ["--checkpoint", "3steps", "--keep", "100"];
     succeeds(&[&given[..], &every, &["--out", &text(&whole)]].concat());
     succeeds(&[&given[..], &every, &["--out", &text(&parts)]].concat());
@@ -228,20 +218,7 @@ fn an_interrupted_run_leaves_a_checkpoint() {
     }
     let place = tempfile::tempdir().unwrap();
     let out = place.path().join("run");
-    let given = [
-        "run",
-        "sod",
-        "--resolution",
-        "64",
-        "--until",
-        "50",
-        "--frames",
-        "2000",
-        "-q",
-        "--no-frames",
-        "--no-expect",
-        "--out",
-    ];
+    let given = [&SHORT[..], &["--until", "50", "--frames", "2000", "--no-frames", "--out"]].concat();
     let mut child = brisance(&given).arg(&out).spawn().unwrap();
     while !out.join("diagnostics.csv").exists() {
         assert!(child.try_wait().unwrap().is_none());

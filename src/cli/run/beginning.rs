@@ -21,7 +21,7 @@ use crate::state::MemoryPlan;
 use crate::{Error, Result, input};
 
 /// Keys that a branch may change, with what may follow; materials of the same model may change their strength.
-const CHANGEABLE: [&str; 14] = [
+const CHANGEABLE: [&str; 12] = [
     "title",
     "description",
     "probes",
@@ -34,12 +34,9 @@ const CHANGEABLE: [&str; 14] = [
     "numerics.tolerance",
     "numerics.blending",
     "materials.",
-    "gauges",
-    "fragments",
 ];
 /// Last parts of the keys of materials that a branch may change.
-const STRENGTHS: [&str; 7] =
-    ["yield_stress", "hardening", "tensile_strength", "strength", "strain_limit", "cohesion", "friction_angle"];
+const STRENGTHS: [&str; 5] = ["yield_stress", "hardening", "tensile_strength", "cohesion", "friction_angle"];
 /// A frame counts as a multiple of the distance of frames up to this part of it.
 const ROUNDING: f64 = 1e-6;
 

@@ -21,7 +21,7 @@ pub(super) const CASES: [Case; 22] = [
     Case { name: "Sod, exact", stage: "gas", run: sod },
     Case { name: "Sod, b2b1", stage: "gas", run: sod_quadratic },
     Case { name: "Sod, two solves", stage: "gas", run: sod_twice },
-    Case { name: "blast in a closed box", stage: "gas_advection", run: blast },
+    Case { name: "blasts in a closed tube", stage: "gas_advection", run: blast },
     Case { name: "gas in space", stage: "coupled_solve", run: space },
     Case { name: "gas past a cut wedge", stage: "cut cells", run: wedge },
     Case { name: "slab in still gas", stage: "interface", run: slab },
@@ -82,7 +82,7 @@ fn conserved(gpu: &Gpu, scene: &Scene, steps: usize, energy: f64) -> Result<Foun
 fn fault(gpu: &Gpu, _full: bool) -> Result<Found> {
     let scene = scene("blast", &[], 32)?;
     let mut simulation = stepped(gpu, &scene, 1)?;
-    let slot = simulation.state.grid.slot([5, 5, 0]);
+    let slot = simulation.state.grid.slot([5, 0, 0]);
     simulation.state.gas.energy.write(gpu, slot, &[f32::NAN]);
     let mut records = Vec::new();
     for _ in 0..3 {
@@ -93,7 +93,7 @@ fn fault(gpu: &Gpu, _full: bool) -> Result<Found> {
             other => other?,
         };
     }
-    Ok(Found { difference: 1.0, limit: 0.0, place: "three steps have not seen it; cell [5, 5, 0]".to_owned() })
+    Ok(Found { difference: 1.0, limit: 0.0, place: "three steps have not seen it; cell [5, 0, 0]".to_owned() })
 }
 
 /// Mass and energy of the gas as the device and the host add them.
@@ -140,7 +140,7 @@ fn space(gpu: &Gpu, full: bool) -> Result<Found> {
 }
 
 fn wedge(gpu: &Gpu, full: bool) -> Result<Found> {
-    conserved(gpu, &scene("wedge", &[], if full { 160 } else { 48 })?, 8, 1e-3)
+    conserved(gpu, &scene("wedge", &[], if full { 160 } else { 50 })?, 8, 1e-3)
 }
 
 fn slab(gpu: &Gpu, _full: bool) -> Result<Found> {
@@ -152,7 +152,7 @@ fn piston(gpu: &Gpu, _full: bool) -> Result<Found> {
 }
 
 fn implicit(gpu: &Gpu, _full: bool) -> Result<Found> {
-    conserved(gpu, &scene("gelatine_3d", &["numerics.elasticity=implicit"], 12)?, 3, 2e-2)
+    conserved(gpu, &scene("gelatine_3d", &["numerics.elasticity=implicit"], 12)?, 3, 2e-3)
 }
 
 /// Cells of the shell.
@@ -161,7 +161,7 @@ fn shell_cells(full: bool) -> u32 {
 }
 
 fn shell(gpu: &Gpu, full: bool) -> Result<Found> {
-    conserved(gpu, &scene("bursting_shell_3d", &[], shell_cells(full))?, 12, 2e-2)
+    conserved(gpu, &scene("bursting_shell_3d", &[], shell_cells(full))?, 12, 2e-3)
 }
 
 /// Everything that a run of the shell leaves.
