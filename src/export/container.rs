@@ -293,7 +293,9 @@ fn parse(bytes: &[u8], most: u64) -> std::result::Result<Contents, String> {
         let (kind, shape, start) = npy::parse(&whole).map_err(|reason| format!("{name}: {reason}"))?;
         let about = contents.head.arrays.get(own).cloned().unwrap_or_default();
         let array = Array { name: own.to_owned(), kind, shape, bytes: whole[start..].to_vec(), about };
-        left = left.saturating_sub(array.bytes.len() as u64);
+        left = left
+            .checked_sub(array.bytes.len() as u64)
+            .ok_or_else(|| format!("{name}: the arrays have more bytes than belong there, which are at most {most}"))?;
         contents.arrays.push(array);
     }
     let missing = contents.head.arrays.keys().find(|name| contents.arrays.iter().all(|array| array.name != **name));

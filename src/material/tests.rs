@@ -100,6 +100,10 @@ fn the_host_struct_mirrors_the_shader() {
         ("hardening", std::mem::offset_of!(MaterialParams, hardening)),
         ("friction", std::mem::offset_of!(MaterialParams, friction)),
         ("elastic_lambda", std::mem::offset_of!(MaterialParams, elastic_lambda)),
+        ("tensile_strength", std::mem::offset_of!(MaterialParams, tensile_strength)),
+        ("toughness", std::mem::offset_of!(MaterialParams, toughness)),
+        ("softening", std::mem::offset_of!(MaterialParams, softening)),
+        ("crack_modulus", std::mem::offset_of!(MaterialParams, crack_modulus)),
     ];
     assert_eq!((offsets.as_slice(), *span as usize), (expected.as_slice(), size_of::<MaterialParams>()));
 }
