@@ -16,7 +16,7 @@
 //!
 //! Modules stand on floors and use lower floors only: `math`, `error`, `input`, `riemann`, `spelling`; `material`, `gpu`; `scene`, `numerics`;
 //! `state`; `stage`, `snapshot`; `simulation`, `diagnostics`, `bodies`, `quantity`; `render`, `expect`; `export`, `verify`; `cli`, `viewer`. The rules of the
-//! house are in `docs/architecture.md`, the method in `docs/method.md`. Start reading at [`simulation::Simulation::record_step`].
+//! house are in `docs/inside/architecture.md`, the method in `docs/method`. Start reading at [`simulation::Simulation::record_step`].
 
 pub mod bodies;
 pub mod cli;

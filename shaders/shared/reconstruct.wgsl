@@ -6,14 +6,14 @@
 // All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
 // Needs ARS, STAGE and the binding control.
 
-// Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/method.md].
+// Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/notes/reconstruction.md].
 const WENO_EPSILON = 7e-4;
 // The same elsewhere: 0.1 %.
 const EVEN_EPSILON = 1e-6;
 // The first form takes over up to where the velocity falls from one cell to the next by this part of the speed of sound.
 const STEEP = 0.1;
 // Least speed of the dissipation in a shock, over that of sound. The solve captures shocks without dissipation of its own, and a shock
-// that the gas does not cross along this axis would get none: waves would trail it. B2B1 with one velocity for the faces needs more [docs/method.md].
+// that the gas does not cross along this axis would get none: waves would trail it. B2B1 with one velocity for the faces needs more [docs/notes/reconstruction.md].
 fn shock_spread() -> f32 { return select(0.6, 1.2, QUADRATIC && CONSISTENT); }
 
 // Cells a to f along an axis, the face between c and d, the share of the second form there, and the least speed of the dissipation.

@@ -180,7 +180,7 @@ pub struct RunOptions {
     /// Fail if the result does not meet the scene's [expect], also where resolution, physics or end were changed by hand
     #[arg(long, conflicts_with = "no_expect")]
     pub expect: bool,
-    /// Fail if the run is warned of anything that the scene does not expect, see docs/warnings.md
+    /// Fail if the run is warned of anything that the scene does not expect, see docs/inside/warnings.md
     #[arg(long)]
     pub strict: bool,
     /// Print nothing but warnings and errors

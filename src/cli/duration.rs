@@ -11,7 +11,7 @@ use crate::state::constants::STAGES;
 
 /// Iterations of the pressure solve in a step of most scenes.
 const ITERATIONS: u64 = 4;
-/// Part of the speed of copying that the stages reach, by the bytes of [`traffic`]: measured in software (docs/performance.md).
+/// Part of the speed of copying that the stages reach, by the bytes of [`traffic`]: measured in software (docs/results/performance.md).
 const REACHED: f64 = 0.2;
 /// Least time of a step: its launches `[s]`.
 const LAUNCHES: f64 = 1e-3;

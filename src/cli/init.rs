@@ -34,7 +34,7 @@ pub(super) fn init(options: &InitOptions) -> Result<()> {
     }
     atomic::write(&path, |out| out.write_all(text.as_bytes()))?;
     let name = path.display();
-    say!("{name}: `brisance check {name}` checks it, `brisance run {name}` runs it, docs/scenes.md lists every key");
+    say!("{name}: `brisance check {name}` checks it, `brisance run {name}` runs it, docs/scenes lists every key");
     Ok(())
 }
 

@@ -27,7 +27,7 @@ pub struct Rule {
     pub advice: &'static str,
 }
 
-/// All watched numbers. `docs/warnings.md` has the same table.
+/// All watched numbers. `docs/inside/warnings.md` has the same table.
 pub const RULES: [Rule; 10] = [
     Rule {
         name: Warned::GasMass,

@@ -76,9 +76,9 @@ pub struct Report<S> {
     pub drift: BTreeMap<String, f64>,
     /// The scene's expectations against what was measured; empty if they were not asked for.
     pub expect: Vec<Check>,
-    /// All numbers that the program watches, see `docs/warnings.md`.
+    /// All numbers that the program watches, see `docs/inside/warnings.md`.
     pub watched: BTreeMap<Warned, f64>,
-    /// What the program warns of at the end, see `docs/warnings.md`.
+    /// What the program warns of at the end, see `docs/inside/warnings.md`.
     pub warnings: Vec<Warning>,
     /// Warnings that the scene expects and that did not come.
     pub absent_warnings: Vec<Warned>,

@@ -33,7 +33,7 @@ impl Check<'_> {
                 Ok(shot) => self.look(&path, &shot.settings),
                 Err((key, message)) => {
                     let key = if key.is_empty() { path } else { format!("{path}.{key}") };
-                    self.add(key, message, "a view has the keys of [render], and `fields`; see docs/scenes.md");
+                    self.add(key, message, "a view has the keys of [render], and `fields`; see docs/scenes/render.md");
                 }
             }
         }

@@ -190,12 +190,12 @@ fn parse_value<'a>(texts: &'a [String]) -> std::result::Result<Spanned<DeValue<'
 }
 
 fn syntax(error: &toml::de::Error) -> Finding {
-    let help = "scenes are TOML, see docs/scenes.md";
+    let help = "scenes are TOML, see docs/scenes";
     Finding { span: error.span(), ..Finding::new("", error.message(), help) }
 }
 
 fn located(source: &Source, error: &toml::de::Error) -> Finding {
     let path = error.span().map(|span| source.path_at(&span)).unwrap_or_default();
-    let help = "docs/scenes.md lists every key; `brisance schema` prints the schema";
+    let help = "docs/scenes lists every key; `brisance schema` prints the schema";
     Finding { span: error.span(), ..Finding::new(path, error.message(), help) }
 }

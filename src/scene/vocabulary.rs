@@ -50,7 +50,7 @@ impl<'s> Words<'s> {
         if let Some(wanted) = wrong_type(schema, value.get_ref()) {
             self.unreadable = true;
             let message = format!("invalid type: {}, expected {wanted}", value.get_ref().type_str());
-            self.add(path, Some(value.span()), message, "see docs/scenes.md for this key");
+            self.add(path, Some(value.span()), message, "see docs/scenes for this key");
             return;
         }
         match value.get_mut() {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A number that is watched in every run; `docs/warnings.md` has its limit and the reason of it.
+/// A number that is watched in every run; `docs/inside/warnings.md` has its limit and the reason of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Warned {

@@ -1,6 +1,6 @@
 //! L1 density errors of the method in double precision, which single precision on the device has to reach. Those with two solves have the
 //! device's reconstruction; the others the weights of Jiang and Shu everywhere, for which differences of up to 0.1 % count as smooth (the
-//! device: docs/method.md, step 5). Those that no table had come from `reference_tables::shock_tubes_with_predictor` and
+//! device: docs/method/gas_advection.md). Those that no table had come from `reference_tables::shock_tubes_with_predictor` and
 //! `..._with_two_solves` in the test suite.
 
 use super::session::{Integrator, Setting};

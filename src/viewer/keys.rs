@@ -134,10 +134,10 @@ mod tests {
 
     #[test]
     fn the_handbook_lists_every_key() {
-        let handbook = include_str!("../../docs/viewer.md");
+        let handbook = include_str!("../../docs/start/window.md");
         for (key, meaning) in HELP.iter().chain(&MOUSE) {
             let row = format!("| {key} | {meaning} |");
-            assert!(handbook.contains(&row), "docs/viewer.md lacks `{row}`");
+            assert!(handbook.contains(&row), "docs/start/window.md lacks `{row}`");
         }
     }
 }

@@ -156,7 +156,7 @@ impl Session {
         self.warnings.iter().filter(|warning| warning.expected.is_none()).map(ToString::to_string).collect()
     }
 
-    /// What the run is warned of so far, see `docs/warnings.md`.
+    /// What the run is warned of so far, see `docs/inside/warnings.md`.
     #[must_use]
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings

@@ -292,7 +292,7 @@ fn short_and_long_steps_in_turn_stay_quiet() {
 }
 
 #[test]
-#[ignore = "minutes: the table of docs/validation.md"]
+#[ignore = "minutes: the table of docs/notes/noise_at_rest.md"]
 fn rest_noise_table() {
     let Some(gpu) = gpu_or_skip() else { return };
     for (dimension, cells) in [(1, 128), (2, 32), (3, 16)] {
@@ -337,7 +337,7 @@ fn round_error(gpu: &Gpu, dimension: usize, cells: u32, numerics: &str) -> f64 {
 }
 
 #[test]
-#[ignore = "a minute: the table of docs/method.md"]
+#[ignore = "a minute: the table of docs/notes/face_velocity.md"]
 fn round_explosions() {
     let Some(gpu) = gpu_or_skip() else { return };
     for (dimension, cells) in [(2, 32), (2, 64), (2, 128), (3, 32), (3, 48)] {

@@ -116,7 +116,7 @@ fn growth(pair: Pair, fourth: bool, [mach, courant]: [f64; 2]) -> f64 {
     most.powf(0.5 / (STEPS[1] - STEPS[0]) as f64)
 }
 
-/// Both halves of the scheme are needed for this, see docs/validation.md, Two solves per step.
+/// Both halves of the scheme are needed for this, see docs/notes/two_solves.md.
 #[test]
 fn no_wave_of_a_stream_grows() {
     for pair in [Pair::B1b0, Pair::B2b1] {

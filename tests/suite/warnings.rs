@@ -11,8 +11,8 @@ use crate::common::gpu_or_skip;
 
 #[test]
 fn the_table_of_the_docs_is_that_of_the_program() {
-    let docs = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/warnings.md")).unwrap();
-    assert!(docs.contains(&expect::table()), "docs/warnings.md must hold this table:\n{}", expect::table());
+    let docs = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/inside/warnings.md")).unwrap();
+    assert!(docs.contains(&expect::table()), "docs/inside/warnings.md must hold this table:\n{}", expect::table());
 }
 
 /// A block that flies out on the right through thin gas.

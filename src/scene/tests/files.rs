@@ -128,7 +128,8 @@ fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
 
 #[test]
 fn every_key_is_documented() {
-    let text = std::fs::read_to_string(root().join("docs/scenes.md")).expect("docs/scenes.md exists");
+    let pages = std::fs::read_dir(root().join("docs/scenes")).expect("docs/scenes exists");
+    let text: String = pages.map(|page| std::fs::read_to_string(page.expect("listed").path()).expect("a page")).collect();
     let schema = serde_json::from_str(&schema()).expect("the schema is JSON");
     let mut found = Vec::new();
     keys(&schema, &mut found);
@@ -144,7 +145,7 @@ fn every_key_is_documented() {
         "write it again: brisance schema > docs/scene.schema.json"
     );
     let missing = found.iter().filter(|key| !text.contains(&format!("`{key}`"))).collect::<Vec<_>>();
-    assert!(missing.is_empty(), "docs/scenes.md does not mention {missing:?}");
+    assert!(missing.is_empty(), "docs/scenes does not mention {missing:?}");
 }
 
 #[test]
