@@ -129,7 +129,8 @@ fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
 #[test]
 fn every_key_is_documented() {
     let pages = std::fs::read_dir(root().join("docs/scenes")).expect("docs/scenes exists");
-    let text: String = pages.map(|page| std::fs::read_to_string(page.expect("listed").path()).expect("a page")).collect();
+    let text: String =
+        pages.map(|page| std::fs::read_to_string(page.expect("listed").path()).expect("a page")).collect();
     let schema = serde_json::from_str(&schema()).expect("the schema is JSON");
     let mut found = Vec::new();
     keys(&schema, &mut found);
