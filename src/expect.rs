@@ -1,9 +1,11 @@
 //! What a run conserved, and whether it did what its scene expects: the `[expect]` table against measured values.
 
 mod bodies;
+mod gauges;
 mod probes;
 mod warnings;
 
+pub use gauges::Gauge;
 pub use probes::Seen;
 pub use warnings::{RULES, Rule, Warning, Watched, absent, marks, table, warnings, watched};
 

@@ -260,7 +260,10 @@ pub struct SweepOptions {
     /// Only one part of the runs, for array jobs, for example 3/10
     #[arg(long, value_name = "PART/PARTS")]
     pub shard: Option<String>,
-    /// Folder for the runs and sweep.csv; runs that are finished there are not run again
+    /// Run once up to this time [s], and begin every run from there; KEYs are those that `run --branch` may change
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true)]
+    pub branch_at: Option<f64>,
+    /// Folder for the runs, sweep.csv and sweep.html; runs that are finished there are not run again
     #[arg(long, value_name = "DIR", default_value = "out/sweep")]
     pub out: PathBuf,
     /// End of the runs [s], instead of time.until

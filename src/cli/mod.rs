@@ -31,6 +31,7 @@ mod interrupt;
 mod list;
 mod loads;
 mod outcome;
+mod page;
 mod progress;
 mod render;
 mod run;

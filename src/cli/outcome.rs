@@ -81,6 +81,18 @@ pub(super) fn changed_by_hand(options: &RunOptions) -> Option<String> {
     options.scene.set.iter().map(key).find(|key| !LOOKS.iter().any(|look| key.starts_with(look)))
 }
 
+/// What the command line changed about the scene, as it was given.
+pub(super) fn changes(options: &RunOptions) -> Vec<String> {
+    let scene = &options.scene;
+    let branch = options.branch.then(|| format!("--branch {}", scene.scene));
+    let variants = scene.variant.iter().map(|variant| format!("--variant {variant}"));
+    let resolution = scene.resolution.map(|cells| format!("--resolution {cells}"));
+    let sets = scene.set.iter().map(|set| format!("--set {set}"));
+    let until = options.until.map(|until| format!("--until {until}"));
+    let frames = options.frames.map(|frames| format!("--frames {frames}"));
+    branch.into_iter().chain(variants).chain(resolution).chain(sets).chain(until).chain(frames).collect()
+}
+
 /// The error of a run whose checks failed.
 pub(super) fn verdict(checks: &[Check]) -> Result<()> {
     let failed: Vec<String> = checks.iter().filter(|check| !check.passed).map(|check| check.name.clone()).collect();

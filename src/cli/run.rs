@@ -2,9 +2,9 @@
 
 mod beginning;
 mod checkpoint;
+mod ending;
 mod formats;
 
-use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use super::args::{Cli, RunOptions};
@@ -12,20 +12,18 @@ use super::check::overlap_text;
 use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
-use super::outcome::{Verdict, changed_by_hand, device, last_words, status, totals, verdict};
-use super::progress::{Progress, clock};
+use super::outcome::{Verdict, device, last_words};
+use super::progress::Progress;
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device};
 use crate::diagnostics::StepRecord;
-use crate::expect::{Budget, Check, Ending, Summary};
+use crate::expect::{Budget, Summary};
 use crate::export::Needs;
-use crate::export::report::{self, Report, Status};
+use crate::export::report::Status;
 use crate::gpu::Gpu;
-use crate::math::plain;
 use crate::render::{Renderer, SceneBuffers, Stored};
 use crate::scene::Scene;
 use crate::simulation::{BATCH, Simulation};
-use crate::snapshot::Snapshot;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
 use beginning::Beginning;
@@ -270,127 +268,5 @@ impl<'a> Run<'a> {
     /// Waits for the writer and returns what it wrote.
     fn close_writer(&mut self) -> Result<Written> {
         self.writer.take().map_or_else(|| Ok(Written::default()), Writer::finish)
-    }
-
-    /// Writes the rest, judges, reports.
-    fn finish(mut self, outcome: Result<()>, json: bool) -> Result<()> {
-        self.progress.finish();
-        if let Some(writer) = &self.writer {
-            writer.send(Message { records: std::mem::take(&mut self.pending), ..Message::default() });
-        }
-        // The first error is the one to tell about.
-        let (mut outcome, written) = match (outcome, self.close_writer()) {
-            (Ok(()), Err(error)) => (Err(error), Written::default()),
-            (outcome, written) => (outcome, written.unwrap_or_default()),
-        };
-        let filmed = film::tell(&written.films, self.options.quiet || json);
-        let status = status(&outcome);
-        let judged = if status == Status::Failed { Verdict::default() } else { self.judge(status)? };
-        judged.tell();
-        if outcome.is_ok() {
-            outcome = self.verdict(&judged.checks);
-            if self.options.strict {
-                outcome = outcome.and(judged.strict());
-            }
-        }
-        outcome = outcome.and(filmed);
-        let text = outcome.as_ref().map_or_else(ToString::to_string, |()| "finished".to_owned());
-        let reported = self.write_report((status, &text), written, judged);
-        // what failed first is told, not that the report could not be written either
-        let report = match (outcome, reported) {
-            (Err(error), Err(_)) => return Err(error),
-            (Ok(()), Err(error)) => return Err(error),
-            (told, Ok(report)) => {
-                outcome = told;
-                report
-            }
-        };
-        if json && outcome.is_ok() {
-            say!("{}", serde_json::to_string(&report).unwrap_or_default());
-        } else if !json && !self.options.quiet {
-            self.print(&report);
-        }
-        outcome
-    }
-
-    fn judge(&self, status: Status) -> Result<Verdict> {
-        let snapshot: Snapshot = self.simulation.snapshot()?;
-        let end = self.end_budget()?;
-        let ending = Ending { start: &self.start_budget, end: &end, summary: &self.summary, snapshot: &snapshot };
-        Ok(Verdict::of(&self.scene, &ending, status == Status::Finished && !self.options.no_expect))
-    }
-
-    /// The error of a run whose checks failed. What was changed by hand is another experiment, whose checks are told only.
-    fn verdict(&self, checks: &[Check]) -> Result<()> {
-        match (verdict(checks), changed_by_hand(self.options)) {
-            (Err(error), Some(change)) if !self.options.expect => {
-                tell!("note: not enforced, since {change} was changed by hand (--expect enforces it): {error}");
-                Ok(())
-            }
-            (verdict, _) => verdict,
-        }
-    }
-
-    fn end_budget(&self) -> Result<Budget> {
-        Budget::read(&self.simulation, &self.scene, self.summary.stored_energy())
-    }
-
-    fn write_report(
-        &self,
-        (status, outcome): (Status, &str),
-        written: Written,
-        judged: Verdict,
-    ) -> Result<Report<&Scene>> {
-        // A device that is lost cannot be asked any more; the report must come all the same.
-        let running = status == Status::Running;
-        let end = if running { Budget::default() } else { self.end_budget().unwrap_or_default() };
-        let seconds = |(name, time): (&str, Duration)| (name.to_owned(), time.as_secs_f64());
-        let clocks = &self.clocks;
-        let timings = [
-            ("setup", clocks.setup),
-            ("steps", clocks.steps),
-            ("pictures", clocks.pictures),
-            ("waiting_for_writer", clocks.waiting),
-            ("writer", written.busy),
-        ];
-        let report = Report {
-            version: env!("CARGO_PKG_VERSION"),
-            status,
-            outcome: outcome.to_owned(),
-            time: self.simulation.time(),
-            steps: self.simulation.step_count(),
-            frames: written.frames,
-            wall_seconds: self.wall_seconds(),
-            device: device(&self.gpu),
-            particles: self.plan.particles,
-            memory: self.plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
-            timings: timings.map(seconds).into(),
-            totals: totals(&self.summary, &end),
-            drift: if running { BTreeMap::new() } else { end.drift_since(&self.start_budget) },
-            expect: judged.checks,
-            watched: judged.watched,
-            warnings: judged.warnings,
-            absent_warnings: judged.absent,
-            scene_hash: self.scene.hash(),
-            scene_file: self.place.clone(),
-            scene: &self.scene,
-        };
-        report::write(&self.folder.path.join("report.json"), &report)?;
-        Ok(report)
-    }
-
-    /// Time on the clock, with that before the run went on \[s\].
-    fn wall_seconds(&self) -> f64 {
-        self.before + self.start.elapsed().as_secs_f64()
-    }
-
-    fn print(&self, report: &Report<&Scene>) {
-        let wall = clock(self.start.elapsed());
-        let (time, steps) = (report.time, report.steps);
-        let time = plain(time);
-        say!("t = {time} s after {steps} steps in {wall}; {} frames in {}", report.frames, self.folder.path.display());
-        for check in &report.expect {
-            say!("  {check}");
-        }
     }
 }

@@ -9,7 +9,7 @@ use crate::snapshot::kind;
 
 /// Relative change of the pressure that counts as the arrival of a front: above the noise of gas at rest, below the weakest of the
 /// shocks that scenes wait for.
-const FRONT: f64 = 0.05;
+pub(super) const FRONT: f64 = 0.05;
 
 /// What one probe has seen in gas.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

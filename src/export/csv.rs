@@ -153,6 +153,89 @@ fn push_value(text: &mut String, value: &Value) {
     };
 }
 
+/// A table that was written, column by column.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sheet {
+    names: Vec<String>,
+    numbers: Vec<Vec<f64>>,
+    texts: Vec<Vec<String>>,
+}
+
+impl Sheet {
+    /// Reads a table; the columns named in `texts` hold names. None where there is no such file.
+    ///
+    /// # Errors
+    /// [`Error::Io`] with the line that has another number of entries than the header, or an entry that is no number.
+    pub fn read(path: &Path, texts: &[&str]) -> Result<Option<Self>> {
+        let text = match input::text(path, MOST_TABLE) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            text => text.map_err(|source| Error::io(path, source))?,
+        };
+        let wrong = |line: usize, reason: &str| {
+            let message = format!("line {}: {reason}", line + 1);
+            Error::io(path, io::Error::new(io::ErrorKind::InvalidData, message))
+        };
+        let mut lines = text.lines().enumerate();
+        let names = entries(lines.next().map_or("", |(_, line)| line));
+        let mut sheet = Self { numbers: vec![Vec::new(); names.len()], texts: vec![Vec::new(); names.len()], names };
+        for (number, line) in lines {
+            let row = entries(line);
+            if row.len() != sheet.names.len() {
+                return Err(wrong(number, &format!("{} entries, {} columns", row.len(), sheet.names.len())));
+            }
+            for (k, entry) in row.into_iter().enumerate() {
+                if texts.contains(&sheet.names[k].as_str()) {
+                    sheet.texts[k].push(entry);
+                } else {
+                    let value = entry.parse().map_err(|_| wrong(number, &format!("`{entry}` is no number")))?;
+                    sheet.numbers[k].push(value);
+                }
+            }
+        }
+        Ok(Some(sheet))
+    }
+
+    /// Names of the columns.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// A column of numbers.
+    #[must_use]
+    pub fn numbers(&self, name: &str) -> Option<&[f64]> {
+        let column = self.names.iter().position(|own| own == name)?;
+        Some(&self.numbers[column])
+    }
+
+    /// A column of names.
+    #[must_use]
+    pub fn texts(&self, name: &str) -> Option<&[String]> {
+        let column = self.names.iter().position(|own| own == name)?;
+        Some(&self.texts[column])
+    }
+}
+
+/// Entries of a line, without their quotes.
+fn entries(line: &str) -> Vec<String> {
+    let (mut all, mut quoted) = (vec![String::new()], false);
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let entry = all.last_mut();
+        match (letter, entry) {
+            ('"', Some(entry)) if quoted && letters.peek() == Some(&'"') => {
+                letters.next();
+                entry.push('"');
+            }
+            ('"', _) => quoted = !quoted,
+            (',', _) if !quoted => all.push(String::new()),
+            (_, Some(entry)) => entry.push(letter),
+            _ => {}
+        }
+    }
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,5 +251,14 @@ mod tests {
         table.save().unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(text, "step,name,mass\n1,\"shell, outer \"\"A\"\"\",1.5e-30\n2,core,NaN\n");
+        let sheet = Sheet::read(&path, &["name"]).unwrap().unwrap();
+        assert_eq!(sheet.texts("name").unwrap(), ["shell, outer \"A\"", "core"]);
+        assert_eq!((sheet.numbers("step").unwrap(), sheet.numbers("mass").unwrap()[0]), (&[1.0, 2.0][..], 1.5e-30));
+        assert!(sheet.numbers("mass").unwrap()[1].is_nan() && sheet.numbers("speed").is_none());
+        assert_eq!(Sheet::read(&folder.path().join("none.csv"), &[]).unwrap(), None);
+        std::fs::write(&path, "step,mass\n1,2\n3\n").unwrap();
+        assert!(Sheet::read(&path, &[]).unwrap_err().to_string().contains("line 3: 1 entries, 2 columns"));
+        std::fs::write(&path, "step,mass\n1,two\n").unwrap();
+        assert!(Sheet::read(&path, &[]).unwrap_err().to_string().contains("line 2: `two` is no number"));
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::expect::{Check, Warning};
+use crate::expect::{Check, Gauge, Warning};
 use crate::export::atomic;
 use crate::scene::Warned;
 use crate::{Error, Result};
@@ -82,6 +82,10 @@ pub struct Report<S> {
     pub warnings: Vec<Warning>,
     /// Warnings that the scene expects and that did not come.
     pub absent_warnings: Vec<Warned>,
+    /// What each gauge has measured; empty while the run goes on.
+    pub gauges: BTreeMap<String, Gauge>,
+    /// What the command line changed about the scene.
+    pub changes: Vec<String>,
     /// [`crate::scene::Scene::hash`] of the scene: what pictures and states say about where they come from.
     pub scene_hash: String,
     /// File or name of the scene; paths in it start there.

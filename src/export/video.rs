@@ -102,6 +102,12 @@ fn named(path: &Path, view: &str, prefix: &str, suffix: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
+/// Whether the format has an index that can stand before the pictures, so that a film plays while it is still loaded.
+fn starts_at_once(path: &Path) -> bool {
+    let extension = path.extension().map(|end| end.to_string_lossy().to_lowercase());
+    extension.is_some_and(|end| ["mp4", "m4v", "mov"].contains(&end.as_str()))
+}
+
 impl Film {
     fn start(path: &Path, rate: u32, view: &str, moment: &Moment, frame: &Frame) -> Result<Self> {
         if let Some(folder) = path.parent() {
@@ -112,8 +118,13 @@ impl Film {
         command.args(["-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24"]);
         command.args(["-video_size", &format!("{}x{}", frame.width, frame.height)]);
         command.args(["-framerate", &rate.to_string(), "-i", "pipe:0"]);
-        // Most players want 4:2:0, which wants even sides.
-        command.args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]);
+        // Most players want 4:2:0, which wants even sides. Without tags they guess the matrix from the size. [ITU-R BT.709-6]
+        let even = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
+        command.args(["-vf", even, "-pix_fmt", "yuv420p", "-color_range", "tv"]);
+        command.args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"]);
+        if starts_at_once(&draft) {
+            command.args(["-movflags", "+faststart"]);
+        }
         command.args(["-metadata", &format!("title={}", moment.origin.title)]);
         command.args(["-metadata", &format!("comment=brisance, scene {}", moment.origin.hash)]);
         command.arg(&draft);
@@ -174,6 +185,7 @@ mod tests {
         let path = Path::new("out/a.b.mkv");
         assert_eq!(named(path, "", "", ""), path);
         assert_eq!(named(path, "top", "", ""), Path::new("out/a.b_top.mkv"));
+        assert!(starts_at_once(Path::new("a.MP4")) && !starts_at_once(path));
         assert_eq!(named(Path::new("film"), "top", ".", "_draft"), Path::new(".film_top_draft.mp4"));
     }
 }

@@ -30,6 +30,7 @@ mod live;
 mod loads;
 mod materials;
 mod numerics;
+mod pages;
 mod preconditioner;
 mod quiet;
 mod reference;

@@ -1,0 +1,102 @@
+//! The pages that runs and sweeps leave.
+
+use std::path::Path;
+
+use crate::cli::{fails, report, run, succeeds, write_small_scene};
+use crate::common::gpu_or_skip;
+
+fn text(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+#[test]
+fn a_run_leaves_one_page_with_everything_in_it() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("small.toml");
+    write_small_scene(&scene);
+    let target = folder.path().join("result");
+    let out = target.to_str().unwrap();
+    let sets = ["--set", "gas.regions[0].pressure=3.0", "--set", "time.until=0.2"];
+    succeeds(&[&["run", scene.to_str().unwrap(), "--out", out][..], &sets].concat());
+    let page = text(&target.join("report.html"));
+    for part in [
+        "<h1>Small</h1>",
+        "<td>pieces</td>",
+        "Gauge left",
+        "Paths of bodies",
+        "Plastic strain",
+        "Momentum along y",
+        "<code>--set gas.regions[0].pressure=3.0</code>",
+        "elastic sub-steps per step",
+        "src=\"data:image/png;base64,",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("Momentum along z") && !page.contains("src=\"http") && !page.contains("<script"));
+    assert!(page.matches("<svg").count() >= 15 && page.matches("</svg>").count() == page.matches("<svg").count());
+    let gauge = &report(&target)["gauges"]["left"];
+    let (first, peak) = (gauge["first"].as_f64().unwrap(), gauge["peak"].as_f64().unwrap());
+    assert!(first > 2.5 && peak >= first && gauge["arrival"].is_null(), "{gauge}");
+    assert!(text(&target.join("written.txt")).lines().any(|line| line == "report.html"));
+}
+
+#[test]
+fn a_sweep_leaves_a_table_and_a_page_and_goes_on() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("small.toml");
+    write_small_scene(&scene);
+    let out = folder.path().join("sweep");
+    let base = ["sweep", scene.to_str().unwrap(), "--no-frames", "--out", out.to_str().unwrap()];
+    let over = ["--over", "gas.regions[0].pressure=2:4:3", "--over", "bodies[0].density=5,6"];
+    succeeds(&[&base[..], &over, &["--shard", "1/2"]].concat());
+    assert_eq!(text(&out.join("sweep.csv")).lines().count(), 1 + 3);
+    let first = text(&out.join("0000/report.json"));
+    succeeds(&[&base[..], &over].concat());
+    assert_eq!(text(&out.join("0000/report.json")), first, "what is finished is not run again");
+    let table = text(&out.join("sweep.csv"));
+    assert!(
+        table.lines().count() == 1 + 6 && table.lines().next().unwrap().contains(",left_peak_overpressure,"),
+        "{table}"
+    );
+    let page = text(&out.join("sweep.html"));
+    assert!(
+        page.contains("density 6") && page.contains("href=\"0005/report.html\"") && page.matches("<svg").count() > 10
+    );
+    // another scene is another sweep
+    succeeds(&[&base[..], &over, &["--shard", "1/6", "--set", "gas.ambient.density=2.0"]].concat());
+    assert_ne!(text(&out.join("0000/report.json")), first);
+    assert_eq!(text(&out.join("sweep.csv")).lines().count(), 1 + 1);
+}
+
+#[test]
+fn runs_of_a_sweep_may_share_their_start() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("small.toml");
+    write_small_scene(&scene);
+    let out = folder.path().join("sweep");
+    let base = ["sweep", scene.to_str().unwrap(), "--no-frames", "--out", out.to_str().unwrap()];
+    let late = [&base[..], &["--branch-at", "0.02", "--over", "gravity=[0.0, -1.0],[0.0, -2.0]"]].concat();
+    let said = fails(2, &late);
+    assert!(said.contains("--branch-at 0.02: a time between 0 and the end, 0.02 s"), "{said}");
+    let shared = ["--set", "time.until=0.04", "--branch-at", "0.02"];
+    let said = fails(2, &[&base[..], &shared, &["--over", "bodies[0].density=5,6"]].concat());
+    assert!(said.contains("bodies[0].density with --branch: a state goes on only"), "{said}");
+    let done = run(&[&base[..], &shared, &["--over", "gravity=[0.0, -1.0],[0.0, -2.0]"]].concat());
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let rows =
+        |name: &str| text(&out.join(name).join("diagnostics.csv")).lines().map(str::to_owned).collect::<Vec<_>>();
+    let (start, one, two) = (rows("start"), rows("0000"), rows("0001"));
+    assert!(start.len() > 1 && one.len() > start.len() && one[..start.len()] == start && two[..start.len()] == start);
+    assert_ne!(one.last(), two.last());
+    let last: f64 = one.last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
+    assert!((last - 0.04).abs() < 1e-9, "{last}");
+}
