@@ -43,3 +43,9 @@ pub mod verify;
 pub mod viewer;
 
 pub use error::{Error, Result};
+
+/// The programs of the pages are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+#[doc = include_str!("../docs/start/from_rust.md")]
+struct Pages;

@@ -89,7 +89,7 @@ pub const RULES: [Rule; 10] = [
         name: Warned::LostBodies,
         quantity: "bodies of which no particle is left in the domain, over bodies",
         limit: 0.0,
-        reason: "what has left pushes no gas any more; the books keep what it took along",
+        reason: "what has left pushes no gas; the sums keep what it took along",
         advice: "enlarge the domain, make the side a \"wall\", or expect it with the reason",
     },
     Rule {

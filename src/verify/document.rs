@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::plot::{Plot, escape};
-use super::row::{Row, Verdict};
+use super::row::{Row, Verdict, short};
 use super::table::{HEADS, entries, summary};
 use super::{Case, cases};
 
@@ -112,10 +112,38 @@ pub fn json(head: &Head, rows: &[Row], seconds: &[(&str, f64)]) -> serde_json::V
     json!({ "verification": head, "passed": passed, "summary": summary(rows), "cases": cases })
 }
 
-/// The result as a table in Markdown, one per case.
+/// One line per case: what it is compared with, one measure, and how many of its gates hold. The measure is the first with a gate, on 400
+/// cells where there is one.
+fn overview(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "\n| Case | Compared with | Measure | Found | Allowed | Gates held |\n|---|---|---|---|---|---|\n",
+    );
+    for (case, own) in by_case(rows) {
+        let gated: Vec<_> = own.iter().filter(|row| row.pass.is_some()).collect();
+        let Some(shown) = gated.iter().find(|row| row.setting.ends_with(" 400")).or(gated.first()) else { continue };
+        let held = gated.iter().filter(|row| matches!(row.verdict(), Verdict::Good | Verdict::Pass)).count();
+        let allowed = shown.pass.map(|limit| limit.to_string()).unwrap_or_default();
+        let measure = [&shown.quantity, &shown.setting].map(|text| text.replace('|', "\\|")).join(", ");
+        let measure = measure.trim_end_matches(", ");
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "| {} (`{}`) | {} | {measure} | {} | {allowed} | {held} of {} |",
+            case.title,
+            case.id,
+            case.source,
+            short(shown.ours),
+            gated.len()
+        );
+    }
+    text
+}
+
+/// The result as tables in Markdown: an overview with one line per case, then one table per case.
 #[must_use]
 pub fn markdown(head: &Head, rows: &[Row]) -> String {
     let mut text = format!("`{}` on {}, {:.0} s: {}.\n", head.command, head.device, head.seconds, summary(rows));
+    text += &overview(rows);
     let mut group = "";
     for (case, own) in by_case(rows) {
         if case.group != group {

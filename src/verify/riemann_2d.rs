@@ -16,7 +16,7 @@ pub(super) const CASES: &[Case] = &[Case {
     group: "Unsteady flow in 2D",
     quick: true,
     source: "P. D. Lax, X.-D. Liu, SIAM J. Sci. Comput. 19 (1998) 319, configurations 3, 4, 6 and 12; exact Riemann solution at the edges; inside, \
-             an independent MUSCL-HLLC solver on 400 x 400 cells. 2.4 is the gate of Sod's tube over what a sharp method has there.",
+             an independent MUSCL-HLLC solver on 400 x 400 cells. The gate of 2.4 is that of Sod's tube over what a sharp method has there.",
     run: riemann,
 }];
 

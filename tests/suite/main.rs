@@ -32,6 +32,7 @@ mod materials;
 mod numerics;
 mod pages;
 mod preconditioner;
+mod prose;
 mod quiet;
 mod reference;
 mod reference_exact;
