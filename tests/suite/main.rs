@@ -4,6 +4,7 @@
 
 mod analytic;
 mod bench;
+mod bits;
 mod books;
 mod boundaries;
 mod checkpoint;
