@@ -6,7 +6,7 @@ use std::path::PathBuf;
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Everything that can go wrong, one variant per exit code family.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 pub enum Error {
     /// The scene file is wrong; the text holds file, line, key and what is allowed (all findings, not only the first).
     #[error("{0}")]
@@ -58,6 +58,13 @@ pub enum Error {
     /// The user pressed Ctrl-C; everything written so far is valid.
     #[error("interrupted; all files written so far are complete")]
     Interrupted,
+}
+
+/// As it is displayed: what `main` prints of an error, and `unwrap`.
+impl std::fmt::Debug for Error {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        std::fmt::Display::fmt(self, formatter)
+    }
 }
 
 impl Error {

@@ -84,6 +84,20 @@ pub const TABLE: &[Quantity] = &[
     quantity(Place::Particle, "piece", "1", "smallest id in the piece", 1, |s| Values::Whole(s.piece_of_each())),
 ];
 
+impl Snapshot {
+    /// Values of a quantity in each cell, x fastest, by its name in [`TABLE`]: `mach`, `schlieren`; nothing if there is none of that name.
+    #[must_use]
+    pub fn cell_field(&self, name: &str) -> Option<Values> {
+        Some(find(Place::Cell, name)?.of(self))
+    }
+
+    /// Values of a quantity of each particle, in the order of [`Snapshot::particles`], by its name in [`TABLE`].
+    #[must_use]
+    pub fn particle_field(&self, name: &str) -> Option<Values> {
+        Some(find(Place::Particle, name)?.of(self))
+    }
+}
+
 /// The quantity of a name, of cells or of particles.
 #[must_use]
 pub fn find(place: Place, name: &str) -> Option<&'static Quantity> {

@@ -82,9 +82,10 @@ impl Simulation {
     /// Builds buffers and kernels for a scene.
     ///
     /// # Errors
-    /// If the scene does not fit or a shader is wrong.
+    /// If the scene is wrong ([`Scene::checked`]), does not fit, or a shader is wrong.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Simulation> {
-        let (simulation, buffers) = watched(|| Self::build(gpu, scene));
+        let scene = scene.checked()?;
+        let (simulation, buffers) = watched(|| Self::build(gpu, &scene));
         Ok(Simulation { buffers, ..simulation? })
     }
 

@@ -89,6 +89,42 @@ impl ParticleSample {
     }
 }
 
+/// The gas in one cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GasSample {
+    /// Density \[kg m^-3\].
+    pub density: f32,
+    /// Velocity \[m s^-1\].
+    pub velocity: [f32; 3],
+    /// Pressure \[Pa\].
+    pub pressure: f32,
+}
+
+impl Snapshot {
+    /// The cell that holds a point \[m\]: its place in the cell arrays, or nothing outside of the domain. Axes that are left out are 0.
+    #[must_use]
+    pub fn cell_at<const N: usize>(&self, position: [f64; N]) -> Option<usize> {
+        let grid = &self.grid;
+        let mut place = 0;
+        for axis in (0..grid.dimension as usize).rev() {
+            let offset = position.get(axis).copied().unwrap_or(0.0) - f64::from(grid.origin[axis]);
+            let cell = (offset / f64::from(grid.spacing)).floor();
+            if !(cell >= 0.0 && cell < f64::from(grid.cells[axis])) {
+                return None;
+            }
+            place = place * grid.cells[axis] as usize + cell as usize;
+        }
+        Some(place)
+    }
+
+    /// The gas at a point \[m\]; nothing outside of the domain and inside of bodies and obstacles.
+    #[must_use]
+    pub fn gas_at<const N: usize>(&self, position: [f64; N]) -> Option<GasSample> {
+        let i = self.cell_at(position).filter(|i| self.kind[*i] == kind::GAS)?;
+        Some(GasSample { density: self.density[i], velocity: self.velocity[i], pressure: self.pressure[i] })
+    }
+}
+
 #[cfg(test)]
 impl Snapshot {
     /// Particles alone, without a cell of gas.

@@ -11,7 +11,7 @@ use super::{open_device, scenes};
 use crate::export::png;
 use crate::gpu::Gpu;
 use crate::math::plain;
-use crate::render::{Renderer, SceneBuffers};
+use crate::render::Renderer;
 use crate::scene::{Breaking, Estimate, Overlap, Scene, ThinBody};
 use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
@@ -153,7 +153,7 @@ fn breaking_text(b: &Breaking) -> String {
 /// Writes the picture that a run would begin with.
 fn draw_start(gpu: &Gpu, scene: &Scene, path: &Path) -> Result<()> {
     let simulation = Simulation::new(gpu, scene)?;
-    let mut renderer = Renderer::new(gpu, scene, &SceneBuffers::of(&simulation.state))?;
+    let mut renderer = Renderer::of(&simulation, scene)?;
     match renderer.render(0.0)?.first() {
         Some(picture) => png::write(path, &picture.frame, &[("Title", scene.title.clone())]),
         None => Ok(()),

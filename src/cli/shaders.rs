@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::args::{Cli, ShadersOptions};
 use crate::gpu::{Gpu, GpuOptions, Settings};
-use crate::render::{Renderer, SceneBuffers};
+use crate::render::Renderer;
 use crate::scene::{self, Scene};
 use crate::simulation::Simulation;
 use crate::{Error, Result};
@@ -39,7 +39,7 @@ pub(super) fn shaders(options: &ShadersOptions, cli: &Cli) -> Result<()> {
             gpu.settings = settings;
             let simulation = Simulation::new(&gpu, &scene)?;
             // Those of pictures are compiled when one is drawn.
-            Renderer::new(&gpu, &scene, &SceneBuffers::of(&simulation.state))?.render(0.0)?;
+            Renderer::of(&simulation, &scene)?.render(0.0)?;
         }
     }
     let files = std::fs::read_dir(&options.out).map_err(|source| Error::io(&options.out, source))?;

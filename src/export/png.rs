@@ -46,6 +46,16 @@ impl Exporter for PngExporter {
     }
 }
 
+impl Picture {
+    /// Writes it as a PNG of 8 bits per channel; the file is complete or not there.
+    ///
+    /// # Errors
+    /// [`Error::Io`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        write(path.as_ref(), &self.frame, &[])
+    }
+}
+
 /// Writes one picture with text chunks; what latin-1 cannot hold goes into international chunks.
 pub fn write(path: &Path, frame: &Frame, text: &[(&str, String)]) -> Result<()> {
     // Every pixel is opaque: three bytes say it all.

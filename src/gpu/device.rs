@@ -111,6 +111,14 @@ enum Fault {
 }
 
 impl Gpu {
+    /// Opens the best device, or the one that `BRISANCE_DEVICE` names.
+    ///
+    /// # Errors
+    /// As [`Gpu::new`].
+    pub fn best() -> Result<Gpu> {
+        Gpu::new(&GpuOptions::default())
+    }
+
     /// Opens the best device, or the one that `options` name.
     ///
     /// # Errors

@@ -38,6 +38,7 @@ pub use view::View;
 use crate::Result;
 use crate::gpu::Gpu;
 use crate::scene::{Camera, Contours, Field, RenderMode, RenderSettings, Scene, Shot};
+use crate::simulation::Simulation;
 use buffers::Sources;
 use camera::Eye;
 use overlay::Layout;
@@ -89,6 +90,14 @@ impl Renderer {
         let drawing = if sources.grid.dimension > 1 { Some(Drawing::new(gpu, scene, &sources)?) } else { None };
         let shots = scene.shots()?;
         Ok(Self { gpu: gpu.clone(), scene: scene.clone(), shots, depth: Depth::default(), sources, drawing })
+    }
+
+    /// For a simulation of a scene, whose state it draws as it is at each call.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`].
+    pub fn of(simulation: &Simulation, scene: &Scene) -> Result<Self> {
+        Self::new(simulation.gpu(), scene, &SceneBuffers::of(&simulation.state))
     }
 
     /// Asks for more than 8 bits per channel of all pictures.

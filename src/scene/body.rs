@@ -1,7 +1,7 @@
 //! Deformable solids: what they are, how they start, what holds them.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::{Scene, Shape, vector};
 
@@ -16,8 +16,8 @@ pub struct Body {
     /// Name of an entry of `materials`.
     pub material: String,
     /// Density `[kg m^-3]`, positive; that of the preset when left out.
-    #[serde(default)]
-    pub density: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
     /// Velocity at the start `[m s^-1]`.
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
@@ -27,8 +27,8 @@ pub struct Body {
     #[schemars(with = "vector::Spin")]
     pub spin: [f64; 3],
     /// Particles per cell along each axis, 1 to 8; 4 in 1D and 2 otherwise when left out.
-    #[serde(default, deserialize_with = "particle_count")]
-    pub particles_per_cell: u32,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub particles_per_cell: Option<u32>,
     /// Where particles lie within the lattice.
     #[serde(default)]
     pub sampling: Sampling,
@@ -44,14 +44,6 @@ pub struct Body {
     /// A prescribed motion: of the clamped part, or of the whole body if there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,
-}
-
-/// Refuses an explicit 0, which stands for "left out" until [`super::Scene::load`] has put the default in.
-fn particle_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
-    match u32::deserialize(deserializer)? {
-        0 => Err(serde::de::Error::custom("particles_per_cell is 0; it counts particles along one axis, 1 to 8")),
-        count => Ok(count),
-    }
 }
 
 /// Where the particles of a body lie at the start.
@@ -129,6 +121,18 @@ pub struct MotionAt {
 }
 
 impl Scene {
+    /// Density of a body `[kg m^-3]`: its own, or that of the preset of its material.
+    #[must_use]
+    pub fn density_of(&self, body: &Body) -> Option<f64> {
+        body.density.or_else(|| self.materials.get(&body.material)?.density())
+    }
+
+    /// Particles of a body along each axis of a cell: its own number, or 4 in 1D and 2 otherwise.
+    #[must_use]
+    pub fn particles_along_axis(&self, body: &Body) -> u32 {
+        body.particles_per_cell.unwrap_or(if self.domain.dimension == 1 { 4 } else { 2 })
+    }
+
     /// Whether some body is clamped, driven, or does not slip at walls.
     #[must_use]
     pub fn has_supports(&self) -> bool {

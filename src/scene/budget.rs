@@ -130,7 +130,7 @@ fn work(scene: &Scene) -> Work {
         let all = beside.fold(parts, |sum, (parts, _)| sum.saturating_add(*parts));
         let counts = range_counts(domain, &bounds);
         let rows = counts[1].saturating_mul(counts[2]);
-        let lattice = u64::from(body.particles_per_cell.max(1)).saturating_pow(domain.dimension);
+        let lattice = u64::from(scene.particles_along_axis(body).max(1)).saturating_pow(domain.dimension);
         let most = counts.iter().fold(lattice, |product, count| product.saturating_mul(*count));
         let particles = (most as f64 * share(domain, &body.shape, &bounds, parts)) as u64;
         work.rows = work.rows.saturating_add(rows);

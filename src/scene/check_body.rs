@@ -27,15 +27,16 @@ impl Check<'_> {
         }
         for (index, body) in scene.bodies.iter().enumerate() {
             let path = format!("bodies[{index}]");
-            if body.density == 0.0 {
-                let help = "give a number above 0 [kg m^-3]; only presets of materials bring their own";
-                self.add(format!("{path}.density"), "no density", help);
-            } else {
-                self.positive(format!("{path}.density"), body.density, "[kg m^-3]");
+            match scene.density_of(body) {
+                Some(density) => self.positive(format!("{path}.density"), density, "[kg m^-3]"),
+                None => {
+                    let help = "give a number above 0 [kg m^-3]; only presets of materials bring their own";
+                    self.add(format!("{path}.density"), "no density", help);
+                }
             }
             self.planar(format!("{path}.velocity"), body.velocity);
             self.turning(format!("{path}.spin"), body.spin);
-            self.count(format!("{path}.particles_per_cell"), body.particles_per_cell, 1, 8);
+            self.count(format!("{path}.particles_per_cell"), scene.particles_along_axis(body), 1, 8);
             self.material_of(&path, body);
             self.held(&path, body);
         }

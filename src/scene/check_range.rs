@@ -39,7 +39,7 @@ impl Check<'_> {
             self.material_range(name, material);
         }
         for (index, body) in scene.bodies.iter().enumerate() {
-            self.seen(&format!("bodies[{index}].density"), &[body.density], LEAST, MOST);
+            self.seen(&format!("bodies[{index}].density"), scene.density_of(body).as_slice(), LEAST, MOST);
             self.seen(&format!("bodies[{index}].velocity"), &body.velocity, LEAST_PLAIN, MOST);
             self.seen(&format!("bodies[{index}].spin"), &body.spin, LEAST_PLAIN, MOST);
         }

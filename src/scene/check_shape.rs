@@ -163,7 +163,7 @@ pub(super) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
         if misses(scene, &path, &body.shape, findings) {
             continue;
         }
-        if let Some(point) = outside_point(&scene.domain, body) {
+        if let Some(point) = outside_point(scene, body) {
             let message = format!("body `{}` reaches out of the domain, at {point:?} for example", body.name);
             let (low, high) = body.shape.bounds();
             let hint = remedy(&scene.domain, low, high);
@@ -231,7 +231,8 @@ fn misses(scene: &Scene, path: &str, shape: &Shape, findings: &mut Vec<Finding>)
 }
 
 /// A point of a bounded body outside the domain. Endless bodies, such as a half space, are cut at the sides.
-fn outside_point(domain: &Domain, body: &Body) -> Option<[f64; 3]> {
+fn outside_point(scene: &Scene, body: &Body) -> Option<[f64; 3]> {
+    let domain = &scene.domain;
     let (low, high) = body.shape.bounds();
     let axes = domain.axes();
     let slack = 1e-9 * domain.spacing();
@@ -241,7 +242,7 @@ fn outside_point(domain: &Domain, body: &Body) -> Option<[f64; 3]> {
     {
         return None;
     }
-    let finest = domain.spacing() / f64::from(body.particles_per_cell);
+    let finest = domain.spacing() / f64::from(scene.particles_along_axis(body));
     let count = |d: usize| if d < axes { ((high[d] - low[d]) / finest).ceil().clamp(1.0, SAMPLES) as u32 } else { 1 };
     let at = |d: usize, index: u32| {
         if d < axes { low[d] + (high[d] - low[d]) * (f64::from(index) + 0.5) / f64::from(count(d)) } else { 0.0 }

@@ -72,7 +72,7 @@ impl Scene {
         }
         let moving = self.bodies.iter().map(|body| body.velocity.iter().map(|u| u * u).sum::<f64>().sqrt());
         let speed = moving.fold(speed, f64::max);
-        let wave = |body: &super::Body| Some(self.materials.get(&body.material)?.wave_speed(body.density));
+        let wave = |body: &super::Body| Some(self.materials.get(&body.material)?.wave_speed(self.density_of(body)?));
         let solid = self.bodies.iter().filter_map(wave).fold(0.0, f64::max);
         let (time, spacing) = (&self.time, self.domain.spacing());
         // gas that expands from rest becomes about as fast as its sound

@@ -71,7 +71,7 @@ impl Scene {
                 fracture_energy,
                 asked_energy: fracture.fracture_energy,
                 smallest_piece,
-                fastest_rate: (24.0 * fracture_energy / (body.density * smallest_piece.powi(3))).sqrt(),
+                fastest_rate: (24.0 * fracture_energy / (self.density_of(body)? * smallest_piece.powi(3))).sqrt(),
                 thickness: extents.fold(f64::INFINITY, f64::min),
             })
         };

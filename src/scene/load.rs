@@ -84,19 +84,17 @@ impl Scene {
     }
 
     /// Puts in the defaults that depend on other keys.
-    fn resolve(&mut self) {
-        let default = if self.domain.dimension == 1 { 4 } else { 2 };
-        for body in self.bodies.iter_mut().filter(|body| body.particles_per_cell == 0) {
-            body.particles_per_cell = default;
-        }
+    pub(super) fn resolve(&mut self) {
         for body in &self.bodies {
             let preset = PRESETS.iter().position(|preset| preset.name == body.material);
             if let Some(Ok(material)) = preset.map(|index| Material::of_preset(index, Units::Si, &[])) {
                 self.materials.entry(body.material.clone()).or_insert(material);
             }
         }
-        for body in self.bodies.iter_mut().filter(|body| body.density == 0.0) {
-            body.density = self.materials.get(&body.material).and_then(Material::density).unwrap_or(0.0);
+        let given: Vec<_> =
+            self.bodies.iter().map(|body| (self.density_of(body), self.particles_along_axis(body))).collect();
+        for (body, (density, along_axis)) in self.bodies.iter_mut().zip(given) {
+            (body.density, body.particles_per_cell) = (density, Some(along_axis));
         }
     }
 }

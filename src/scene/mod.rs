@@ -8,6 +8,7 @@
 mod body;
 mod boundary;
 mod budget;
+mod build;
 mod camera;
 mod check;
 mod check_body;
@@ -62,6 +63,7 @@ pub use boundary::{
     TimedState,
 };
 pub use budget::MOST_PARTICLES;
+pub use build::SceneBuilder;
 pub use camera::{Camera, CameraKey, CameraPath};
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;

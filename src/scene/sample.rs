@@ -100,9 +100,9 @@ impl Scene {
         let resolved = (1..sampled.inside.len()).contains(&count);
         let ratio = if resolved { (sampled.layer / count as f64).clamp(LAYER[0], LAYER[1]) } else { 1.0 };
         let ratio = if (ratio - 1.0).abs() < EXACT { 1.0 } else { ratio };
-        let per_cell = f64::from(body.particles_per_cell).powi(self.domain.dimension as i32);
+        let per_cell = f64::from(self.particles_along_axis(body)).powi(self.domain.dimension as i32);
         let volume = self.domain.cell_volume() / per_cell;
-        let material = self.material_index(&body.material).unwrap_or(0);
+        let (material, density) = (self.material_index(&body.material).unwrap_or(0), self.density_of(body));
         let claim = self.claim(index);
         let weibull = self.materials.get(&body.material).and_then(Material::fracture).and_then(|f| f.weibull);
         let seed = |(number, (position, outer)): (usize, ([f64; 3], bool))| Seed {
@@ -113,7 +113,7 @@ impl Scene {
             velocity: body.velocity,
             spin: body.spin,
             volume: volume * if outer { ratio } else { 1.0 },
-            density: body.density,
+            density: density.unwrap_or_default(), // a scene without one is refused
             driven: false,
             broken: body.cracks.iter().any(|crack| crack.distance(position) < 0.0),
             strength: weibull.map_or(0.0, |weibull| {
@@ -159,7 +159,7 @@ impl Scene {
 
     /// Part of a body's lattice points that lie in another shape.
     fn common_share(&self, body: &Body, other: &Shape) -> f64 {
-        let offsets = lattice(self.domain.axes(), body.particles_per_cell);
+        let offsets = lattice(self.domain.axes(), self.particles_along_axis(body));
         let count = |(range, row): (Range<u32>, [u32; 2])| {
             let mut sums = [0u64; 2];
             self.cells_near(&body.shape, range, row, &mut |center| {
@@ -200,8 +200,8 @@ impl Scene {
 
     fn sample_row(&self, claim: &Claim<'_>, range: Range<u32>, row: [u32; 2]) -> Sampled {
         let (spacing, radius) = (self.domain.spacing(), self.cell_radius());
-        let fine = spacing / f64::from(claim.body.particles_per_cell);
-        let offsets = lattice(self.domain.axes(), claim.body.particles_per_cell);
+        let fine = spacing / f64::from(self.particles_along_axis(claim.body));
+        let offsets = lattice(self.domain.axes(), self.particles_along_axis(claim.body));
         let mut sampled = Sampled::default();
         self.cells_near(&claim.body.shape, range, row, &mut |center| {
             // distances are nowhere steeper than 1
@@ -224,7 +224,7 @@ impl Scene {
 
     /// Moves a particle off its lattice point, if that does not leave the body.
     fn jittered(&self, claim: &Claim<'_>, position: [f64; 3], outer: bool, number: usize) -> [f64; 3] {
-        let fine = self.domain.spacing() / f64::from(claim.body.particles_per_cell);
+        let fine = self.domain.spacing() / f64::from(self.particles_along_axis(claim.body));
         let axes = self.domain.axes();
         let shift = |d: usize| if d < axes { JITTER * fine * random(3 * number + d) } else { 0.0 };
         let moved = std::array::from_fn(|d| position[d] + shift(d));

@@ -28,6 +28,19 @@ pub struct Time {
     pub fixed_step: Option<f64>,
 }
 
+impl Default for Time {
+    fn default() -> Self {
+        Time {
+            until: 1.0,
+            cfl: Time::default_cfl(),
+            frames: Time::default_frames(),
+            max_courant: Time::default_max_courant(),
+            max_growth: Time::default_max_growth(),
+            fixed_step: None,
+        }
+    }
+}
+
 impl Time {
     fn default_cfl() -> f64 {
         0.5

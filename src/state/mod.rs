@@ -346,7 +346,7 @@ fn switches(supports: &Supports, whole: bool) -> [(&'static str, f64); 3] {
 /// What the particles of the start add to the parameters.
 fn solid_limits(scene: &Scene, start: &ParticleStart) -> SolidLimits {
     let dimension = scene.domain.dimension as i32;
-    let per_cell = scene.bodies.iter().map(|body| f64::from(body.particles_per_cell).powi(dimension));
+    let per_cell = scene.bodies.iter().map(|body| f64::from(scene.particles_along_axis(body)).powi(dimension));
     SolidLimits {
         particles: start.len() as u32,
         max_density: start.max_density,

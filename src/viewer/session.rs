@@ -7,7 +7,7 @@ use super::pick;
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Ending, Summary, Warning};
 use crate::gpu::{Detail, Gpu};
-use crate::render::{Picture, Renderer, SceneBuffers};
+use crate::render::{Picture, Renderer};
 use crate::scene::{Camera, Field, RenderSettings, Scene};
 use crate::simulation::{Blast, Simulation};
 use crate::state::MemoryPlan;
@@ -40,7 +40,7 @@ impl Session {
     pub fn open(gpu: &Gpu, scene: Scene) -> Result<Self> {
         let plan = MemoryPlan::fitting(&scene, gpu)?;
         let mut simulation = Simulation::new(gpu, &scene)?;
-        let renderer = Renderer::new(gpu, &scene, &SceneBuffers::of(&simulation.state))?;
+        let renderer = Renderer::of(&simulation, &scene)?;
         simulation.set_target(scene.time.until)?;
         let particles = plan.particles;
         let (start, summary, warnings) = (Budget::read(&simulation, &scene, 0.0)?, Summary::default(), Vec::new());

@@ -2,7 +2,7 @@
 
 use super::Found;
 use crate::gpu::Gpu;
-use crate::render::{Renderer, SceneBuffers};
+use crate::render::Renderer;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::{Error, Result};
@@ -14,7 +14,7 @@ const STORED: &[u8] = include_bytes!("../../../assets/selftest.png");
 pub(super) fn picture(gpu: &Gpu, _full: bool) -> Result<Found> {
     let scene = Scene::find("bursting_shell_3d", &["render.size=[96,72]".to_owned()])?.with_resolution(16)?;
     let simulation = Simulation::new(gpu, &scene)?;
-    let mut renderer = Renderer::new(gpu, &scene, &SceneBuffers::of(&simulation.state))?;
+    let mut renderer = Renderer::of(&simulation, &scene)?;
     let drawn = renderer.render(0.0)?;
     let frame = &drawn.first().ok_or_else(|| Error::Gpu("no picture was drawn".to_owned()))?.frame;
     let stored = stored().ok_or_else(|| Error::Gpu("the stored picture cannot be read".to_owned()))?;

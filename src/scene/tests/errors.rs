@@ -149,7 +149,7 @@ fn presets() {
     let hull = &scene.materials["hull"];
     assert_eq!(hull.parameter("yield_stress"), Some(5.0));
     assert_eq!(hull.parameter("young_modulus"), Some(2e11 / 101_325.0));
-    assert_eq!((hull.parameter("poisson_ratio"), scene.bodies[0].density), (Some(0.3), 7850.0 / 1.225));
+    assert_eq!((hull.parameter("poisson_ratio"), scene.bodies[0].density), (Some(0.3), Some(7850.0 / 1.225)));
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn overrides_reach_every_kind_of_key() {
         ],
     );
     assert_eq!(scene.gas.ambient.density, 2.0);
-    assert_eq!((scene.bodies[0].density, scene.domain.cells), (3.5, [40, 20, 1]));
+    assert_eq!((scene.bodies[0].density, scene.domain.cells), (Some(3.5), [40, 20, 1]));
     assert_eq!((scene.title.as_str(), scene.time.cfl), ("a new title", 0.25));
     assert_eq!(scene.bodies[0].shape.bounds().0[0], 0.2);
     assert_eq!(parse(BASE, &["boundary.x_min=outlet"]).boundary.x_min, crate::scene::Boundary::Outlet);

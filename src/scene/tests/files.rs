@@ -100,9 +100,9 @@ fn defaults_depend_on_the_dimension() {
     let body = "[[bodies]]\nname = \"b\"\nmaterial = \"rubber\"\ndensity = 1.0\nshape = { box = { center = [0.5], size = [0.5] } }\n";
     let line =
         BASE.replace("dimension = 2", "dimension = 1").replace("[20, 10]", "[20]").replace("[2.0, 1.0]", "[2.0]");
-    assert_eq!(parse(&format!("{line}{body}"), &[]).bodies[0].particles_per_cell, 4);
+    assert_eq!(parse(&format!("{line}{body}"), &[]).bodies[0].particles_per_cell, Some(4));
     let plane = body.replace("[0.5]", "[0.5, 0.5]");
-    assert_eq!(parse(&format!("{BASE}{plane}"), &[]).bodies[0].particles_per_cell, 2);
+    assert_eq!(parse(&format!("{BASE}{plane}"), &[]).bodies[0].particles_per_cell, Some(2));
 }
 
 /// Collects the names of properties and the values of enumerations.

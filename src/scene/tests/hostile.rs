@@ -132,7 +132,7 @@ fn names_and_titles_that_tables_and_films_cannot_carry() {
 #[test]
 fn a_preset_is_a_material_by_its_name() {
     let scene = parse(&body(BALL).replace("\"rubber\"\ndensity = 1.0", "\"steel\""), &[]);
-    assert_eq!(scene.bodies[0].density, 7850.0);
+    assert_eq!(scene.bodies[0].density, Some(7850.0));
     assert!(scene.materials.contains_key("steel"));
     expect(&body(BALL).replace("\"rubber\"", "\"stel\""), &[], &["unknown material `stel`", "did you mean `steel`"]);
     let pot = "{ revolve = { points = [[0.0, 0.1], [0.2, 0.1], [0.2, 0.4], [0.0, 0.4]] } }";
