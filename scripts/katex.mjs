@@ -8,12 +8,23 @@ if (process.argv[2] === "supports") process.exit(process.argv[3] === "html" ? 0 
 const katex = createRequire(`${process.env.BRISANCE_BOOK_TOOLS}/`)("katex");
 const PARTS = /(^```[\s\S]*?^```|`+[^`]*`+)|\$\$([\s\S]+?)\$\$|\$([^$\n]+?)\$/gm;
 
+// First letters, large and small, of the alphabets that browsers know by character and not by attribute.
+const ALPHABETS = { bold: [0x1d400, 0x1d41a], "sans-serif": [0x1d5a0, 0x1d5ba], monospace: [0x1d670, 0x1d68a] };
+
+function lettered(all, variant, text) {
+    const [large, small] = ALPHABETS[variant] ?? [];
+    if (large === undefined) return all;
+    const letter = (c) => String.fromCodePoint(c < "a" ? large + c.charCodeAt(0) - 65 : small + c.charCodeAt(0) - 97);
+    return `<mi>${text.replace(/[A-Za-z]/g, letter)}</mi>`;
+}
+
 function rendered(name, source, displayMode) {
     try {
         const text = katex.renderToString(source.trim(), { displayMode, output: "mathml", strict: "error" });
         // Without the source that KaTeX repeats, and with nothing in it that Markdown would read.
         const plain = text.replace(/<annotation.*?<\/annotation>/s, "").replaceAll("\n", " ");
-        return plain.replace(/[*_`|[\]\\]/g, (sign) => `&#${sign.charCodeAt(0)};`);
+        const known = plain.replace(/<mi mathvariant="([a-z-]+)">([^<]*)<\/mi>/g, lettered);
+        return known.replace(/[*_`|[\]\\]/g, (sign) => `&#${sign.charCodeAt(0)};`);
     } catch (error) {
         throw new Error(`${name}: ${source.trim()}: ${error.message}`);
     }
