@@ -114,6 +114,16 @@ fn assert_balanced(html: &str) {
 }
 
 #[test]
+fn the_book_names_every_case() {
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/results/validation.md")).unwrap();
+    let missing: Vec<_> = verify::cases().map(|case| case.id).filter(|id| !page.contains(&format!("`{id}`"))).collect();
+    assert!(
+        missing.is_empty(),
+        "docs/results/validation.md: brisance verify --full --markdown has lines for {missing:?}"
+    );
+}
+
+#[test]
 fn documents_are_well_formed() {
     let mut rows = vec![row("sod", 1.0), row("lax", f64::NAN)];
     rows[1].pass(Limit::AtMost(1.0));
