@@ -44,7 +44,8 @@ const BANNED: [&str; 24] = [
 ];
 
 /// Folders whose paths, where a page names them as code, must exist.
-const FOLDERS: [&str; 8] = ["shaders/", "src/", "tests/", "scripts/", "scenes/", "docs/", "assets/", "python/"];
+const FOLDERS: [&str; 9] =
+    ["shaders/", "src/", "tests/", "scripts/", "scenes/", "docs/", "assets/", "python/", "examples/"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
