@@ -1,8 +1,11 @@
 //! The bodies of a scene as wholes: where they are, how they move, how many pieces they have broken into.
 
+mod fragments;
+
 use serde::Serialize;
 
 use crate::snapshot::{ParticleSample, Snapshot};
+pub use fragments::{Fragment, SPEEDS};
 
 /// One body at one time. Values are those of the particles that are still inside the domain.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -98,7 +101,7 @@ impl Snapshot {
             self.particles.iter().filter(|one| one.damage < 1.0).map(|one| self.place(one)).collect();
         places.sort_unstable();
         places.dedup();
-        let mut groups = Groups((0..places.len()).collect());
+        let mut groups = Groups::of(places.len());
         for (index, &(body, [z, y, x])) in places.iter().enumerate() {
             for offset in 0..13 {
                 // The 13 neighbours that come before a cell in the order of `places`.
@@ -153,10 +156,17 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// Disjoint groups of indices: each entry names another member of its group, the root itself. [Tarjan 1975]
-struct Groups(Vec<usize>);
+#[derive(Debug)]
+pub(crate) struct Groups(Vec<usize>);
 
 impl Groups {
-    fn root(&mut self, mut index: usize) -> usize {
+    /// So many groups of one.
+    pub(crate) fn of(count: usize) -> Self {
+        Self((0..count).collect())
+    }
+
+    /// The root of a member's group.
+    pub(crate) fn root(&mut self, mut index: usize) -> usize {
         while self.0[index] != index {
             self.0[index] = self.0[self.0[index]];
             index = self.0[index];
@@ -164,7 +174,8 @@ impl Groups {
         index
     }
 
-    fn join(&mut self, a: usize, b: usize) {
+    /// Makes one group of two.
+    pub(crate) fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b);
     }

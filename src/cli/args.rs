@@ -35,7 +35,7 @@ pub enum Command {
     Run(RunOptions),
     /// Draw the frames of a run again, with another camera or look, without simulating
     Render(RenderOptions),
-    /// Write the states of a run for other programs: vtk, vdb, usd, npz
+    /// Write the states of a run for other programs: vtk, vdb, usd, mesh, npz
     Convert(ConvertOptions),
     /// Watch a scene in a live window; without a verb, the gallery of all scenes
     View(ViewOptions),
@@ -288,7 +288,7 @@ pub struct SweepOptions {
 pub struct ConvertOptions {
     /// Folder of a run that has states (`brisance run SCENE --export states`) or checkpoints
     pub run: PathBuf,
-    /// Formats: vtk, vdb, usd, npz; separated by commas, may be repeated
+    /// Formats: vtk, vdb, usd, mesh, npz; separated by commas, may be repeated
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', required = true)]
     pub to: Vec<String>,
     /// Only this frame; may be repeated

@@ -10,10 +10,13 @@ pub mod container;
 pub mod csv;
 mod encoder;
 pub mod exr;
+pub mod mesh;
 mod npy;
+mod ply;
 pub mod png;
 pub mod report;
 pub mod states;
+pub mod surface;
 mod units;
 pub mod usd;
 pub mod vdb;
@@ -201,6 +204,11 @@ pub const FORMATS: &[Format] = &[
         name: "usd",
         description: "stage.usda with camera, volumes (vdb/NNNN.vdb) and bodies as points, usd/NNNN.usda",
         open: |folder| Box::new(usd::UsdExporter::new(folder)),
+    },
+    Format {
+        name: "mesh",
+        description: "mesh/NNNN.ply: closed surfaces of the pieces of bodies; mesh/NNNN.csv: the pieces; mesh/obstacles.ply; in 3D",
+        open: |folder| Box::new(mesh::MeshExporter::new(folder)),
     },
     Format {
         name: "npz",

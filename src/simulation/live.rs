@@ -31,6 +31,14 @@ impl Simulation {
         Ok(())
     }
 
+    /// Whether no step is under way, so that the state can be copied.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn is_settled(&self) -> Result<bool> {
+        Ok(self.control()?.phase == 0)
+    }
+
     /// Goes on with the parameters of `to` instead of those of `from`, the scene as it is now. Gravity, `time.cfl`, `time.max_courant`,
     /// `time.max_growth`, the tolerance and blending of `numerics`, and the states of open sides may differ.
     ///

@@ -1,6 +1,6 @@
 //! The bars above and below the picture: title and device, transport and clock.
 
-use egui::{Align, Layout, ProgressBar, RichText, Ui};
+use egui::{Align, Layout, ProgressBar, RichText, Sense, Ui};
 
 use super::keys::Action;
 use super::model::{Pace, Phase, Request, Status};
@@ -72,7 +72,7 @@ pub(super) fn bottom(ui: &mut Ui, view: Option<&mut View>, status: &Status) -> V
         }
         if let Some(view) = view {
             pace(ui, view);
-            clock(ui, view, status);
+            asked.extend(clock(ui, view, status));
         }
     });
     ui.add_space(1.0);
@@ -98,7 +98,8 @@ fn pace(ui: &mut Ui, view: &mut View) {
     }
 }
 
-fn clock(ui: &mut Ui, view: &View, status: &Status) {
+/// Time, rate, warnings and the time line; where it was dragged to.
+fn clock(ui: &mut Ui, view: &View, status: &Status) -> Option<Action> {
     let until = view.scene.time.until;
     let rate = match status.steps_per_second {
         rate if rate > 0.0 => format!("{rate:.1} steps/s"),
@@ -112,6 +113,7 @@ fn clock(ui: &mut Ui, view: &View, status: &Status) {
         format!("   recording: {count} {}", if count == 1 { "picture" } else { "pictures" })
     });
     let text = format!("t = {} s   step {}   {rate}{recorded}", plain(status.time), status.step);
+    let mut asked = None;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.label(RichText::new(text).monospace());
         if !status.warnings.is_empty() {
@@ -120,10 +122,26 @@ fn clock(ui: &mut Ui, view: &View, status: &Status) {
         }
         let width = ui.available_width() - 8.0;
         if width > 40.0 {
-            let share = (status.time / until).clamp(0.0, 1.0) as f32;
-            ui.add(ProgressBar::new(share).desired_width(width).desired_height(8.0).fill(theme::ACCENT));
+            asked = time_line(ui, until, status, width);
         }
     });
+    asked
+}
+
+/// The time line, with a mark for each state that is kept; where it was dragged to.
+fn time_line(ui: &mut Ui, until: f64, status: &Status, width: f32) -> Option<Action> {
+    let share = (status.time / until).clamp(0.0, 1.0) as f32;
+    let bar = ui.add(ProgressBar::new(share).desired_width(width).desired_height(8.0).fill(theme::ACCENT));
+    for time in &status.kept {
+        let x = bar.rect.left() + bar.rect.width() * (time / until).clamp(0.0, 1.0) as f32;
+        ui.painter().vline(x, bar.rect.y_range(), egui::Stroke::new(1.0, theme::FAINT));
+    }
+    let place = bar.rect.expand2(egui::vec2(0.0, 4.0));
+    let line = ui.interact(place, ui.scope_id().with("time line"), Sense::click_and_drag());
+    let line = line.on_hover_text("drag: back to a state that is kept; from there the scene goes on");
+    let pointer = line.interact_pointer_pos().filter(|_| line.dragged() || line.clicked())?;
+    let share = f64::from((pointer.x - bar.rect.left()) / bar.rect.width().max(1.0));
+    Some(Action::Rewind(share.clamp(0.0, 1.0) * until))
 }
 
 /// The mark of a run whose result is not to be trusted.

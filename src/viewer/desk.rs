@@ -1,6 +1,7 @@
 //! What the worker does: obeys commands, steps the scene within its budget, draws, and leaves the outcome in the outbox.
 
 mod files;
+mod rewind;
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -138,6 +139,7 @@ impl Desk {
                 Ok(())
             }
             Command::Change(scene) => self.change(*scene),
+            Command::Rewind(time) => self.rewind(time),
             Command::Detonate(strike) => self.strike(&strike),
             Command::Screenshot => self.screenshot(),
             Command::Record(on) => self.record(on),
@@ -167,12 +169,16 @@ impl Desk {
     fn open(&mut self, request: &Request, look: Option<Box<Look>>) -> Result<()> {
         self.close();
         lock(&self.outbox).status.phase = Phase::Opening;
+        // mistakes are told before a device is opened
         let scene = request.load()?;
         let gpu = match &self.gpu {
             Some(gpu) => gpu.clone(),
             None => self.gpu.insert(Gpu::new(&self.options)?).clone(),
         };
-        let session = Session::open(&gpu, scene)?;
+        let session = match request.run() {
+            Some(run) => Session::open_run(&gpu, run)?,
+            None => Session::open(&gpu, scene)?,
+        };
         let look = look.map_or_else(|| session.look(), |look| *look);
         self.folder = Path::new(OUT).join(stem(&request.name));
         lock(&self.outbox).opened = Some(Opened {
@@ -377,6 +383,7 @@ impl Desk {
             step_seconds: self.budget.step_seconds(),
             picture_seconds: self.budget.picture_seconds(),
             recorded: self.recording.as_ref().map(Recording::count),
+            kept: session.map_or_else(Vec::new, Session::kept),
             warnings: session.map_or_else(Vec::new, Session::unexpected),
         };
         let mut outbox = lock(&self.outbox);

@@ -78,6 +78,12 @@ impl History {
         }
     }
 
+    /// Forgets what came after a time \[s\].
+    pub(super) fn forget_after(&mut self, time: f64) {
+        self.points.retain(|point| point.time <= time);
+        self.count = self.points.len() * self.stride;
+    }
+
     /// One curve over time.
     pub(super) fn curve(&self, value: impl Fn(&Point) -> f64) -> Vec<[f64; 2]> {
         self.points.iter().map(|point| [point.time, value(point)]).filter(|pair| pair[1].is_finite()).collect()
@@ -100,5 +106,7 @@ mod tests {
         let gaps: Vec<f64> = curve.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
         assert!(gaps.iter().all(|gap| *gap == gaps[0]), "evenly spaced");
         assert!(curve.last().unwrap()[0] > 99_000.0);
+        history.forget_after(50_000.0);
+        assert!(history.curve(|point| point.dt).last().unwrap()[0] <= 50_000.0);
     }
 }

@@ -11,6 +11,8 @@ pub enum Action {
     Play,
     /// So many single steps.
     Step(u32),
+    /// The last state that is kept up to a time \[s\].
+    Rewind(f64),
     /// The scene from its start.
     Restart,
     /// Everything in the picture.
@@ -62,12 +64,13 @@ pub const HELP: [(&str, &str); 16] = [
 ];
 
 /// What the help says about the mouse.
-pub const MOUSE: [(&str, &str); 6] = [
+pub const MOUSE: [(&str, &str); 7] = [
     ("Left drag", "turn (3D) or shift (2D)"),
     ("Right or middle drag", "shift"),
     ("Wheel", "nearer or farther, towards the pointer"),
     ("Double click", "fit everything into the picture"),
     ("Ctrl+click", "detonate: energy and radius stand in the panel"),
+    ("Drag on the time line", "back to a state that is kept; from there the scene goes on"),
     ("File dropped on the window", "opens it"),
 ];
 

@@ -18,6 +18,7 @@ mod history;
 pub mod keys;
 pub mod model;
 mod panel;
+mod past;
 pub mod pick;
 pub mod record;
 pub mod session;

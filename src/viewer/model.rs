@@ -3,15 +3,16 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::Result;
+use super::past;
 use crate::diagnostics::StepRecord;
 use crate::render::Picture;
 use crate::scene::{Camera, Field, RenderSettings, Scene};
+use crate::{Error, Result};
 
 /// A scene to open: file or name of a shipped one, and what to change about it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
-    /// Path of a scene file, or name of a shipped scene.
+    /// Path of a scene file, name of a shipped scene, or folder of a run.
     pub name: String,
     /// Changes of keys, as `--set` takes them.
     pub overrides: Vec<String>,
@@ -31,11 +32,25 @@ impl Request {
     /// # Errors
     /// Those of [`Scene::find`].
     pub fn load(&self) -> Result<Scene> {
+        if let Some(run) = self.run() {
+            if !self.overrides.is_empty() || self.resolution.is_some() {
+                let text =
+                    "a run is shown as it was; what may change does so in the window, or by `brisance run --branch`";
+                return Err(Error::Usage(format!("{}: {text}", run.display())));
+            }
+            return past::of_run(run).map(|(scene, ..)| scene);
+        }
         let scene = Scene::find(&self.name, &self.overrides)?;
         match self.resolution {
             Some(cells) => scene.with_resolution(cells),
             None => Ok(scene),
         }
+    }
+
+    /// The folder of a run, if it is one.
+    #[must_use]
+    pub fn run(&self) -> Option<&Path> {
+        Some(Path::new(&self.name)).filter(|path| path.is_dir())
     }
 
     /// The file behind the request; none for a scene that the program carries.
@@ -97,6 +112,8 @@ pub enum Command {
     },
     /// Go on with other parameters.
     Change(Box<Scene>),
+    /// Go to the last state that is kept up to a time \[s\].
+    Rewind(f64),
     /// Set energy free at a point of the picture.
     Detonate(Strike),
     /// Save the picture.
@@ -144,6 +161,8 @@ pub struct Status {
     pub picture_seconds: f64,
     /// Pictures of the recording under way.
     pub recorded: Option<u32>,
+    /// Times of the states to go back to \[s\].
+    pub kept: Vec<f64>,
     /// What the run is warned of so far; expected warnings are left out.
     pub warnings: Vec<String>,
 }
@@ -207,6 +226,8 @@ pub struct Outbox {
     pub opened: Option<Opened>,
     /// The newest picture.
     pub shown: Option<Shown>,
+    /// The scene went to another time \[s\]: what is known of later ones is gone, but for `records`.
+    pub rewound: Option<f64>,
     /// Steps done.
     pub records: Vec<StepRecord>,
     /// Milliseconds of each stage of a step.

@@ -1,8 +1,10 @@
 //! One open scene: simulation and renderer on one device. No thread and no window: tests drive it as the worker does.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use super::model::{Look, Strike};
+use super::past::{self, Kept, Past};
 use super::pick;
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Ending, Summary, Warning};
@@ -30,6 +32,7 @@ pub struct Session {
     start: Budget,
     summary: Summary,
     warnings: Vec<Warning>,
+    past: Past,
 }
 
 impl Session {
@@ -38,14 +41,33 @@ impl Session {
     /// # Errors
     /// If it does not fit, or a shader or the driver fails.
     pub fn open(gpu: &Gpu, scene: Scene) -> Result<Self> {
+        let mut session = Self::new(gpu, scene, Vec::new())?;
+        session.keep()?;
+        Ok(session)
+    }
+
+    /// Opens a run on the disk at its last checkpoint.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if it has none; [`Error::Io`]; those of [`Session::open`].
+    pub fn open_run(gpu: &Gpu, run: &Path) -> Result<Self> {
+        let (scene, kept, start) = past::of_run(run)?;
+        let mut session = Self::new(gpu, scene, kept)?;
+        session.start = start;
+        session.rewind(f64::INFINITY)?;
+        Ok(session)
+    }
+
+    fn new(gpu: &Gpu, scene: Scene, kept: Vec<Kept>) -> Result<Self> {
         let plan = MemoryPlan::fitting(&scene, gpu)?;
         let mut simulation = Simulation::new(gpu, &scene)?;
         let renderer = Renderer::of(&simulation, &scene)?;
         simulation.set_target(scene.time.until)?;
         let particles = plan.particles;
         let (start, summary, warnings) = (Budget::read(&simulation, &scene, 0.0)?, Summary::default(), Vec::new());
+        let past = Past::new(scene.time.until, simulation.saved_bytes(), kept);
         let scene = Arc::new(scene);
-        Ok(Self { scene, simulation, renderer, particles, finished: false, dt: 0.0, start, summary, warnings })
+        Ok(Self { scene, simulation, renderer, particles, finished: false, dt: 0.0, start, summary, warnings, past })
     }
 
     /// The scene as it is now.
@@ -112,11 +134,47 @@ impl Session {
     /// # Errors
     /// [`Error::Diverged`]; driver errors.
     pub fn advance(&mut self, steps: u32, records: &mut Vec<StepRecord>) -> Result<()> {
+        self.past.forget_after(self.time());
         let before = records.len();
         let outcome = self.simulation.advance_batch_of(records, steps);
         self.note(&records[before..]);
         self.finished = outcome?;
+        self.keep()?;
         self.judge()
+    }
+
+    /// Keeps the state where one is due, unless a step is under way.
+    fn keep(&mut self) -> Result<()> {
+        if self.past.is_due(self.time()) && self.simulation.is_settled()? {
+            let saved = self.simulation.save()?;
+            self.past.keep(Kept::of(saved, self.summary.clone()));
+        }
+        Ok(())
+    }
+
+    /// Goes to the last state that is kept up to a time \[s\], with the parameters of now; its time \[s\].
+    ///
+    /// # Errors
+    /// [`Error::Io`] if a checkpoint cannot be read; [`Error::Usage`] if it is none of this scene; driver errors.
+    pub fn rewind(&mut self, time: f64) -> Result<f64> {
+        let Some(kept) = self.past.latest(time) else { return Ok(self.time()) };
+        if kept.step != self.step_count() || kept.time != self.time() {
+            let saved = kept.saved(self.simulation.saved_bytes())?;
+            self.simulation.restore(&saved)?;
+            self.summary = kept.summary.clone();
+            self.dt = self.summary.last.as_ref().map_or(0.0, |last| last.dt.into());
+            let until = self.scene.time.until;
+            self.finished = self.time() >= until * (1.0 - 1e-6);
+            self.simulation.set_target(if self.finished { NEVER } else { until })?;
+            self.warnings = expect::marks(&self.scene, &self.start, &self.summary);
+        }
+        Ok(self.time())
+    }
+
+    /// Times of the states to go back to \[s\].
+    #[must_use]
+    pub fn kept(&self) -> Vec<f64> {
+        self.past.times()
     }
 
     /// Runs one step with a stopwatch; milliseconds of its stages, none without timestamps.

@@ -70,6 +70,9 @@ impl View {
 
     /// Takes what the worker has left.
     pub(super) fn receive(&mut self, outbox: Outbox) {
+        if let Some(time) = outbox.rewound {
+            self.history.forget_after(time);
+        }
         self.history.add(&outbox.records);
         if let Some(stages) = outbox.stages {
             self.stages = stages;
@@ -135,6 +138,7 @@ impl View {
         match action {
             Action::Play => self.commands.push(Command::Play(!status.playing)),
             Action::Step(steps) => self.commands.push(Command::Steps(steps)),
+            Action::Rewind(time) => self.commands.push(Command::Rewind(time)),
             Action::Screenshot => self.commands.push(Command::Screenshot),
             Action::Record => self.commands.push(Command::Record(status.recorded.is_none())),
             Action::Fit => self.fit(),

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use brisance::export::{self, Moment, Needs, Origin};
+use brisance::scene::Scene;
 use brisance::snapshot::{ParticleSample, Snapshot, kind};
 use brisance::state::Grid;
 
@@ -104,10 +105,85 @@ fn vtk_files_hold_the_snapshot() {
     }
 }
 
+/// A bar of particles, whose right half has gone `gap` cells away.
+fn bar(gap: f32) -> Snapshot {
+    let mut state = snapshot(3);
+    state.grid = Grid { dimension: 3, cells: [16, 8, 8], origin: [0.0; 3], spacing: 0.5 };
+    let particle = |k: usize| {
+        let [x, y, z] = [k % 8, k / 8 % 4, k / 32].map(|x| x as f32);
+        let away = if k % 8 < 4 { 0.0 } else { 0.5 * gap };
+        ParticleSample {
+            index: k as u32,
+            position: [0.25 * x + 0.6 + away, 0.25 * y + 1.1, 0.25 * z + 1.1],
+            velocity: [away, 0.0, 0.0],
+            volume0: 0.015625,
+            deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            body: 0,
+            ..state.particles[0]
+        }
+    };
+    state.particles = (0..128).map(particle).collect();
+    state
+}
+
+#[test]
+fn pieces_have_surfaces_numbers_and_parents() {
+    let text = "title = \"t\"\ndomain = { dimension = 3, cells = [16, 8, 8], size = [8.0, 4.0, 4.0] }\ntime = { until = 1.0, frames = 1 }\n\
+        gas = { ambient = { density = 1.0, pressure = 1.0 } }\n[[obstacles]]\nname = \"ball\"\n\
+        shape = { sphere = { center = [6.0, 2.0, 2.0], radius = 1.0 } }\n";
+    let origin = Origin::of(&Scene::parse(text, "t.toml", &[]).unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = ["mesh".to_owned()];
+    let write = |exporter: &mut Box<dyn export::Exporter>, index: u32, state: &Snapshot| {
+        let (pictures, snapshot, stored) = (&[][..], Some(state), None);
+        exporter.write(&Moment { index, origin: &origin, time: f64::from(index), step: 0, pictures, snapshot, stored })
+    };
+    let rows = |index: u32| {
+        let text = std::fs::read_to_string(folder.path().join(format!("mesh/{index:04}.csv"))).unwrap();
+        let row = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        text.lines().skip(1).map(row).collect::<Vec<_>>()
+    };
+    let mut exporters = export::open(&mesh, folder.path()).unwrap();
+    for (index, gap) in [(0, 0.0), (1, 0.1), (2, 4.0)] {
+        write(&mut exporters[0], index, &bar(gap)).unwrap();
+    }
+    assert_eq!(rows(0).iter().map(|row| row[..2].join(" ")).collect::<Vec<_>>(), ["0 -"]);
+    assert_eq!(rows(1).iter().map(|row| row[..2].join(" ")).collect::<Vec<_>>(), ["0 0"]);
+    let split = rows(2);
+    assert_eq!(split.iter().map(|row| row[..2].join(" ")).collect::<Vec<_>>(), ["0 0", "4 0"]);
+    let number = |row: usize, column: usize| split[row][column].parse::<f64>().unwrap();
+    // 1 x 1 x 1 m each, moving with 0 and 2 m/s; edges of a body of four particles are round
+    assert!((0..2).all(|row| (14..17).all(|k| (number(row, k) - 1.0).abs() < 1e-5)), "{split:?}");
+    assert!((0..2).all(|row| (number(row, 17) - 0.85).abs() < 0.02) && (number(1, 8) - 2.0).abs() < 1e-6, "{split:?}");
+    let head = std::fs::read(folder.path().join("mesh/0002.ply")).unwrap();
+    let head = String::from_utf8_lossy(&head[..600]).into_owned();
+    assert!(
+        head.starts_with("ply\nformat binary_little_endian 1.0\n") && head.contains("property uint piece"),
+        "{head}"
+    );
+    assert!(folder.path().join("mesh/obstacles.ply").is_file());
+    // a run that goes on knows where pieces come from
+    let whole = std::fs::read(folder.path().join("mesh/0002.csv")).unwrap();
+    std::fs::remove_file(folder.path().join("mesh/0002.csv")).unwrap();
+    let mut again = export::open(&mesh, folder.path()).unwrap();
+    again[0].go_on(2, &|index| f64::from(index)).unwrap();
+    write(&mut again[0], 2, &bar(4.0)).unwrap();
+    assert_eq!(std::fs::read(folder.path().join("mesh/0002.csv")).unwrap(), whole);
+    std::fs::write(folder.path().join("mesh/0001.npy"), "cut").unwrap();
+    again[0].go_on(2, &|index| f64::from(index)).unwrap();
+    let error = write(&mut again[0], 2, &bar(4.0)).unwrap_err();
+    assert!(error.exit_code() == 9 && error.to_string().contains("0001.npy"), "{error}");
+    let error = write(&mut again[0], 3, &snapshot(2)).unwrap_err();
+    assert!(error.exit_code() == 2 && error.to_string().contains("three dimensions"), "{error}");
+}
+
 #[test]
 fn unknown_format_lists_the_known_ones() {
     let error = export::open(&["gif".to_owned()], Path::new("out")).err().unwrap();
-    assert_eq!(error.to_string(), "no export format `gif`; there are: png, png16, exr, states, vtk, vdb, usd, npz");
+    assert_eq!(
+        error.to_string(),
+        "no export format `gif`; there are: png, png16, exr, states, vtk, vdb, usd, mesh, npz"
+    );
     assert_eq!(error.exit_code(), 2);
 }
 

@@ -55,18 +55,76 @@ fn live_pictures_are_those_of_a_run_byte_by_byte() {
     }
 }
 
+/// From a state that is kept, a scene goes on as it did, to the bit; with other gravity it goes another way.
+#[test]
+fn a_scene_goes_back_and_on_again() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = Scene::parse(SPACE, "charge.toml", &["render.size=[64,48]".to_owned()]).unwrap();
+    let mut session = Session::open(&gpu, scene.clone()).unwrap();
+    let mut records = Vec::new();
+    while session.kept().len() < 4 {
+        session.advance(1, &mut records).unwrap();
+    }
+    let (kept, last) = (session.kept(), session.time());
+    assert_eq!(kept[0], 0.0);
+    let back = session.rewind(0.5 * (kept[2] + last)).unwrap();
+    assert_eq!((back, session.time(), session.kept().len()), (kept[2], kept[2], 4));
+    let from = records.iter().position(|record| record.time > back).unwrap();
+    let mut again = Vec::new();
+    while again.len() < records.len() - from {
+        session.advance(1, &mut again).unwrap();
+    }
+    assert!(again == records[from..], "the same steps again");
+    assert_eq!(session.rewind(0.0).unwrap(), 0.0);
+    let mut other = scene;
+    other.gravity = [0.0, 0.0, -5.0];
+    session.change(other, &mut Vec::new()).unwrap();
+    let mut down = Vec::new();
+    session.advance(1, &mut down).unwrap();
+    session.advance(1, &mut down).unwrap();
+    assert!(down[0].step == 1 && down[1].gas.momentum[2] < records[1].gas.momentum[2], "{:?}", down[1].gas);
+    assert!(session.kept().iter().all(|time| *time <= session.time()), "what came later is gone");
+}
+
+/// A run on the disk opens at its last checkpoint, goes back to an earlier one, and on from there.
+#[test]
+fn a_run_on_the_disk_is_looked_at_and_goes_on() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (file, run) = (folder.path().join("charge.toml"), folder.path().join("run"));
+    std::fs::write(&file, SPACE).unwrap();
+    let out = run.to_str().unwrap();
+    let every = ["--checkpoint", "3steps", "--keep", "9", "--no-frames", "-q", "--no-expect", "--out", out];
+    crate::cli::succeeds(&[&["run", file.to_str().unwrap(), "--until", "0.2"][..], &every].concat());
+    let mut session = Session::open_run(&gpu, &run).unwrap();
+    assert!((session.time() - 0.2).abs() < 1e-7 && session.kept().len() > 2, "{:?}", session.kept());
+    let first = session.kept()[0];
+    assert_eq!(session.rewind(first).unwrap(), first);
+    assert_eq!(session.step_count(), 3);
+    let mut records = Vec::new();
+    session.advance(1, &mut records).unwrap();
+    let (_, rows) = crate::cli::table(&run.join("diagnostics.csv"));
+    assert_eq!((f64::from(records[0].step), records[0].time), (rows[3][0], rows[3][1]));
+    let mut request = Request::of(out);
+    request.resolution = Some(20);
+    assert!(request.load().unwrap_err().to_string().contains("as it was"));
+    std::fs::remove_dir_all(run.join("checkpoints")).unwrap();
+    assert!(Session::open_run(&gpu, &run).unwrap_err().to_string().contains("--checkpoint"));
+}
+
 /// Waits until the outbox has what a test waits for; everything that came before is added to `seen`.
 fn wait(worker: &Worker, seen: &mut Outbox, what: &str, done: impl Fn(&Outbox) -> bool) {
     let start = Instant::now();
     while !done(seen) {
         assert!(start.elapsed() < Duration::from_secs(120), "no {what}: {:?} {:?}", seen.status, seen.notes);
         std::thread::sleep(Duration::from_millis(10));
-        let Outbox { status, opened, shown, records, stages, changed, notes } = worker.take();
+        let Outbox { status, opened, shown, records, stages, changed, notes, rewound } = worker.take();
         seen.status = status;
         seen.opened = opened.or(seen.opened.take());
         seen.shown = shown.or(seen.shown.take());
         seen.stages = stages.or(seen.stages.take());
         seen.changed = changed.or(seen.changed.take());
+        seen.rewound = rewound.or(seen.rewound.take());
         seen.records.extend(records);
         seen.notes.extend(notes);
     }
@@ -115,6 +173,9 @@ fn the_worker_opens_steps_detonates_changes_and_saves() {
     assert!((seen.status.time - 0.4).abs() < 1e-6 && !seen.status.playing, "{:?}", seen.status);
     worker.send(Command::Steps(1));
     wait(&worker, &mut seen, "step beyond the end", |seen| seen.status.time > 0.4);
+    worker.send(Command::Rewind(0.0));
+    wait(&worker, &mut seen, "way back", |seen| seen.rewound == Some(0.0) && seen.shown.as_ref().unwrap().time == 0.0);
+    assert!(seen.status.step == 0 && seen.status.kept.len() > 1 && !seen.status.finished, "{:?}", seen.status);
 }
 
 #[test]

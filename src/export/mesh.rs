@@ -1,0 +1,180 @@
+//! mesh/NNNN.ply: the surfaces of all pieces of bodies; mesh/NNNN.csv: the pieces as rigid wholes;
+//! mesh/NNNN.npy: the piece of each particle; mesh/obstacles.ply, once.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::csv::{Table, Value};
+use super::npy;
+use super::ply::{self, Part};
+use super::surface::Surface;
+use crate::bodies::{Fragment, SPEEDS};
+use crate::export::{Exporter, Moment, Needs, atomic};
+use crate::scene::Scene;
+use crate::snapshot::Snapshot;
+use crate::{Error, Result, input};
+
+/// Columns of `mesh/NNNN.csv` before the speeds.
+#[rustfmt::skip]
+const COLUMNS: [&str; 18] = [
+    "piece", "parent", "body", "particles", "mass", "x", "y", "z", "velocity_x", "velocity_y", "velocity_z",
+    "spin_x", "spin_y", "spin_z", "length", "width", "height", "volume",
+];
+/// Bytes of the pieces of a frame.
+const MOST_PIECES: u64 = 4 << 30;
+/// What stands for a parent that nobody knows.
+const NONE: &str = "-";
+
+/// Writes `mesh/NNNN.ply` and `mesh/NNNN.csv`, and `mesh/obstacles.ply` where there are obstacles.
+#[derive(Debug)]
+pub struct MeshExporter {
+    folder: PathBuf,
+    /// The piece of each particle in the last frame, by its index.
+    before: Option<BTreeMap<u32, u32>>,
+    /// The last frame of a run that goes on.
+    last: Option<u32>,
+    begun: bool,
+}
+
+impl MeshExporter {
+    /// For one output folder.
+    #[must_use]
+    pub fn new(folder: &Path) -> Self {
+        Self { folder: folder.join("mesh"), before: None, last: None, begun: false }
+    }
+
+    /// The surface of all obstacles, from their distance.
+    fn obstacles(&self, moment: &Moment) -> Result<()> {
+        let source = &moment.origin.source;
+        let scene = Scene::parse(&source.scene, &source.scene_file, &["allow_outside=true".to_owned()])?;
+        if scene.obstacles.is_empty() {
+            return Ok(());
+        }
+        let (domain, low) = (&scene.domain, scene.domain.origin);
+        let high: [f64; 3] = std::array::from_fn(|axis| low[axis] + domain.size[axis]);
+        let middle: [f64; 3] = std::array::from_fn(|axis| 0.5 * (low[axis] + high[axis]));
+        // where an obstacle goes on beyond the domain, the sides of the domain close it
+        let inside = |point: [f64; 3]| {
+            let sides = (0..3).map(|axis| (point[axis] - middle[axis]).abs() - 0.5 * domain.size[axis]);
+            sides.fold(f64::NEG_INFINITY, f64::max)
+        };
+        let distance = |point: [f64; 3]| {
+            let shapes = scene.obstacles.iter().map(|obstacle| obstacle.shape.distance(point));
+            shapes.fold(f64::INFINITY, f64::min).max(inside(point))
+        };
+        let surface = Surface::of_distance([low, high], 0.5 * domain.spacing(), distance);
+        let path = self.folder.join("obstacles.ply");
+        ply::write(&path, &about(moment), &[Part { surface, ..Part::default() }])
+    }
+
+    /// The pieces that fragments come from: where the particle that gives each its number was in the last frame.
+    fn parents(&mut self, fragments: &[Fragment], snapshot: &Snapshot, path: &Path) -> Result<Vec<Option<u32>>> {
+        if let Some(last) = self.last.take() {
+            self.before = Some(read_pieces(&self.folder.join(format!("{last:04}.npy")))?);
+        }
+        let each = snapshot.piece_of_each();
+        let now: Vec<[u32; 2]> =
+            snapshot.particles.iter().map(|particle| particle.index).zip(each).map(Into::into).collect();
+        let before = self.before.replace(now.iter().map(|[index, piece]| (*index, *piece)).collect());
+        let head = npy::head(npy::Kind::U32, &[now.len(), 2]);
+        atomic::write(path, |out| {
+            out.write_all(&head)?;
+            now.iter().flatten().try_for_each(|word| out.write_all(&word.to_le_bytes()))
+        })?;
+        Ok(fragments.iter().map(|one| before.as_ref().and_then(|before| before.get(&one.piece).copied())).collect())
+    }
+
+    fn table(&self, path: &Path, rows: &[(Fragment, Option<u32>, f64)], names: &[String]) -> Result<()> {
+        let speeds: Vec<String> = (1..=SPEEDS).map(|part| format!("mass_at_speed_{part}_of_{SPEEDS}")).collect();
+        let columns: Vec<&str> = COLUMNS.into_iter().chain(speeds.iter().map(String::as_str)).collect();
+        let mut table = Table::new(path, &columns);
+        for (one, parent, volume) in rows {
+            let parent = parent.map_or_else(|| NONE.to_owned(), |parent| parent.to_string());
+            let body = names.get(one.body as usize).map_or("", String::as_str);
+            let head: [Value; 5] = [
+                one.piece.into(),
+                parent.as_str().into(),
+                body.into(),
+                (one.particles.len() as u64).into(),
+                one.mass.into(),
+            ];
+            let vectors = [one.centre, one.velocity, one.spin, one.size].into_iter().flatten();
+            table.push(head.into_iter().chain(vectors.chain([*volume]).chain(one.speeds).map(Value::from)));
+        }
+        table.save()
+    }
+}
+
+impl Exporter for MeshExporter {
+    fn write(&mut self, moment: &Moment) -> Result<()> {
+        let snapshot = moment.snapshot.expect("a run reads the snapshot when an exporter needs it");
+        if snapshot.grid.dimension != 3 {
+            let text = "the format mesh: bodies have surfaces in scenes of three dimensions alone; vtk and npz hold their particles";
+            return Err(Error::Usage(text.to_owned()));
+        }
+        if !std::mem::replace(&mut self.begun, true) {
+            self.obstacles(moment)?;
+        }
+        let fragments = snapshot.fragments();
+        let name = format!("{:04}", moment.index);
+        let parents = self.parents(&fragments, snapshot, &self.folder.join(&name).with_extension("npy"))?;
+        let parts: Vec<Part> = fragments.par_iter().map(|one| part(one, snapshot)).collect();
+        ply::write(&self.folder.join(&name).with_extension("ply"), &about(moment), &parts)?;
+        let volumes = parts.iter().map(|part| part.surface.volume());
+        let rows: Vec<_> = fragments.into_iter().zip(parents).zip(volumes).map(|((a, b), c)| (a, b, c)).collect();
+        self.table(&self.folder.join(name).with_extension("csv"), &rows, &moment.origin.source.bodies)
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { snapshot: true, ..Needs::default() }
+    }
+
+    fn go_on(&mut self, frames: u32, _: &dyn Fn(u32) -> f64) -> Result<()> {
+        self.last = frames.checked_sub(1);
+        self.begun = frames > 0;
+        Ok(())
+    }
+}
+
+/// The surface of a piece, with what its particles say.
+fn part(one: &Fragment, snapshot: &Snapshot) -> Part {
+    let particles: Vec<_> = one.particles.iter().map(|index| &snapshot.particles[*index]).collect();
+    let places: Vec<[f32; 3]> = particles.iter().map(|particle| particle.position).collect();
+    let volume: f64 = particles.iter().map(|one| f64::from(one.volume0 * one.volume_ratio()).abs()).sum();
+    let surface = Surface::of_particles(&places, (volume / places.len() as f64).cbrt() as f32);
+    let numbers = |index: &u32| {
+        let particle = particles[*index as usize];
+        let [u, v, w] = particle.velocity;
+        [u, v, w, particle.plastic_strain, particle.damage]
+    };
+    let corners = surface.nearest.iter().map(numbers).collect();
+    Part { surface, corners, piece: one.piece, body: one.body }
+}
+
+/// Pieces by the indices of particles, as [`MeshExporter`] has left them.
+fn read_pieces(path: &Path) -> Result<BTreeMap<u32, u32>> {
+    let wrong = |reason: String| Error::io(path, std::io::Error::new(std::io::ErrorKind::InvalidData, reason));
+    let bytes = input::bytes(path, MOST_PIECES).map_err(|source| Error::io(path, source))?;
+    let (kind, shape, start) = npy::parse(&bytes).map_err(wrong)?;
+    if kind != npy::Kind::U32 || shape.len() != 2 || shape[1] != 2 || bytes.len() - start != 8 * shape[0] {
+        return Err(wrong(format!(
+            "no pairs of particles and pieces: {} bytes of shape {shape:?}",
+            bytes.len() - start
+        )));
+    }
+    let word = |at: &[u8]| u32::from_le_bytes([at[0], at[1], at[2], at[3]]);
+    Ok(bytes[start..].chunks_exact(8).map(|pair| (word(pair), word(&pair[4..]))).collect())
+}
+
+/// Where a file comes from.
+fn about(moment: &Moment) -> Vec<String> {
+    let line = |text: &str| text.replace(['\n', '\r'], " ");
+    let (title, hash, time) = (line(&moment.origin.title), &moment.origin.hash, moment.time);
+    vec![
+        format!("brisance {}: {title}", env!("CARGO_PKG_VERSION")),
+        format!("scene {hash}, time {time:?} s, step {}", moment.step),
+        "metres, z up; vx vy vz in m/s; piece: smallest id of its particles, see the csv beside".to_owned(),
+    ]
+}

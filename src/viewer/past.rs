@@ -1,0 +1,169 @@
+//! States of a scene at work that it can go back to: in memory, thinned out as the run gets longer, or the checkpoints of a run.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use crate::expect::{Budget, Summary};
+use crate::export::checkpoint;
+use crate::scene::Scene;
+use crate::simulation::{Host, Saved};
+use crate::{Error, Result};
+
+/// States that are kept in memory at most.
+const MOST: u64 = 64;
+/// Their bytes.
+const MOST_BYTES: u64 = 1 << 30;
+/// A time counts as reached up to this part of it.
+const ROUNDING: f64 = 1e-9;
+
+/// Where a state is.
+#[derive(Debug)]
+enum Place {
+    Memory(Box<Saved>),
+    File(PathBuf, Box<Host>),
+}
+
+/// A state to go back to.
+#[derive(Debug)]
+pub(super) struct Kept {
+    /// Simulated time \[s\].
+    pub(super) time: f64,
+    /// Steps done.
+    pub(super) step: u64,
+    /// What the steps up to it amount to.
+    pub(super) summary: Summary,
+    place: Place,
+}
+
+impl Kept {
+    /// A state in memory.
+    pub(super) fn of(saved: Saved, summary: Summary) -> Self {
+        Self { time: saved.time, step: saved.step, summary, place: Place::Memory(Box::new(saved)) }
+    }
+
+    /// The state, of at most so many bytes.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if a checkpoint cannot be read.
+    pub(super) fn saved(&self, most: u64) -> Result<Saved> {
+        match &self.place {
+            Place::Memory(saved) => Ok((**saved).clone()),
+            Place::File(path, host) => Ok(Saved { host: (**host).clone(), ..checkpoint::read(path, most)? }),
+        }
+    }
+}
+
+/// The states of a scene, in order of time.
+#[derive(Debug)]
+pub(super) struct Past {
+    kept: Vec<Kept>,
+    /// Simulated time between two states \[s\].
+    interval: f64,
+    /// States that there is room for.
+    room: usize,
+}
+
+impl Past {
+    /// Of a scene that runs so long \[s\] and whose states have so many bytes; what is left of an earlier run comes first.
+    pub(super) fn new(until: f64, bytes: u64, kept: Vec<Kept>) -> Self {
+        let room = (MOST_BYTES / bytes.max(1)).clamp(2, MOST) as usize;
+        Self { kept, interval: 2.0 * until / room as f64, room }
+    }
+
+    /// Whether a state at this time \[s\] is to be kept.
+    pub(super) fn is_due(&self, time: f64) -> bool {
+        self.kept.last().is_none_or(|last| time >= last.time + self.interval * (1.0 - ROUNDING))
+    }
+
+    /// Keeps a state. Where there is no room, every second one in memory goes.
+    pub(super) fn keep(&mut self, state: Kept) {
+        self.kept.push(state);
+        let in_memory = |one: &Kept| matches!(one.place, Place::Memory(_));
+        if self.kept.iter().filter(|one| in_memory(one)).count() > self.room {
+            let mut index = 0;
+            self.kept.retain(|one| {
+                index += usize::from(in_memory(one));
+                !in_memory(one) || index % 2 == 1
+            });
+            self.interval *= 2.0;
+        }
+    }
+
+    /// The last state up to a time \[s\]; the first one where there is none.
+    pub(super) fn latest(&self, time: f64) -> Option<&Kept> {
+        let reached = |one: &&Kept| one.time <= time * (1.0 + ROUNDING);
+        self.kept.iter().rev().find(reached).or(self.kept.first())
+    }
+
+    /// Forgets what came later: from here the scene goes another way.
+    pub(super) fn forget_after(&mut self, time: f64) {
+        self.kept.retain(|one| one.time <= time * (1.0 + ROUNDING));
+    }
+
+    /// Times of all states \[s\].
+    pub(super) fn times(&self) -> Vec<f64> {
+        self.kept.iter().map(|one| one.time).collect()
+    }
+}
+
+/// What a checkpoint says of its run.
+#[derive(Deserialize)]
+struct About {
+    host: Host,
+    summary: Summary,
+    start_budget: Budget,
+}
+
+/// A run on the disk: its scene, its checkpoints, and its books before the first step.
+///
+/// # Errors
+/// [`Error::Usage`] if the folder has no checkpoints, or one of another scene; [`Error::Io`]; [`Error::Scene`].
+pub(super) fn of_run(run: &Path) -> Result<(Scene, Vec<Kept>, Budget)> {
+    let all = checkpoint::list(run)?;
+    let Some((_, last)) = all.last() else {
+        let hint = "`brisance run SCENE --checkpoint 10min --keep 20` leaves some";
+        return Err(Error::Usage(format!("{} is a folder without checkpoints to look at; {hint}", run.display())));
+    };
+    let (head, text, _) = checkpoint::read_texts(last)?;
+    let scene = Scene::parse(&text, &head.source.scene_file, &["allow_outside=true".to_owned()])?;
+    let (mut kept, mut start) = (Vec::new(), Budget::default());
+    for (step, path) in all {
+        let (own, _, about) = checkpoint::read_texts(&path)?;
+        if own.source.scene_hash != head.source.scene_hash {
+            return Err(Error::Usage(format!("{}: a checkpoint of another scene than the last one", path.display())));
+        }
+        let About { host, summary, start_budget } =
+            toml::from_str(&about).map_err(|error| Error::Usage(format!("{}: {error}", path.display())))?;
+        start = start_budget;
+        kept.push(Kept { time: own.time, step, summary, place: Place::File(path, Box::new(host)) });
+    }
+    Ok((scene, kept, start))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(time: f64) -> Kept {
+        Kept::of(Saved { time, step: time as u64, host: Host::default(), arrays: Vec::new() }, Summary::default())
+    }
+
+    #[test]
+    fn long_runs_keep_their_start_and_few_states() {
+        let mut past = Past::new(32.0, MOST_BYTES / 8, Vec::new());
+        for time in 0..1000 {
+            if past.is_due(f64::from(time)) {
+                past.keep(at(f64::from(time)));
+            }
+        }
+        let times = past.times();
+        assert!(times.len() <= 8 && times.len() >= 4 && times[0] == 0.0, "{times:?}");
+        assert!(times.windows(3).all(|three| three[2] - three[1] == three[1] - three[0]), "{times:?}");
+        let second = times[1];
+        assert_eq!(past.latest(second + 1.0).map(|one| one.time), Some(second));
+        assert_eq!(past.latest(-1.0).map(|one| one.time), Some(0.0));
+        past.forget_after(second);
+        assert_eq!(past.times(), [0.0, second]);
+    }
+}
