@@ -99,12 +99,12 @@ fn principal(matrix: DMat3) -> [f64; 3] {
         let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
         let c = 1.0 / t.hypot(1.0);
         let s = t * c;
-        for k in 0..3 {
-            (a[k][p], a[k][q]) = (c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]);
+        for row in &mut a {
+            (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
         }
-        for k in 0..3 {
-            (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
-        }
+        let (first, second) = (a[p], a[q]);
+        a[p] = std::array::from_fn(|k| c * first[k] - s * second[k]);
+        a[q] = std::array::from_fn(|k| s * first[k] + c * second[k]);
     }
     let mut moments = [a[0][0], a[1][1], a[2][2]];
     moments.sort_by(|one, two| two.total_cmp(one));
