@@ -349,18 +349,18 @@ impl Checks {
 
     fn at_most(&mut self, name: &str, measured: f64, limit: Option<f64>) {
         if let Some(limit) = limit {
-            self.add(name, measured, format!("at most {limit}"), measured <= limit);
+            self.add(name, measured, format!("at most {}", plain(limit)), measured <= limit);
         }
     }
 
     fn above(&mut self, name: &str, measured: f64, limit: Option<f64>) {
         if let Some(limit) = limit {
-            self.add(name, measured, format!("above {limit}"), measured > limit);
+            self.add(name, measured, format!("above {}", plain(limit)), measured > limit);
         }
     }
 
     fn within(&mut self, name: &str, measured: f64, [low, high]: [f64; 2]) {
-        self.add(name, measured, format!("{low} to {high}"), (low..=high).contains(&measured));
+        self.add(name, measured, format!("{} to {}", plain(low), plain(high)), (low..=high).contains(&measured));
     }
 }
 

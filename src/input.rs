@@ -4,7 +4,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 /// Bytes that a scene may have.
-pub const MOST_SCENE: u64 = 8 << 20;
+pub const MOST_SCENE: u64 = 2 << 20;
 /// Bytes that a report, or another file that programs wrote for us, may have.
 pub const MOST_REPORT: u64 = 64 << 20;
 

@@ -128,7 +128,7 @@ fn earlier(path: &Path) -> Result<Measurement> {
 fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Result<Measurement> {
     let plan = MemoryPlan::fitting(scene, gpu)?;
     let mut simulation = Simulation::new(gpu, scene)?;
-    interrupt::listen_between_steps();
+    let _heard = interrupt::listen_between_steps();
     simulation.set_target(NEVER)?;
     let warm = summary(&run_steps(&mut simulation, options.warmup)?);
     gpu.wait(None)?;

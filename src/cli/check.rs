@@ -42,6 +42,9 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
         tell!("warning: {warning}");
     }
     let duration = Duration::of(&scene, &plan, &estimate, cli);
+    if let Some(reason) = duration.as_ref().and_then(|duration| duration.refused.as_ref()) {
+        tell!("warning: a run on this device will be refused: {reason}");
+    }
     if cli.json {
         let groups: serde_json::Map<_, _> =
             plan.groups().into_iter().map(|(name, bytes)| (name.to_owned(), bytes.into())).collect();
@@ -58,7 +61,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     let domain = &scene.domain;
     let cells = domain.cells.map(|n| n.to_string())[..domain.axes()].join(" x ");
     say!("# {}\n#", scene.title);
-    say!("# cells      {cells} = {} of edge {} m", plan.cells, domain.spacing());
+    say!("# cells      {cells} = {} of edge {} m", plan.cells, plain(domain.spacing()));
     say!("# particles  {}", plan.particles);
     say_bodies(&overlaps, &thin, &breaking);
     if !scene.variants.is_empty() {
@@ -100,7 +103,7 @@ fn say_estimate(estimate: &Estimate, duration: Option<&Duration>) {
     say!("# sound      {} m/s in gas{solid}", plain(estimate.gas_sound_speed));
     say!("# steps      about {} of {} s, as at the start", plain(estimate.steps.ceil()), plain(estimate.step));
     match duration {
-        Some(Duration { device, seconds }) => say!(
+        Some(Duration { device, seconds, .. }) => say!(
             "# time       very roughly {} on {device}, pictures apart: from how fast it copies memory; a third or thrice as long is possible",
             rough_time(*seconds)
         ),

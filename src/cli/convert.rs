@@ -34,7 +34,7 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
     let grid = Grid::of(&scene.domain);
     let light = states::most_bytes(grid.slots() as u64, particles.min(MOST_PARTICLES));
     let most = light.max(MemoryPlan::new(&scene, particles.min(MOST_PARTICLES) as usize).bytes(None));
-    interrupt::listen_between_steps();
+    let _heard = interrupt::listen_between_steps();
     for (index, path) in &frames {
         if interrupt::wish() {
             return Err(Error::Interrupted);

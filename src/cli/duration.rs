@@ -23,6 +23,8 @@ pub(super) struct Duration {
     pub(super) device: String,
     /// Time of the steps, if all slots are awake `[s]`.
     pub(super) seconds: f64,
+    /// Why a run would not begin there.
+    pub(super) refused: Option<String>,
 }
 
 impl Duration {
@@ -44,7 +46,8 @@ impl Duration {
         };
         let bytes: u64 = STAGES.iter().map(|stage| traffic::bytes(stage, &load)).sum();
         let seconds = estimate.steps * (bytes as f64 / (REACHED * copy)).max(LAUNCHES);
-        Some(Self { device: gpu.info.name.clone(), seconds })
+        let refused = plan.check_device(scene, &gpu).err().map(|error| error.to_string());
+        Some(Self { device: gpu.info.name.clone(), seconds, refused })
     }
 }
 

@@ -6,21 +6,29 @@ use super::args::FilmOptions;
 use crate::export::video;
 use crate::{Error, Result};
 
-/// The film that is asked for, with its pictures per second; none, and a warning, where there is no encoder.
-pub(super) fn asked(options: &FilmOptions, frames: &Path) -> Option<(PathBuf, u32)> {
-    let path = options.video.as_ref()?;
+/// A film that is asked for.
+#[derive(Debug, Default)]
+pub(super) struct Asked {
+    /// Where it goes, and its pictures per second.
+    pub(super) film: Option<(PathBuf, u32)>,
+    /// Why there will be none.
+    pub(super) lost: Option<String>,
+}
+
+/// The film that is asked for; a warning where there is no encoder: the pictures are worth the run all the same.
+pub(super) fn asked(options: &FilmOptions, frames: &Path) -> Asked {
+    let Some(path) = &options.video else { return Asked::default() };
     if video::is_possible() {
-        return Some((path.clone(), options.fps));
+        return Asked { film: Some((path.clone(), options.fps)), lost: None };
     }
+    let lost = format!("no film {}: ffmpeg is not installed or not on the PATH", path.display());
     tell!(
-        "warning: no film {}: ffmpeg is not installed or not on the PATH; the pictures are written all the same. With ffmpeg: \
-         ffmpeg -framerate {} -i {}/%04d.png -pix_fmt yuv420p {}",
-        path.display(),
+        "warning: {lost}; the pictures are written all the same. With ffmpeg: ffmpeg -framerate {} -i {}/%04d.png -pix_fmt yuv420p {}",
         options.fps,
         frames.display(),
         path.display()
     );
-    None
+    Asked { film: None, lost: Some(lost) }
 }
 
 /// Tells what became of films, and returns the error of those that were not made.

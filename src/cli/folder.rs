@@ -4,6 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Component, Path, PathBuf};
 
+use crate::export::report::REPORT;
 use crate::{Error, Result, input};
 
 /// Marks the folder while a process writes into it: process id, its start, host.
@@ -61,7 +62,7 @@ impl Folder {
     /// [`Error::Usage`] if another process writes there, or no run is there.
     pub(super) fn again(path: &Path) -> Result<Self> {
         let folder = Self::locked(path)?;
-        match folder.holds_a_run() {
+        match path.join(REPORT).is_file() {
             true => Ok(folder),
             false => Err(Error::Usage(format!("{} is no folder of a run: it has no report.json", path.display()))),
         }
@@ -90,8 +91,12 @@ impl Folder {
         Err(Error::Usage(format!("{}: another run was faster", path.display())))
     }
 
+    /// Whether a run is there; one that ended before its first frame is none that somebody misses.
     fn holds_a_run(&self) -> bool {
-        self.path.join("report.json").is_file()
+        let text = input::text(&self.path.join(REPORT), input::MOST_REPORT);
+        let read = text.ok().and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok());
+        let nothing = |report: serde_json::Value| report["steps"] == 0 && report["frames"] == 0;
+        self.path.join(REPORT).is_file() && !read.is_some_and(nothing)
     }
 
     /// Removes what the list names, and folders that are empty then.

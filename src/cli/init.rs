@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::args::InitOptions;
 use crate::export::atomic;
-use crate::scene::shipped_named;
-use crate::{Error, Result};
+use crate::scene::{scene_file, shipped_named};
+use crate::{Error, Result, input};
 
 /// A blast on a body in 2D.
 const BLAST: &str = include_str!("../../assets/start/blast_2d.toml");
@@ -14,13 +14,16 @@ const BLAST_3D: &str = include_str!("../../assets/start/blast_3d.toml");
 /// A shock tube.
 const SHOCK_TUBE: &str = include_str!("../../assets/start/shock_tube.toml");
 
+/// What leads editors to the schema, which `brisance schema > scene.schema.json` writes beside a scene.
+const SCHEMA_LINE: &str = "#:schema scene.schema.json";
+
 /// Writes a scene to start from; a file that is there stays.
 ///
 /// # Errors
 /// [`Error::Usage`] if the file is there; [`Error::Scene`] if the scene to start from is unknown; [`Error::Io`].
 pub(super) fn init(options: &InitOptions) -> Result<()> {
     let text = match &options.from {
-        Some(name) => shipped_named(name)?.text,
+        Some(name) => standing_alone(&text_of(name)?),
         None if options.shock_tube => SHOCK_TUBE.to_owned(),
         None if options.in_3d => BLAST_3D.to_owned(),
         None => BLAST.to_owned(),
@@ -38,12 +41,29 @@ pub(super) fn init(options: &InitOptions) -> Result<()> {
     Ok(())
 }
 
-/// Prints the text of a shipped scene.
+/// The text of a scene file, or of a shipped scene.
+fn text_of(name: &str) -> Result<String> {
+    match scene_file(name) {
+        Some(path) => input::text(path, input::MOST_SCENE).map_err(|source| Error::io(path, source)),
+        None => Ok(shipped_named(name)?.text),
+    }
+}
+
+/// A scene whose first line leads to a schema beside it, wherever it lies.
+fn standing_alone(text: &str) -> String {
+    let rest = match text.split_once('\n') {
+        Some((first, rest)) if first.starts_with("#:schema") => rest,
+        _ => text,
+    };
+    format!("{SCHEMA_LINE}\n{rest}")
+}
+
+/// Prints the text of a scene.
 ///
 /// # Errors
 /// [`Error::Scene`] if there is none of that name.
 pub(super) fn show(name: &str) -> Result<()> {
-    say!("{}", shipped_named(name)?.text.trim_end());
+    say!("{}", text_of(name)?.trim_end());
     Ok(())
 }
 

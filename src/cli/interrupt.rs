@@ -1,6 +1,7 @@
-//! Ctrl-C and SIGHUP ask to stop after the submission at work, with every frame that is drawn, film, tables and report. SIGTERM means now:
-//! a batch system follows with SIGKILL, so frames that wait and films are given up; tables and report are written. A second signal ends at
-//! once. Where nobody asks for wishes, as in set-up and while kernels compile, the first one ends at once, too, after the last words.
+//! Ctrl-C and SIGHUP ask to stop after the submission at work, with every frame that is drawn, film, tables and report. SIGTERM and an end
+//! of processor time mean now: a batch system follows with SIGKILL, so frames that wait and films are given up; tables and report are
+//! written. A second signal ends at once. Where nobody asks for wishes, as in set-up and up to the first picture, whose kernels a driver
+//! may compile as they run, the first one ends at once, too, after the last words.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use crate::export::video;
 
 static SIGNALS: AtomicU32 = AtomicU32::new(0);
 static URGENT: AtomicBool = AtomicBool::new(false);
-static HEARD: AtomicBool = AtomicBool::new(false);
+static HEARD: AtomicU32 = AtomicU32::new(0);
 static LISTEN: Once = Once::new();
 static LAST_WORDS: Mutex<BTreeMap<PathBuf, LastWords>> = Mutex::new(BTreeMap::new());
 
@@ -24,10 +25,21 @@ pub(super) fn listen() {
     LISTEN.call_once(start);
 }
 
+/// Somebody who asks [`wish`] often enough, until it is dropped.
+#[derive(Debug)]
+pub(super) struct Heard(());
+
 /// From now on somebody asks [`wish`] often enough.
-pub(super) fn listen_between_steps() {
+pub(super) fn listen_between_steps() -> Heard {
     listen();
-    HEARD.store(true, Ordering::SeqCst);
+    HEARD.fetch_add(1, Ordering::SeqCst);
+    Heard(())
+}
+
+impl Drop for Heard {
+    fn drop(&mut self) {
+        HEARD.fetch_sub(1, Ordering::SeqCst);
+    }
 }
 
 /// Whether to stop.
@@ -51,10 +63,23 @@ pub(super) fn last_words(folder: &Path, words: Option<LastWords>) {
 
 #[cfg(unix)]
 fn start() {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU, SIGXFSZ};
+    // A file that has come to its limit is an error of the one who writes it, as a full disk is.
+    let _ = signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default());
+    let mut ours = vec![SIGINT, SIGTERM, SIGXCPU];
+    ours.extend(Some(SIGHUP).filter(|number| !is_ignored(*number)));
     // Without a handler a signal still stops the process; files are renamed into place, so those there are complete.
-    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP]) else { return };
-    std::thread::spawn(move || signals.forever().for_each(|number| signal(number == SIGTERM)));
+    let Ok(mut signals) = signal_hook::iterator::Signals::new(ours) else { return };
+    std::thread::spawn(move || signals.forever().for_each(|number| signal([SIGTERM, SIGXCPU].contains(&number))));
+}
+
+/// Whether who started us wants a signal ignored, as `nohup` does; where the system does not say so, it is not.
+#[cfg(unix)]
+fn is_ignored(number: i32) -> bool {
+    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = text.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    mask >> (number - 1) & 1 == 1
 }
 
 #[cfg(not(unix))]
@@ -65,7 +90,7 @@ fn start() {
 fn signal(urgent: bool) {
     URGENT.fetch_or(urgent, Ordering::SeqCst);
     let first = SIGNALS.fetch_add(1, Ordering::SeqCst) == 0;
-    if first && HEARD.load(Ordering::SeqCst) {
+    if first && HEARD.load(Ordering::SeqCst) > 0 {
         match urgent {
             true => {
                 video::end_all();

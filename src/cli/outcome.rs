@@ -59,10 +59,14 @@ pub(super) fn totals(summary: &Summary, end: &Budget) -> BTreeMap<String, f64> {
 
 /// How far a run came.
 pub(super) fn status(outcome: &Result<()>) -> Status {
-    match outcome {
-        Ok(()) => Status::Finished,
-        Err(Error::Interrupted) => Status::Stopped,
-        Err(_) => Status::Failed,
+    outcome.as_ref().err().map_or(Status::Finished, ended)
+}
+
+/// What has become of a run that did not come to its end.
+pub(super) fn ended(error: &Error) -> Status {
+    match error {
+        Error::Interrupted => Status::Stopped,
+        _ => Status::Failed,
     }
 }
 

@@ -51,9 +51,8 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
     let files = files(options, folder.clone())?;
     let gpu = open_device(cli)?;
     let mut drawing = Drawing { gpu, scene, hash, shots, particles, depth: files.needs()?.depth, at_work: None };
-    interrupt::listen_between_steps();
     let writer = Writer::start(files, &drawing.scene);
-    let mut drawn = Ok(());
+    let (mut drawn, mut heard) = (Ok(()), None);
     for (index, path) in &frames {
         let frame = if interrupt::wish() { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
         let accepted = frame.map(|frame| writer.send(Message { frame: Some(frame), ..Message::default() }));
@@ -61,9 +60,11 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
             drawn = accepted.map(|_| ());
             break;
         }
+        heard.get_or_insert_with(interrupt::listen_between_steps);
     }
     // What the writer has to say comes first: a disk that is full, for example.
-    let Written { frames, films, .. } = writer.finish()?;
+    let (Written { frames, films, .. }, outcome) = writer.finish();
+    outcome?;
     let filmed = film::tell(&films, options.quiet || cli.json);
     drawn.and(filmed)?;
     if cli.json {
@@ -188,8 +189,8 @@ fn files(options: &RenderOptions, folder: PathBuf) -> Result<Files> {
         }
     }
     without_coarse(&mut formats);
-    let video = film::asked(&options.film, &folder.join("frames"));
-    Ok(Files { folder, formats, video, ..Files::default() })
+    let film::Asked { film, lost } = film::asked(&options.film, &folder.join("frames"));
+    Ok(Files { folder, formats, video: film, lost_film: lost, ..Files::default() })
 }
 
 /// Device, scene and look, and the buffers and kernels of the frames so far.
@@ -223,7 +224,7 @@ impl Drawing {
             self.at_work = None;
             let loaded = Loaded::new(&self.gpu, grid, stored)?;
             let renderer = Renderer::new(&self.gpu, &self.scene, &loaded.buffers())?;
-            let renderer = renderer.with_depth(self.depth).with_shots(self.shots.clone());
+            let renderer = renderer.with_depth(self.depth).with_shots(self.shots.clone()).with_stop(interrupt::wish);
             self.at_work = Some((loaded, renderer));
         }
         Ok(self.at_work.as_mut().map(|(_, renderer)| renderer).expect("made above"))

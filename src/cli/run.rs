@@ -4,6 +4,7 @@ mod beginning;
 mod checkpoint;
 mod ending;
 mod formats;
+mod reporting;
 
 use std::time::{Duration, Instant};
 
@@ -12,7 +13,7 @@ use super::check::overlap_text;
 use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
-use super::outcome::{Verdict, device, last_words};
+use super::outcome::{Verdict, device, ended, last_words};
 use super::progress::Progress;
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device};
@@ -31,6 +32,7 @@ use checkpoint::Schedule;
 pub(super) use checkpoint::{Checkpoint, Every};
 use formats::formats;
 pub(super) use formats::{PICTURES, without_coarse};
+use reporting::Setup;
 
 /// Runs a scene.
 ///
@@ -56,8 +58,10 @@ pub(super) fn perform_on(gpu: &Gpu, options: &RunOptions) -> Result<()> {
 
 fn begun(beginning: &Beginning, gpu: &Gpu, told: (Instant, bool)) -> Result<()> {
     let plan = MemoryPlan::fitting(&beginning.scene, gpu)?;
+    asked_for(beginning)?;
     let folder = beginning.folder()?;
     let path = folder.path.clone();
+    Setup { beginning, gpu, plan: &plan, start: told.0 }.write_report(&path, (Status::Running, "running"))?;
     interrupt::last_words(&path, Some(Box::new(last_words(&folder))));
     let outcome = owning(beginning, (gpu, &plan), folder, told);
     interrupt::last_words(&path, None);
@@ -71,10 +75,41 @@ fn owning(
     folder: Folder,
     (start, json): (Instant, bool),
 ) -> Result<()> {
-    let mut run = Run::prepare(beginning, gpu, plan, folder, start)?;
-    interrupt::listen_between_steps();
-    let outcome = run.frames();
-    run.finish(outcome, json)
+    let path = folder.path.clone();
+    match Run::prepare(beginning, gpu, plan, folder, start) {
+        Ok(mut run) => {
+            let outcome = run.frames();
+            run.finish(outcome, json)
+        }
+        Err(error) => {
+            let (setup, status) = (Setup { beginning, gpu, plan, start }, ended(&error));
+            // what failed first is told, not that the report could not be written either
+            let _ = setup.write_report(&path, (status, &error.to_string()));
+            Err(error)
+        }
+    }
+}
+
+/// What a run is asked to write: formats that exist, a film that is no input.
+fn asked_for(beginning: &Beginning) -> Result<()> {
+    let options = &beginning.options;
+    Files { formats: formats(options, &beginning.scene), ..Files::default() }.needs()?;
+    options.film.video.as_ref().map_or(Ok(()), |film| not_an_input(film, &options.scene.scene))
+}
+
+/// What the run will write.
+fn files(beginning: &Beginning, gpu: &Gpu, folder: &Folder) -> Files {
+    let film::Asked { film, lost } = film::asked(&beginning.options.film, &folder.path.join("frames"));
+    Files {
+        folder: folder.path.clone(),
+        formats: formats(&beginning.options, &beginning.scene),
+        video: film,
+        lost_film: lost,
+        tables: true,
+        listed: true,
+        before: beginning.tables(),
+        source: [beginning.place.clone(), device(gpu).text()],
+    }
 }
 
 /// Tells what is about to run.
@@ -131,6 +166,12 @@ struct Run<'a> {
     frame: Option<u32>,
     under_way: bool,
     schedule: Schedule,
+    /// When the report was written.
+    reported: Instant,
+    /// What the writer has done, once it has ended.
+    written: Written,
+    /// Whether somebody asks for wishes to stop.
+    heard: Option<interrupt::Heard>,
 }
 
 impl<'a> Run<'a> {
@@ -142,14 +183,8 @@ impl<'a> Run<'a> {
         start: Instant,
     ) -> Result<Self> {
         let (options, scene) = (&beginning.options, beginning.scene.clone());
-        let (formats, video) = (formats(options, &scene), film::asked(&options.film, &folder.path.join("frames")));
-        if let Some((film, _)) = &video {
-            not_an_input(film, &options.scene.scene)?;
-        }
-        let pictures = !options.no_frames || video.is_some();
-        let (place, source) = (beginning.place.clone(), [beginning.place.clone(), device(gpu).text()]);
-        let before = beginning.tables();
-        let files = Files { folder: folder.path.clone(), formats, video, tables: true, listed: true, before, source };
+        let files = files(beginning, gpu, &folder);
+        let (place, pictures) = (beginning.place.clone(), !options.no_frames || files.video.is_some());
         let mut needs = files.needs()?;
         needs.snapshot |= !scene.bodies.is_empty();
         let writer = Writer::start(files, &scene);
@@ -164,11 +199,12 @@ impl<'a> Run<'a> {
             beginning.reached().map_or((None, false), |(frame, under_way)| (Some(frame), under_way));
         let buffers = SceneBuffers::of(&simulation.state);
         let renderer = pictures.then(|| Renderer::new(gpu, &scene, &buffers)).transpose()?;
-        let renderer = renderer.map(|renderer| renderer.with_depth(needs.depth));
+        let schedule = Schedule::new(options, simulation.time(), simulation.step_count());
+        let renderer = renderer.map(|renderer| renderer.with_depth(needs.depth).with_stop(interrupt::wish));
         let progress = Progress::new(scene.time.until, options.quiet);
         let clocks = Clocks { setup: start.elapsed(), ..Clocks::default() };
         let run = Self {
-            schedule: Schedule::new(options, simulation.time(), simulation.step_count()),
+            schedule,
             before: about.map_or(0.0, |about| about.wall_seconds),
             summary: about.map(|about| about.summary.clone()).unwrap_or_default(),
             place,
@@ -189,6 +225,9 @@ impl<'a> Run<'a> {
             batch: 1,
             clocks,
             start,
+            reported: Instant::now(),
+            written: Written::default(),
+            heard: None,
         };
         run.write_report((Status::Running, "running"), Written::default(), Verdict::default())?;
         Ok(run)
@@ -233,20 +272,24 @@ impl<'a> Run<'a> {
             self.batch = self.batch.clamp(1, BATCH);
             self.summary.add(&self.pending[first..]);
             self.progress.show(self.simulation.time(), self.summary.last.as_ref());
+            self.heard.get_or_insert_with(interrupt::listen_between_steps);
             if outcome? {
                 return Ok(());
             }
+            self.report_so_far()?;
             self.stop_if_asked()?;
         }
     }
 
     /// Draws a frame and hands it to the writer with the steps that led to it.
     fn frame(&mut self, index: u32, time: f64) -> Result<()> {
-        if interrupt::urgent() {
-            return Err(Error::Interrupted);
-        }
+        self.stop_if_asked()?;
         let start = Instant::now();
-        let pictures = self.renderer.as_mut().map(|renderer| renderer.render(time)).transpose()?.unwrap_or_default();
+        let pictures = match self.renderer.as_mut().map(|renderer| renderer.render(time)).transpose() {
+            // a frame that is given up is drawn by whoever goes on from here
+            Err(Error::Interrupted) => return self.stop_if_asked(),
+            pictures => pictures?.unwrap_or_default(),
+        };
         let snapshot = self.needs.snapshot.then(|| self.simulation.snapshot()).transpose()?;
         let buffers = SceneBuffers::of(&self.simulation.state);
         let at = (time, self.simulation.step_count());
@@ -259,14 +302,18 @@ impl<'a> Run<'a> {
         let accepted = self.writer.as_ref().is_some_and(|writer| writer.send(message));
         self.clocks.waiting += start.elapsed();
         if !accepted {
-            return self.close_writer().map(|_| ());
+            return self.close_writer();
         }
+        self.heard.get_or_insert_with(interrupt::listen_between_steps);
         let written = Written { frames: index + 1, ..Written::default() };
         self.write_report((Status::Running, "running"), written, Verdict::default()).map(|_| ())
     }
 
-    /// Waits for the writer and returns what it wrote.
-    fn close_writer(&mut self) -> Result<Written> {
-        self.writer.take().map_or_else(|| Ok(Written::default()), Writer::finish)
+    /// Waits for the writer.
+    fn close_writer(&mut self) -> Result<()> {
+        let Some(writer) = self.writer.take() else { return Ok(()) };
+        let (written, outcome) = writer.finish();
+        self.written = written;
+        outcome
     }
 }

@@ -2,7 +2,7 @@
 
 use super::args::SceneOptions;
 use crate::Result;
-use crate::scene::Scene;
+use crate::scene::{Scene, scene_file};
 
 /// Reads the scene that the options name, in the variants asked for, with `further` overrides, at the resolution asked for.
 ///
@@ -25,5 +25,6 @@ pub(super) fn overrides(options: &SceneOptions, further: &[String]) -> Vec<Strin
 
 /// Where a scene lies: the whole path of a file, or the name of a shipped scene.
 pub(super) fn place(name: &str) -> String {
-    std::fs::canonicalize(name).map_or_else(|_| name.to_owned(), |path| path.display().to_string())
+    let whole = scene_file(name).and_then(|path| std::fs::canonicalize(path).ok());
+    whole.map_or_else(|| name.to_owned(), |path| path.display().to_string())
 }

@@ -11,6 +11,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::args::{Cli, SelftestOptions};
+use super::init::not_an_input;
 use super::list::settings;
 use super::open_device;
 use crate::diagnostics::StepRecord;
@@ -83,6 +84,7 @@ struct Line {
 /// # Errors
 /// [`Error::Expectation`] with the first stage that is wrong; [`Error::NoAdapter`], [`Error::Gpu`], [`Error::Io`].
 pub(super) fn selftest(options: &SelftestOptions, cli: &Cli) -> Result<()> {
+    options.out.as_ref().map_or(Ok(()), |path| not_an_input(path, ""))?;
     let gpu = open_device(cli)?;
     let name = &gpu.info.name;
     if !cli.json {

@@ -22,7 +22,7 @@ const SIZE: [u32; 2] = [32, 32];
 pub(super) fn shaders(options: &ShadersOptions, cli: &Cli) -> Result<()> {
     let open = |settings| {
         let kernels = Some(options.out.clone());
-        Gpu::new(&GpuOptions { device: cli.device.clone(), settings: Some(settings), kernels, shaders: None })
+        Gpu::new(&GpuOptions { device: cli.device.clone(), settings: Some(settings), kernels, ..GpuOptions::default() })
     };
     let mut gpu = open(Settings::Software)?;
     let names = if options.scenes.is_empty() {

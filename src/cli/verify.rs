@@ -42,7 +42,7 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
     let gpu = open_device(cli)?;
-    interrupt::listen_between_steps();
+    let _heard = interrupt::listen_between_steps();
     let bar = progress(cases.len());
     let notify = |text: &str| {
         match &bar {

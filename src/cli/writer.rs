@@ -70,6 +70,8 @@ pub(super) struct Files {
     pub(super) formats: Vec<String>,
     /// A film and its pictures per second.
     pub(super) video: Option<(PathBuf, u32)>,
+    /// Why there will be no film, though one is asked for.
+    pub(super) lost_film: Option<String>,
     /// Whether there are tables.
     pub(super) tables: bool,
     /// Whether the folder keeps a list of what is written.
@@ -103,7 +105,7 @@ impl Files {
 #[derive(Debug)]
 pub(super) struct Writer {
     queue: SyncSender<Message>,
-    thread: JoinHandle<Result<Written>>,
+    thread: JoinHandle<(Written, Result<()>)>,
 }
 
 /// What the thread has done.
@@ -131,36 +133,34 @@ impl Writer {
         self.queue.send(message).is_ok()
     }
 
-    /// Waits until everything is written.
-    ///
-    /// # Errors
-    /// [`crate::Error::Io`] if something could not be.
-    pub(super) fn finish(self) -> Result<Written> {
+    /// Waits until everything is written: what was, and [`crate::Error::Io`] if something could not be.
+    pub(super) fn finish(self) -> (Written, Result<()>) {
         drop(self.queue);
         match self.thread.join() {
-            Ok(result) => result,
+            Ok(done) => done,
             Err(panic) => std::panic::resume_unwind(panic),
         }
     }
 }
 
-fn work(messages: &Receiver<Message>, files: &Files, scene: &Scene) -> Result<Written> {
+fn work(messages: &Receiver<Message>, files: &Files, scene: &Scene) -> (Written, Result<()>) {
     atomic::remember();
-    let mut work = Work::begin(files, scene)?;
-    for message in messages {
-        let start = Instant::now();
-        work.write(message)?;
-        if files.listed {
-            Folder::note(&files.folder, &atomic::newly_written())?;
-        }
-        work.written.busy += start.elapsed();
+    let mut work = match Work::begin(files, scene) {
+        Ok(work) => work,
+        Err(error) => return (Written { frames: files.before.frames, ..Written::default() }, Err(error)),
+    };
+    let outcome = messages.iter().try_for_each(|message| work.take(message));
+    if outcome.is_err() {
+        // as many rows as still find room
+        let _ = work.tables.as_mut().map(Tables::save);
+        return (work.written, outcome);
     }
     let start = Instant::now();
     for exporter in &mut work.exporters {
         work.written.films.extend(exporter.finish());
     }
     work.written.busy += start.elapsed();
-    Ok(work.written)
+    (work.written, Ok(()))
 }
 
 /// The thread at work.
@@ -189,8 +189,20 @@ impl<'a> Work<'a> {
             let names = tables.marks().files.into_keys().collect();
             Index::begin(&files.folder, &origin, (&files.formats, names), *frames)
         });
-        let written = Written { frames: *frames, ..Written::default() };
+        let films = files.lost_film.iter().cloned().map(Err).collect();
+        let written = Written { frames: *frames, films, ..Written::default() };
         Ok(Self { files, exporters, origin, tables, index, written, given_up: false })
+    }
+
+    /// Writes what a message holds, and lists it.
+    fn take(&mut self, message: Message) -> Result<()> {
+        let start = Instant::now();
+        self.write(message)?;
+        if self.files.listed {
+            Folder::note(&self.files.folder, &atomic::newly_written())?;
+        }
+        self.written.busy += start.elapsed();
+        Ok(())
     }
 
     fn write(&mut self, Message { records, frame, checkpoint }: Message) -> Result<()> {

@@ -47,9 +47,10 @@ fn try_write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let file = builder.tempfile_in(folder)?;
-    let mut writer = BufWriter::with_capacity(1 << 20, file);
+    // the file itself: errors of the temporary one would name it, too
+    let mut writer = BufWriter::with_capacity(1 << 20, file.as_file());
     fill(&mut writer)?;
-    let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
+    writer.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.persist(path)?;
     WRITTEN.with_borrow_mut(|written| {
         if let Some(written) = written

@@ -240,7 +240,7 @@ fn opened<R: Read + Seek>(from: R) -> std::result::Result<ZipArchive<R>, String>
 }
 
 fn head<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<Head, String> {
-    let text = member(archive, HEAD, input::MOST_SCENE).map_err(|error| format!("no state of brisance: {error}"))?;
+    let text = member(archive, HEAD, input::MOST_REPORT).map_err(|error| format!("no state of brisance: {error}"))?;
     let about: serde_json::Value = serde_json::from_slice(&text).map_err(|error| format!("{HEAD}: {error}"))?;
     if about["format"] != FORMAT {
         return Err(format!("no state of brisance: {HEAD} names the format {}", about["format"]));
@@ -276,7 +276,7 @@ fn names<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<Vec
 fn texts<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<BTreeMap<String, String>, String> {
     let mut found = BTreeMap::new();
     for name in names(archive)?.into_iter().filter(|name| name != HEAD && !name.ends_with(".npy")).take(MOST_TEXTS) {
-        let text = String::from_utf8(member(archive, &name, input::MOST_SCENE)?);
+        let text = String::from_utf8(member(archive, &name, input::MOST_REPORT)?);
         found.insert(name.clone(), text.map_err(|error| format!("{name}: {error}"))?);
     }
     Ok(found)

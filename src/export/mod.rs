@@ -226,6 +226,6 @@ fn find(name: &str) -> Result<&'static Format> {
     FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
         let known: Vec<_> = FORMATS.iter().map(|format| format.name).collect();
         let like = did_you_mean(name, known.iter().copied());
-        Error::Usage(format!("no export format `{name}`{like}; there are: {}", known.join(", ")))
+        Error::Usage(format!("no export format `{name}`; there are: {}{like}", known.join(", ")))
     })
 }

@@ -1,6 +1,7 @@
 //! report.json: what was run, where, how long it took and what it conserved.
 
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::Path;
 
 use serde::Serialize;
@@ -9,6 +10,9 @@ use crate::expect::{Check, Gauge, Warning};
 use crate::export::atomic;
 use crate::scene::Warned;
 use crate::{Error, Result};
+
+/// Name of the file.
+pub const REPORT: &str = "report.json";
 
 /// The device a run used.
 #[derive(Debug, Clone, Serialize)]
@@ -94,15 +98,25 @@ pub struct Report<S> {
     pub scene: S,
 }
 
-/// Writes any report as indented JSON. On a full disk the earlier report makes room for the new one.
+/// Writes any report as indented JSON. On a full disk it takes the place of the earlier one, in one line, which is shorter.
 ///
 /// # Errors
 /// [`Error::Io`] if it cannot be written.
 pub fn write(path: &Path, report: &impl Serialize) -> Result<()> {
     let mut text = serde_json::to_vec_pretty(report).map_err(|error| Error::io(path, error.into()))?;
     text.push(b'\n');
-    atomic::write(path, |out| out.write_all(&text)).or_else(|error| match path.is_file() {
-        true => std::fs::write(path, &text).map_err(|_| error),
-        false => Err(error),
+    atomic::write(path, |out| out.write_all(&text)).or_else(|error| {
+        let line = serde_json::to_vec(report).unwrap_or_default();
+        in_place(path, &line).map_err(|_| error)
     })
+}
+
+/// Writes over a file that is at least as long: no room is asked for.
+fn in_place(path: &Path, text: &[u8]) -> std::io::Result<()> {
+    let mut file = std::fs::OpenOptions::new().write(true).open(path)?;
+    if file.metadata()?.len() < text.len() as u64 {
+        return Err(std::io::ErrorKind::StorageFull.into());
+    }
+    file.write_all(text)?;
+    file.set_len(text.len() as u64)
 }

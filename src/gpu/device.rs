@@ -25,6 +25,8 @@ pub struct GpuOptions {
     /// Folder that gets the final text, entry point and overrides of every kernel that is compiled. `None` asks the environment
     /// variable `BRISANCE_KERNELS`.
     pub kernels: Option<PathBuf>,
+    /// Asked before each kernel is compiled, which takes seconds for all of a scene: whether to stop.
+    pub stop: Option<fn() -> bool>,
 }
 
 /// Choices that are about speed: which transfer to the grid, how many groups, how long a march, how long a submission. Results agree to
@@ -75,6 +77,8 @@ pub struct Gpu {
     pub settings: Settings,
     /// Where every kernel that is compiled is written down.
     pub(super) written: Option<PathBuf>,
+    /// Whether somebody wants to stop.
+    stop: Option<fn() -> bool>,
     /// Longest wait for a submission.
     patience: Duration,
     /// What was submitted last, for whom it does not end.
@@ -162,6 +166,7 @@ impl Gpu {
             folder,
             settings,
             written,
+            stop: options.stop,
             patience,
             at_work: Arc::default(),
             shaders,
@@ -210,6 +215,14 @@ impl Gpu {
             Some(Fault::Failed(text)) => Err(Error::Gpu(format!("{} failed: {text}", self.info.name))),
             Some(Fault::Refused(text)) => Err(Error::Bug(format!("the graphics library refused a call: {text}"))),
         }
+    }
+
+    /// Before work that takes a while.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`] if somebody wants to stop.
+    pub(super) fn go_on(&self) -> Result<()> {
+        if self.stop.is_some_and(|stop| stop()) { Err(Error::Interrupted) } else { Ok(()) }
     }
 
     /// Waits until a submission, or everything submitted, is done; then [`Gpu::check`]s.

@@ -72,7 +72,7 @@ impl Kernel {
     /// One entry point of a shader, compiled once per device, constants text, and values of the overrides that it reads.
     ///
     /// # Errors
-    /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings.
+    /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings; [`Error::Interrupted`].
     pub fn new(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
         let (compiled, module) = compiled(gpu, shader, constants.source)?;
         let mut read = String::new();
@@ -85,6 +85,7 @@ impl Kernel {
         if let Some(known) = lock(&gpu.kernels).get(&key) {
             return Ok(known.clone());
         }
+        gpu.go_on()?;
         let kernel = Kernel::compile(gpu, (&compiled, &module), entry, constants)?;
         lock(&gpu.kernels).insert(key, kernel.clone());
         Ok(kernel)

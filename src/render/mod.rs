@@ -42,7 +42,7 @@ use crate::simulation::Simulation;
 use buffers::Sources;
 use camera::Eye;
 use overlay::Layout;
-use plane::{Drawing, Labels};
+use plane::{Drawing, Labels, Wanted};
 
 /// Colours of the bodies, sRGB, by index: light enough to stand out from the colour maps.
 const BODY_COLORS: [[u8; 3]; 8] = [
@@ -75,6 +75,7 @@ pub struct Renderer {
     scene: Scene,
     shots: Vec<Shot>,
     depth: Depth,
+    stop: Option<fn() -> bool>,
     sources: Sources,
     /// In two and three dimensions.
     drawing: Option<Drawing>,
@@ -89,7 +90,15 @@ impl Renderer {
         let sources = Sources::from(buffers);
         let drawing = if sources.grid.dimension > 1 { Some(Drawing::new(gpu, scene, &sources)?) } else { None };
         let shots = scene.shots()?;
-        Ok(Self { gpu: gpu.clone(), scene: scene.clone(), shots, depth: Depth::default(), sources, drawing })
+        Ok(Self {
+            gpu: gpu.clone(),
+            scene: scene.clone(),
+            shots,
+            depth: Depth::default(),
+            stop: None,
+            sources,
+            drawing,
+        })
     }
 
     /// For a simulation of a scene, whose state it draws as it is at each call.
@@ -104,6 +113,12 @@ impl Renderer {
     #[must_use]
     pub fn with_depth(self, depth: Depth) -> Self {
         Self { depth, ..self }
+    }
+
+    /// Asks before each part of a picture whether to stop: then [`Renderer::draw`] gives up with [`crate::Error::Interrupted`].
+    #[must_use]
+    pub fn with_stop(self, stop: fn() -> bool) -> Self {
+        Self { stop: Some(stop), ..self }
     }
 
     /// Draws other views than those of the scene.
@@ -152,7 +167,7 @@ impl Renderer {
         let particle_colors = colormap::table(look.particle_colormap, Field::Velocity, 3);
         let tables = self.tables(look, shown, range, &colors, &particle_colors);
         let drawing = self.drawing.as_mut().expect("checked above");
-        let wanted = (look.overlays.edges, self.depth);
+        let wanted = Wanted { edges: look.overlays.edges, depth: self.depth, stop: self.stop };
         let (drawn, arrows) = drawing.draw(&self.gpu, &self.sources, &mut view, &tables, wanted)?;
         let stamp = self.stamp(look, time);
         let contrast = view.contrast;

@@ -14,9 +14,9 @@ use super::particles::Particles;
 use super::screen::{Screen, Shared};
 use super::transfer::Tables;
 use super::{Stamp, View};
-use crate::Result;
 use crate::gpu::{Gpu, Pass};
 use crate::scene::Scene;
+use crate::{Error, Result};
 
 /// Sizes of pictures whose kernels and buffers are kept at most.
 const MOST_SCREENS: usize = 6;
@@ -32,6 +32,22 @@ pub(super) struct Drawing {
     screens: Vec<Screen>,
     /// As many as there are views, so that none is made anew for every frame.
     kept: usize,
+}
+
+/// How a picture is wanted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wanted {
+    pub(super) edges: bool,
+    pub(super) depth: Depth,
+    /// Asked before each part whether to stop.
+    pub(super) stop: Option<fn() -> bool>,
+}
+
+impl Wanted {
+    /// The error if the picture is not wanted any more.
+    pub(super) fn go_on(self) -> Result<()> {
+        if self.stop.is_some_and(|stop| stop()) { Err(Error::Interrupted) } else { Ok(()) }
+    }
 }
 
 /// A colour bar: caption, colours, values at its ends, and the power that turns a fraction of them into a place in the colours.
@@ -79,9 +95,10 @@ impl Drawing {
         sources: &Sources,
         view: &mut View,
         tables: &Tables,
-        (edges, depth): (bool, Depth),
+        wanted: Wanted,
     ) -> Result<(Drawn, Vec<[f32; 4]>)> {
         let Self { gas, particles, distance, light, screens, kept } = self;
+        wanted.go_on()?;
         gas.view.write(gpu, 0, &[*view]);
         gas.set_tables(gpu, tables);
         let mut pass = Pass::new(gpu, "picture light");
@@ -92,17 +109,17 @@ impl Drawing {
         light.record(&mut pass, view);
         pass.submit()?;
         let shared = Shared { gpu, sources, gas, particles: particles.as_ref(), light, distance };
-        match screens.iter().position(|screen| screen.fits(view, depth)) {
+        match screens.iter().position(|screen| screen.fits(view, wanted.depth)) {
             Some(place) => screens[place..].rotate_left(1),
             None => {
                 // Old ones first: one more than are kept may not fit.
                 screens.drain(..(screens.len() + 1).saturating_sub(*kept));
-                screens.push(Screen::new(&shared, view, depth)?);
+                screens.push(Screen::new(&shared, view, wanted.depth)?);
             }
         }
         let screen = screens.last().expect("made or moved to the end above");
         let velocities = arrows::sample(gpu, sources, gas, view.arrows)?;
-        Ok((screen.draw(&shared, view, edges)?, velocities))
+        Ok((screen.draw(&shared, view, wanted)?, velocities))
     }
 }
 

@@ -8,12 +8,15 @@ use super::gas::{Gas, RANGE_GROUPS};
 use super::kernels::{SAMPLE_MARGIN, bind, bind_with};
 use super::light::{Distance, Light};
 use super::particles::Particles;
+use super::plane::Wanted;
 use super::view::View;
 use crate::Result;
 use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
 
 /// Rays of a band at most: more need more memory and gain nothing.
 const BAND_RAYS: u32 = 1 << 21;
+/// The same where a processor plays the GPU: whoever wants to stop waits for a band.
+const BAND_RAYS_SOFTWARE: u32 = 1 << 17;
 
 /// Root mean squares of a line-of-sight picture that reach half way to black or white.
 const OPTICS_CONTRAST: f64 = 1.5;
@@ -116,7 +119,8 @@ impl Screen {
         let key = Key::of(view, depth);
         let [width, height] = view.size;
         let n = view.supersampling;
-        let band_rows = (BAND_RAYS / width / n * n).clamp(n, height);
+        let most = if gpu.is_software() { BAND_RAYS_SOFTWARE } else { BAND_RAYS };
+        let band_rows = (most / width / n * n).clamp(n, height);
         let rays = width as usize * band_rows as usize;
         let edges: Buffer<[Vec4; 2]> = Buffer::uniform(gpu, "edges", 12)?;
         let surface: Buffer<[u32; 4]> = Buffer::new(gpu, "surface", rays)?;
@@ -167,15 +171,16 @@ impl Screen {
     }
 
     /// Draws what was prepared.
-    pub(super) fn draw(&self, shared: &Shared, view: &mut View, edges: bool) -> Result<Drawn> {
+    pub(super) fn draw(&self, shared: &Shared, view: &mut View, wanted: Wanted) -> Result<Drawn> {
         let Shared { gpu, gas, .. } = *shared;
-        self.edges.write(gpu, 0, &if edges { view.edges() } else { [View::NO_EDGE; 12] });
+        self.edges.write(gpu, 0, &if wanted.edges { view.edges() } else { [View::NO_EDGE; 12] });
         if let Some(optics) = self.optics.as_ref().filter(|_| view.optics > 0) {
             view.gain = optics.measure(shared, view)?;
         }
         let n = view.supersampling;
         let mut drawn = Drawn::default();
         for first_row in (0..view.size[1]).step_by(self.band_rows as usize) {
+            wanted.go_on()?;
             view.first_row = first_row;
             view.rows = self.band_rows.min(view.size[1] - first_row);
             gas.view.write(gpu, 0, &[*view]);
@@ -185,9 +190,9 @@ impl Screen {
             let count = view.size[0] / n * (view.rows / n);
             drawn.pixels.extend(readback::read_range(gpu, &self.pixels, 0, count as usize)?);
             if let Some(deep) = &self.deep {
-                let wanted = self.key.depth;
+                let depth = self.key.depth;
                 for (kernel, of, into) in
-                    [(&deep.linear, wanted.linear, &mut drawn.linear), (&deep.toned, wanted.fine, &mut drawn.toned)]
+                    [(&deep.linear, depth.linear, &mut drawn.linear), (&deep.toned, depth.fine, &mut drawn.toned)]
                 {
                     if of {
                         into.extend(deep.read(gpu, kernel, count as usize)?);

@@ -1,11 +1,15 @@
 //! How much work a scene is, by counting, before anything loops over it: signed distances of single shapes to evaluate, particles, rows
 //! of cells. What is too much is refused with the number and the limit.
 
+use toml::de::{DeTable, DeValue};
+
 use super::source::Finding;
 use super::{Boundary, Domain, Scene, Shape};
 
 /// Single shapes that one shape may be made of, copies and uses counted as often as they are there.
 const MOST_PARTS: u64 = 1_000_000;
+/// Keys and entries of lists that a scene may have that somebody wrote, its variants among them.
+pub(super) const MOST_VALUES: u64 = 100_000;
 /// Shapes in each other at most.
 pub(super) const DEEPEST: u32 = 64;
 /// Particles of a scene at most: the device's largest buffer holds no more.
@@ -55,6 +59,21 @@ impl Shape {
             Shape::Use(named) => named.depth() + 1,
             _ => 1 + self.parts().iter().map(|(_, part)| part.depth()).max().unwrap_or(0),
         }
+    }
+}
+
+/// A text of too many keys and entries; nothing may look at each of them.
+pub(super) fn values(root: &DeTable<'_>, most: u64) -> Option<Finding> {
+    let count = root.iter().fold(0, |sum: u64, (_, value)| sum + values_count(value.get_ref()));
+    let help = format!("at most {most} are read; a large outline is better a mesh file");
+    (count > most).then(|| Finding::new("", format!("{count} keys and entries of lists"), help))
+}
+
+fn values_count(value: &DeValue<'_>) -> u64 {
+    match value {
+        DeValue::Table(table) => table.iter().fold(1, |sum, (_, value)| sum + values_count(value.get_ref())),
+        DeValue::Array(array) => array.iter().fold(1, |sum, value| sum + values_count(value.get_ref())),
+        _ => 1,
     }
 }
 

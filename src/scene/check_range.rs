@@ -22,7 +22,7 @@ impl Check<'_> {
         let scene = self.scene;
         if !(GAMMA[0]..=GAMMA[1]).contains(&scene.gas.gamma) {
             let help = format!("give a number from {} to {}; air has 1.4", GAMMA[0], GAMMA[1]);
-            self.add("gas.gamma", format!("{} is out of the range of single precision", plain(scene.gas.gamma)), help);
+            self.add("gas.gamma", format!("{} is out of the range of single precision", scene.gas.gamma), help);
         }
         self.cell_range();
         self.seen("gravity", &scene.gravity, LEAST_PLAIN, MOST);
@@ -57,9 +57,12 @@ impl Check<'_> {
     fn seen(&mut self, path: &str, numbers: &[f64], least: f64, most: f64) {
         let out = |number: &&f64| **number != 0.0 && !(least..=most).contains(&number.abs());
         if let Some(number) = numbers.iter().find(out) {
-            let message = format!("{number:e} is out of the range of single precision");
-            let help =
-                format!("give a size from {least:e} to {most:e}; other units, in which numbers lie near 1, help");
+            let message = format!("{} is out of the range of single precision", plain(*number));
+            let help = format!(
+                "give a size from {} to {}; other units, in which numbers lie near 1, help",
+                plain(least),
+                plain(most)
+            );
             self.add(path, message, help);
         }
     }
@@ -70,8 +73,12 @@ impl Check<'_> {
         // cubes of edges are volumes, squares of their inverses stand in the pressure system
         let [least, most] = [1e-12, 1e12];
         if !(least..=most).contains(&edge) {
-            let message = format!("cells of edge {edge:e} m are out of the range of single precision");
-            self.add("domain.size", message, format!("give cells of edge {least:e} to {most:e}; use other units"));
+            let message = format!("cells of edge {} m are out of the range of single precision", plain(edge));
+            self.add(
+                "domain.size",
+                message,
+                format!("give cells of edge {} to {} m; use other units", plain(least), plain(most)),
+            );
         }
         self.seen("domain.origin", &domain.origin, LEAST_PLAIN, MOST);
     }
@@ -139,7 +146,7 @@ impl Check<'_> {
             let square = state.sound_speed(scene.gas.gamma).powi(2);
             for (what, value) in [("energy per volume", energy), ("square of the speed of sound", square)] {
                 if !(LEAST_PLAIN..=MOST_PLAIN).contains(&value) {
-                    let message = format!("its {what}, {value:e}, is out of the range of single precision");
+                    let message = format!("its {what}, {}, is out of the range of single precision", plain(value));
                     self.add(path.as_str(), message, "use other units, in which density and pressure lie near 1");
                 }
             }

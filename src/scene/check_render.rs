@@ -5,6 +5,8 @@ use super::{Camera, CameraPath, Contours, Field, RenderSettings};
 
 /// Slices of a picture at most.
 const MAX_SLICES: usize = 4;
+/// Views of a scene: each is drawn at every frame.
+const MAX_VIEWS: usize = 100;
 /// Contour lines of a picture at most.
 const MAX_CONTOURS: u32 = 32;
 /// Highest and lowest place of a key frame around its target \[degrees\].
@@ -21,6 +23,10 @@ impl Check<'_> {
     }
 
     fn views(&mut self) {
+        let count = self.scene.render.views.len();
+        if count > MAX_VIEWS {
+            return self.add("render.views", format!("{count} views"), format!("give at most {MAX_VIEWS}"));
+        }
         for name in self.scene.render.views.keys() {
             let path = format!("render.views.{name}");
             if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-') {

@@ -5,6 +5,8 @@ use super::{Body, Domain, Scene, Shape};
 
 /// Sample points per axis when looking for parts of a body outside the domain.
 const SAMPLES: f64 = 64.0;
+/// Distances of single shapes that the search may take.
+const MOST_LOOKS: f64 = 2e7;
 /// Copies that one key may make.
 const MAX_COPIES: u32 = 10_000;
 
@@ -242,8 +244,10 @@ fn outside_point(scene: &Scene, body: &Body) -> Option<[f64; 3]> {
     {
         return None;
     }
+    let affordable = (MOST_LOOKS / body.shape.parts_count() as f64).powf(1.0 / axes as f64).clamp(4.0, SAMPLES);
     let finest = domain.spacing() / f64::from(scene.particles_along_axis(body));
-    let count = |d: usize| if d < axes { ((high[d] - low[d]) / finest).ceil().clamp(1.0, SAMPLES) as u32 } else { 1 };
+    let count =
+        |d: usize| if d < axes { ((high[d] - low[d]) / finest).ceil().clamp(1.0, affordable) as u32 } else { 1 };
     let at = |d: usize, index: u32| {
         if d < axes { low[d] + (high[d] - low[d]) * (f64::from(index) + 0.5) / f64::from(count(d)) } else { 0.0 }
     };

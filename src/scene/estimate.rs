@@ -12,6 +12,9 @@ pub const IMPLICIT_COURANT: f64 = 1000.0;
 const MANY_STEPS: f64 = 1e6;
 /// Share of the raw pixels that a PNG takes.
 const PNG: f64 = 0.25;
+/// Bytes of a pixel in pictures of 16 bits per channel, and in pictures of linear light: what is fine hardly shrinks.
+const PNG16: f64 = 4.0;
+const EXR: f64 = 6.0;
 /// Bytes of a cell and of a particle in VTK files and states, before they are compressed.
 const CELL: f64 = 32.0;
 const PARTICLE: f64 = 160.0;
@@ -92,8 +95,10 @@ impl Scene {
         let formats = f64::from(u8::from(self.output.vtk)) + f64::from(u8::from(self.output.states));
         let stored = formats * (CELL * self.domain.cell_count() as f64 + PARTICLE * particles as f64);
         let steps = time.until / step;
+        let share = |on: bool, bytes: f64| if on { bytes } else { 0.0 };
+        let pixel = 3.0 * PNG + share(self.output.png16, PNG16) + share(self.output.exr, EXR);
         // one row of the table of steps has about 600 bytes
-        let disk_bytes = frames * (PNG * 3.0 * pixels * pictures + stored) + 600.0 * steps;
+        let disk_bytes = frames * (pixel * pixels * pictures + stored) + 600.0 * steps;
         Estimate { gas_sound_speed: sound, solid_sound_speed: solid, step, steps, substeps, implicit_cap, disk_bytes }
     }
 }

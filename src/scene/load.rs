@@ -26,7 +26,16 @@ impl Scene {
     pub fn load(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
         let path = path.as_ref();
         let text = input::text(path, input::MOST_SCENE).map_err(|source| unreadable(path, source))?;
-        Scene::parse(&text, &path.display().to_string(), overrides)
+        Scene::written(&text, &path.display().to_string(), overrides)
+    }
+
+    /// Like [`Scene::parse`] for what people wrote: of a length that is read in a moment.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with every mistake, or that there is too much of it.
+    pub(super) fn written(text: &str, file_name: &str, overrides: &[String]) -> Result<Scene> {
+        let mut source = Source::new(text, file_name, overrides);
+        read(&mut source, budget::MOST_VALUES).map_err(|findings| Error::Scene(source.report(&findings)))
     }
 
     /// Like [`Scene::load`] with the text at hand; `file_name` appears in messages.
@@ -35,7 +44,7 @@ impl Scene {
     /// [`Error::Scene`] with every mistake.
     pub fn parse(text: &str, file_name: &str, overrides: &[String]) -> Result<Scene> {
         let mut source = Source::new(text, file_name, overrides);
-        read(&mut source).map_err(|findings| Error::Scene(source.report(&findings)))
+        read(&mut source, u64::MAX).map_err(|findings| Error::Scene(source.report(&findings)))
     }
 
     /// Reads a shipped scene by its path below `scenes/`, as the program carries it, and applies overrides.
@@ -117,7 +126,7 @@ fn least_multiple(a: u32, b: u32) -> u32 {
     a / greatest_divisor(a, b) * b
 }
 
-fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
+fn read(source: &mut Source, most_values: u64) -> std::result::Result<Scene, Vec<Finding>> {
     let text = source.text().to_owned();
     let (root, errors) = DeTable::parse_recoverable(&text);
     if !errors.is_empty() {
@@ -125,6 +134,9 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
     }
     let place = root.span();
     let mut root = root.into_inner();
+    if let Some(finding) = budget::values(&root, most_values) {
+        return Err(vec![finding]);
+    }
     let documents = override_documents(source)?;
     let mut findings = Vec::new();
     let mut outside = false;
@@ -143,7 +155,7 @@ fn read(source: &mut Source) -> std::result::Result<Scene, Vec<Finding>> {
                         scene's variants";
             findings.push(Finding {
                 span: Some(source.override_place(index)),
-                ..Finding::new("", format!("--set {message}"), help)
+                ..Finding::new("", format!("--set: {message}"), help)
             });
         }
     }

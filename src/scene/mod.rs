@@ -85,7 +85,7 @@ pub use render::{
 pub use sample::{Overlap, Seed, ThinBody};
 pub use settings::{Film, Numerics, Obstacles, Output, Pair, Preconditioner, Time, Transfer};
 pub use shape::Shape;
-pub use shipped::{STANDARD_INPUT, Shipped, shipped, shipped_named, stem};
+pub use shipped::{STANDARD_INPUT, Shipped, scene_file, shipped, shipped_named, stem};
 pub use shot::{Shot, ShotKeys};
 pub use variants::SMALL;
 pub use vortex::Vortex;

@@ -131,7 +131,12 @@ impl Scene {
     /// How many particles [`Scene::seed_particles`] makes.
     #[must_use]
     pub fn particle_count(&self) -> usize {
-        (0..self.bodies.len()).map(|index| self.sample(index).inside.len()).sum()
+        let count = |index| {
+            let claim = self.claim(index);
+            let rows: Vec<_> = self.rows_near(&claim.body.shape).collect();
+            rows.into_par_iter().map(|(range, row)| self.sample_row(&claim, range, row).inside.len()).sum::<usize>()
+        };
+        (0..self.bodies.len()).map(count).sum()
     }
 
     /// True if a body gets at least one particle.

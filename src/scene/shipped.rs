@@ -53,6 +53,10 @@ pub fn shipped() -> Vec<Shipped> {
 /// # Errors
 /// [`Error::Scene`] with the names most like it.
 pub fn shipped_named(name: &str) -> Result<Shipped> {
+    let mut all = shipped();
+    if let Some(place) = all.iter().position(|scene| scene.is_called(name)) {
+        return Ok(all.swap_remove(place));
+    }
     let folder = Path::new(name);
     if folder.join("report.json").is_file() {
         return Err(Error::Scene(format!(
@@ -64,17 +68,19 @@ pub fn shipped_named(name: &str) -> Result<Shipped> {
             "`{name}` is a folder; name a scene file, or a shipped scene (`brisance list`)"
         )));
     }
-    let mut all = shipped();
-    match all.iter().position(|scene| scene.is_called(name)) {
-        Some(place) => Ok(all.swap_remove(place)),
-        None => {
-            let like = spelling::did_you_mean(&stem(name), all.iter().map(|scene| scene.name.as_str()));
-            let count = all.len();
-            Err(Error::Scene(format!(
-                "no file `{name}` and no shipped scene of that name{like} (`brisance list` prints all {count})"
-            )))
-        }
-    }
+    let like = spelling::did_you_mean(&stem(name), all.iter().map(|scene| scene.name.as_str()));
+    let count = all.len();
+    Err(Error::Scene(format!(
+        "no file `{name}` and no shipped scene of that name{like} (`brisance list` prints all {count})"
+    )))
+}
+
+/// The file that a user means: the bare name of a shipped scene means that scene, whatever lies in the folder that one stands in.
+#[must_use]
+pub fn scene_file(name: &str) -> Option<&Path> {
+    let path = Path::new(name);
+    let bare = || shipped().iter().any(|scene| scene.name == name);
+    (path.exists() && !path.is_dir() && !bare()).then_some(path)
 }
 
 impl Scene {
@@ -86,11 +92,10 @@ impl Scene {
         if name == STANDARD_INPUT {
             let text = input::standard(input::MOST_SCENE);
             let text = text.map_err(|source| Error::Scene(format!("standard input: {source}")))?;
-            return Scene::parse(&text, "standard input", overrides);
+            return Scene::written(&text, "standard input", overrides);
         }
-        let path = Path::new(name);
-        if path.exists() && !path.is_dir() {
-            return Scene::load(name, overrides);
+        if let Some(path) = scene_file(name) {
+            return Scene::load(path, overrides);
         }
         let scene = shipped_named(name)?;
         Scene::parse(&scene.text, &format!("scenes/{}", scene.path), overrides)

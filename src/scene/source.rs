@@ -14,6 +14,11 @@ const DEEPEST: usize = 64;
 /// Findings that are told at most.
 const MOST_TOLD: usize = 20;
 
+/// Bytes of a line that is shown with what is wrong in it.
+const LONGEST_LINE: usize = 400;
+/// Letters of a path, a message or an advice that are told.
+const MOST_LETTERS: usize = 1000;
+
 /// Something wrong with a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Finding {
@@ -31,6 +36,12 @@ impl Finding {
     /// A finding at a key.
     pub(super) fn new(path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Finding { path: path.into(), message: message.into(), help: help.into(), span: None }
+    }
+
+    /// The same with as many letters as somebody reads.
+    fn clipped(&self) -> Self {
+        let [path, message, help] = [&self.path, &self.message, &self.help].map(|text| clip(text));
+        Finding { path, message, help, span: None }
     }
 }
 
@@ -149,12 +160,22 @@ impl Source {
         let mut text = String::new();
         for finding in findings.iter().take(MOST_TOLD) {
             let span = finding.span.clone().unwrap_or_else(|| self.place_of(&finding.path));
+            let finding = finding.clipped();
             let index = self.parts.iter().rposition(|part| part.start <= span.start).unwrap_or(0);
             let part = &self.parts[index];
             let local = span.start - part.start..span.end.clamp(span.start, part.end.max(span.start)) - part.start;
             let key = if finding.path.is_empty() { String::new() } else { format!("{}: ", finding.path) };
+            let message = format!("{key}{}", finding.message);
+            let own = &self.buffer[part.clone()];
+            if [local.start, local.end].iter().any(|at| line(own, *at).len() > LONGEST_LINE) {
+                let above = &own[..own.floor_char_boundary(local.start)];
+                let (row, column) = (above.matches('\n').count() + 1, above.len() - line_start(above) + 1);
+                let name = if index == 0 { &self.name } else { "--set" };
+                text.push_str(&format!("error: {message}\n  --> {name}:{row}:{column}\n  = {}\n\n", finding.help));
+                continue;
+            }
             let diagnostic = Diagnostic::error()
-                .with_message(format!("{key}{}", finding.message))
+                .with_message(message)
                 .with_label(Label::primary(index, local))
                 .with_note(finding.help.clone());
             // the only error is a place outside the file, which the clamp excludes
@@ -174,6 +195,25 @@ impl Source {
 /// A key as people write it, `bodies[0].density`, as [`set`] takes it: `bodies.0.density`.
 pub(super) fn key_path(key: &str) -> String {
     key.trim().replace('[', ".").replace(']', "")
+}
+
+/// The first letters of a long text, and how many bytes it has.
+fn clip(text: &str) -> String {
+    match text.char_indices().nth(MOST_LETTERS) {
+        Some((end, _)) => format!("{}... ({} bytes)", &text[..end], text.len()),
+        None => text.to_owned(),
+    }
+}
+
+/// Where the last line begins.
+fn line_start(text: &str) -> usize {
+    text.rfind('\n').map_or(0, |end| end + 1)
+}
+
+/// The line around a place.
+fn line(text: &str, at: usize) -> &str {
+    let start = line_start(&text[..text.floor_char_boundary(at)]);
+    text[start..].split('\n').next().unwrap_or_default()
 }
 
 fn count(findings: usize) -> String {

@@ -22,7 +22,7 @@ pub(super) fn apply(root: &mut DeTable<'_>, name: &str, text: &str) -> Result<()
         let known = variants.keys().map(|key| format!("`{}`", key.get_ref())).collect::<Vec<_>>();
         let known = if known.is_empty() { "no variants".to_owned() } else { known.join(", ") };
         let like = did_you_mean(name, variants.keys().map(|key| &**key.get_ref()));
-        return Err(format!("no variant `{name}`{like}; this scene has {known}"));
+        return Err(format!("no variant `{name}`; this scene has {known}{like}"));
     };
     let mut changes = Vec::new();
     collect("", variant, text, &mut changes);

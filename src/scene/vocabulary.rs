@@ -21,6 +21,9 @@ pub(super) fn findings(root: &mut DeTable<'_>) -> (Vec<Finding>, bool) {
     (words.findings, words.unreadable)
 }
 
+/// Findings for which it is looked what was meant: many more than are told, in whatever order they come.
+const MOST_LOOKED_AT: usize = 1000;
+
 struct Words<'s> {
     schema: &'s Value,
     findings: Vec<Finding>,
@@ -84,7 +87,7 @@ impl<'s> Words<'s> {
         }
         for (key, place) in unknown {
             let names = || known.keys().map(String::as_str);
-            let message = format!("unknown field `{key}`{}", did_you_mean(&key, names()));
+            let message = format!("unknown field `{key}`{}", self.like(&key, names()));
             self.add(&below(&key), Some(place), message, &there_are(names()));
             table.remove(key.as_str());
         }
@@ -108,14 +111,19 @@ impl<'s> Words<'s> {
                     return self.value(&format!("{path}.{key}"), value, inner);
                 }
                 self.unreadable = true;
-                let message = format!("unknown variant `{key}`{}", did_you_mean(&key, words()));
+                let message = format!("unknown variant `{key}`{}", self.like(&key, words()));
                 return self.add(path, Some(place), message, &there_are(words()));
             }
             _ => return,
         };
         self.unreadable = true;
-        let message = format!("unknown variant `{unknown}`{}", did_you_mean(&unknown, words()));
+        let message = format!("unknown variant `{unknown}`{}", self.like(&unknown, words()));
         self.add(path, Some(place), message, &there_are(words()));
+    }
+
+    /// What may have been meant by a word.
+    fn like<'n>(&self, word: &str, names: impl Iterator<Item = &'n str>) -> String {
+        if self.findings.len() < MOST_LOOKED_AT { did_you_mean(word, names) } else { String::new() }
     }
 
     fn add(&mut self, path: &str, place: Option<std::ops::Range<usize>>, message: String, help: &str) {
@@ -132,7 +140,13 @@ fn words_of(choice: &Value) -> Vec<&str> {
 }
 
 fn there_are<'n>(names: impl Iterator<Item = &'n str>) -> String {
-    format!("there are {}", names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "))
+    let mut told: Vec<String> = Vec::new();
+    for name in names.map(|name| format!("`{name}`")) {
+        if !told.contains(&name) {
+            told.push(name);
+        }
+    }
+    format!("there are {}", told.join(", "))
 }
 
 /// What the schema asks for, if the value is of another type.

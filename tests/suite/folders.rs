@@ -119,6 +119,16 @@ fn scenes_come_by_name_by_pipe_and_from_nothing() {
         assert!(checked.status.success(), "{}", err(&checked));
         assert_eq!(at(&["init", name]).status.code(), Some(2), "it stays");
     }
+    let from = std::fs::read_to_string(folder.path().join("d.toml")).unwrap();
+    assert!(from.starts_with("#:schema scene.schema.json\n") && from.matches("#:schema").count() == 1, "{from}");
+    assert!(at(&["init", "e", "--from", "a.toml"]).status.success(), "a file of one's own");
+    // folders and files of those names hide no shipped scene
+    std::fs::create_dir(folder.path().join("sod")).unwrap();
+    std::fs::write(folder.path().join("sod/report.json"), "{}").unwrap();
+    std::fs::write(folder.path().join("lax"), "title = ").unwrap();
+    assert!(at(&["check", "sod"]).status.success() && at(&["check", "lax"]).status.success());
+    let report = at(&["selftest", "--out", "a.toml"]);
+    assert!(err(&report).contains("is an input"), "{}", err(&report));
     let picture = at(&["check", "a.toml", "--picture", "a.toml"]);
     assert!(err(&picture).contains("is an input"), "{}", err(&picture));
     let script = format!("{} check - < a.toml", env!("CARGO_BIN_EXE_brisance"));
@@ -228,4 +238,94 @@ fn a_second_signal_ends_at_once_with_the_encoder() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(start.elapsed() < Duration::from_secs(10) && !lives(&encoder), "{:?}", start.elapsed());
     assert_eq!(report(&folder.path().join("run"))["status"], "stopped");
+}
+
+/// Waits for a condition, at most two minutes.
+fn wait_for(what: &str, mut condition: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !condition() {
+        assert!(start.elapsed() < Duration::from_secs(120), "{what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn a_run_that_is_stopped_in_set_up_says_so_and_takes_no_name() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    let long = ["run", "bursting_shell_3d", "--no-expect", "--quiet", "--out", target.to_str().unwrap()];
+    // kernels that no earlier run has left compiled
+    let mut command = brisance(&long);
+    command.env("MESA_SHADER_CACHE_DISABLE", "true").stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    wait_for("a report before the first kernel", || target.join("report.json").exists());
+    assert_eq!(report(&target)["status"], "running");
+    let start = Instant::now();
+    assert!(kill("-INT", &child.id().to_string()));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    let report = report(&target);
+    assert_eq!((&report["status"], &report["steps"]), (&"stopped".into(), &0.into()));
+    // nothing was lost with it, so nothing asks for --force
+    succeeds(&[&SHORT[..], &[target.to_str().unwrap(), "--no-frames"]].concat());
+}
+
+#[test]
+fn a_disk_that_is_full_is_told_with_what_was_written() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    // a limit on the size of files is met as a full disk is: pictures grow with what there is to see
+    let run = "run sod --no-expect --quiet --set render.size=[1280,720] --out";
+    let script = format!("ulimit -f 40; exec {} {run} {}", env!("CARGO_BIN_EXE_brisance"), target.display());
+    let output = Command::new("bash").args(["-c", &script]).output().unwrap();
+    assert_eq!(output.status.code(), Some(9), "{}", err(&output));
+    assert!(err(&output).contains(".png: File too large"), "what failed first is told: {}", err(&output));
+    let report = report(&target);
+    let pictures = std::fs::read_dir(target.join("frames")).unwrap().count();
+    assert_eq!((&report["status"], &report["frames"]), (&"failed".into(), &pictures.into()));
+    assert!(report["outcome"].as_str().unwrap().contains("File too large"), "{}", report["outcome"]);
+    let (_, steps) = table(&target.join("diagnostics.csv"));
+    let made = report["steps"].as_u64().unwrap();
+    assert!((1..=made).contains(&(steps.len() as u64)), "{} rows of {made} steps", steps.len());
+}
+
+#[test]
+fn a_film_that_nobody_encodes_is_told_by_the_exit_code() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    let arguments = [&SHORT[..], &[target.to_str().unwrap(), "--video", "film.mp4"]].concat();
+    let output = brisance(&arguments).env("PATH", folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(9), "{}", err(&output));
+    let report = report(&target);
+    assert_eq!((&report["status"], &report["frames"]), (&"finished".into(), &2.into()));
+    assert!(report["outcome"].as_str().unwrap().starts_with("no film film.mp4: ffmpeg"), "{}", report["outcome"]);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn nohup_is_heeded() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    let long = "run sod --until 1000 --frames 100000 --no-expect --quiet --out";
+    let script = format!("trap '' HUP; exec {} {long} {}", env!("CARGO_BIN_EXE_brisance"), target.display());
+    let mut child = Command::new("bash").args(["-c", &script]).stderr(Stdio::null()).spawn().unwrap();
+    wait_for("no frame", || target.join("frames/0001.png").exists());
+    assert!(kill("-HUP", &child.id().to_string()));
+    let seen = report(&target)["frames"].as_u64().unwrap();
+    wait_for("it goes on", || report(&target)["frames"].as_u64().unwrap() > seen + 2);
+    assert!(child.try_wait().unwrap().is_none(), "a terminal that is gone ends nothing under nohup");
+    assert!(kill("-TERM", &child.id().to_string()));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
 }

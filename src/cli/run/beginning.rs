@@ -182,6 +182,12 @@ impl Beginning {
         Ok(simulation)
     }
 
+    /// Time \[s\], steps and frames of the run so far.
+    pub(super) fn come_to(&self) -> (f64, u64, u32) {
+        let frames = self.tables().frames;
+        self.from.as_ref().map_or((0.0, 0, 0), |from| (from.head.time, from.head.step, frames))
+    }
+
     /// The last frame that exists, and whether the device is on its way to the next.
     pub(super) fn reached(&self) -> Option<(u32, bool)> {
         let from = self.from.as_ref()?;

@@ -25,13 +25,20 @@ impl Run<'_> {
             writer.send(Message { records: std::mem::take(&mut self.pending), ..Message::default() });
         }
         // The first error is the one to tell about.
-        let (mut outcome, written) = match (outcome, self.close_writer()) {
-            (Ok(()), Err(error)) => (Err(error), Written::default()),
-            (outcome, written) => (outcome, written.unwrap_or_default()),
+        let mut outcome = match (outcome, self.close_writer()) {
+            (Ok(()), Err(error)) => Err(error),
+            (outcome, _) => outcome,
         };
+        let written = std::mem::take(&mut self.written);
         let filmed = film::tell(&written.films, self.options.quiet || json);
+        let judged = match status(&outcome) {
+            Status::Failed => Ok(Verdict::default()),
+            status => self.judge(status),
+        };
+        // the report comes whatever the device says
+        let (judged, asked) = judged.map_or_else(|error| (Verdict::default(), Err(error)), |judged| (judged, Ok(())));
+        outcome = outcome.and(asked);
         let status = status(&outcome);
-        let judged = if status == Status::Failed { Verdict::default() } else { self.judge(status)? };
         judged.tell();
         if outcome.is_ok() {
             outcome = self.verdict(&judged.checks);

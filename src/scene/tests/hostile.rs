@@ -152,3 +152,38 @@ fn the_run_is_estimated() {
     let implicit = parse(&body(BALL), &[stiff, "numerics.elasticity=\"implicit\""]).estimate(0);
     assert!(implicit.substeps == 1.0 && implicit.warnings()[0].contains("capped"), "{implicit:?}");
 }
+
+#[test]
+fn scenes_that_nobody_wrote_by_hand_are_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    let told = |text: String| {
+        std::fs::write(&path, text).unwrap();
+        Scene::load(&path, &[]).map(|_| ()).unwrap_err().to_string()
+    };
+    let many = told(format!("{BASE}[render]\ncontours = [{}]\n", "0.5, ".repeat(120_000)));
+    assert!(many.contains("keys and entries of lists") && many.contains("at most 100000"), "{many}");
+    let long = told(format!("{BASE}#{}\n", "x".repeat(3 << 20)));
+    assert!(long.contains("larger than 2 MiB"), "{long}");
+    let mut views = BASE.to_owned();
+    for k in 0..101 {
+        let _ = writeln!(views, "[render.views.v{k}]\nsize = [64, 64]");
+    }
+    assert!(told(views).contains("101 views"));
+}
+
+#[test]
+fn what_is_told_is_short_whatever_stands_in_the_scene() {
+    let word = "x".repeat(100_000);
+    for text in
+        [format!("{BASE}[{word}]\n"), format!("{word} = 1\n{BASE}"), format!("{BASE}[render]\nmode = \"{word}\"\n")]
+    {
+        let told = report(&text, &[]);
+        assert!(told.len() < 5000 && told.contains("100000 bytes") | told.contains("(1000"), "{} bytes", told.len());
+        assert!(told.contains("--> "), "it has a place: {told}");
+    }
+    let set = format!("title={word}");
+    assert!(report(BASE, &[&set]).len() < 5000);
+    expect(BASE, &["gas.gamma=1.0000000001"], &["1.0000000001 is out"]);
+    expect(BASE, &["time.max_growth=0.5"], &["0.5 is out"]);
+}
