@@ -32,6 +32,7 @@ mod loads;
 mod materials;
 mod numerics;
 mod pages;
+mod open_sides;
 mod preconditioner;
 mod prose;
 mod quiet;
