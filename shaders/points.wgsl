@@ -1,9 +1,9 @@
-// Particles as balls: the nearest one in each sample of the band. A ray's place has view.samples x view.samples samples.
+// Particles as balls, in the plane as strained squares: the nearest one in each sample of the band. A ray's place has view.samples x view.samples samples.
 // measure: reads position, velocity, affine, deformation, stress, heat; writes quantity, what the colours mean.
 // find_particle_range: reads quantity; writes the least and largest value that each workgroup saw.
 // mix_paint: reads quantity, position, velocity, affine, deformation, colors; writes balls: place and radius, 0 for what is not
 // drawn; then colour.
-// splat_depth: reads balls; raises depth_bits to the nearest ball.
+// splat_depth: reads balls, deformation; raises depth_bits to the nearest ball.
 // splat_nearest: reads the same and depth_bits; writes nearest, the lowest particle index at that depth.
 
 #include "shared/thread.wgsl"
@@ -131,11 +131,42 @@ struct Footprint {
     // Samples from low to below high, empty if the particle is not seen.
     low: vec2i,
     high: vec2i,
+    // In the plane: rows of the map from an offset in samples to the particle's square at rest, of half edge 1.
+    to_square: vec4f,
+    // And the radius of a disc around the middle over `radius`.
+    disc: f32,
+}
+
+// Half the edge of a particle's square over its disc's radius, with some overlap.
+const HALF_EDGE: f32 = 0.81;
+
+// Fills in what a particle in the plane covers, and how many samples it reaches: its square at rest as the deformation strains it, and a disc
+// for what flows plastically, which the deformation does not tell.
+fn square_of(p: u32, given: Footprint) -> Footprint {
+    var mark = given;
+    var a = deformation[3u * p].xy + vec2f(1.0, 0.0);     // columns of F
+    var b = deformation[3u * p + 1u].xy + vec2f(0.0, 1.0);
+    let size = dot(a, a) + dot(b, b);
+    if (!(a.x * b.y - a.y * b.x > 0.02 * size) || size > 60.0) {
+        a = vec2f(1.0, 0.0);
+        b = vec2f(0.0, 1.0);
+    }
+    let area = a.x * b.y - a.y * b.x;
+    mark.disc = min(1.0, 1.41421356 * area / sqrt(dot(a, a) + dot(b, b)));
+    // Rows of the picture run downwards.
+    mark.to_square = vec4f(b.y, b.x, -a.y, -a.x) / (area * HALF_EDGE * max(mark.samples, 1e-6));
+    return mark;
+}
+
+// Share of the way from the middle of a particle in the plane to its edge; 1 and more outside.
+fn share_of_square(mark: Footprint, offset: vec2f) -> f32 {
+    let place = abs(vec2f(dot(mark.to_square.xy, offset), dot(mark.to_square.zw, offset)));
+    return min(max(place.x, place.y), length(offset) / (mark.disc * mark.samples));
 }
 
 fn footprint(p: u32) -> Footprint {
     let ball = balls[2u * p];
-    var mark = Footprint(ball.xyz, ball.w, vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0));
+    var mark = Footprint(ball.xyz, ball.w, vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0), vec4f(0.0), 1.0);
     let place = project(mark.centre);
     if (mark.radius == 0.0 || (place.z <= mark.radius && view.parallel == 0u)) {
         return mark;
@@ -147,7 +178,12 @@ fn footprint(p: u32) -> Footprint {
     // Perspective stretches balls towards the corners of the picture.
     let near = select(place.z - mark.radius, 1.0, view.parallel == 1u);
     let stretched = min(1.2 * mark.radius * per_metre / near + 1.0, MAX_REACH);
-    let reach = select(mark.samples, stretched, mark.samples > 12.0);
+    var reach = select(mark.samples, stretched, mark.samples > 12.0);
+    if (view.dimension < 3u) {
+        mark = square_of(p, mark);
+        let sides = abs(deformation[3u * p].xy) + abs(deformation[3u * p + 1u].xy) + 1.0;
+        reach = min(mark.samples * max(1.0, HALF_EDGE * max(sides.x, sides.y)), MAX_REACH);
+    }
     let limit = vec2f(sample_grid());
     mark.low = vec2i(clamp(mark.middle - reach, vec2f(0.0), limit));
     mark.high = vec2i(clamp(mark.middle + reach + 1.0, vec2f(0.0), limit));
@@ -157,6 +193,10 @@ fn footprint(p: u32) -> Footprint {
 // Depth of a ball in a sample, negative if it is missed [m]. The outline of a small one is round, and its depth that of a ball
 // seen along its own line of sight.
 fn depth_in(mark: Footprint, place: vec2u) -> f32 {
+    if (view.dimension < 3u) {
+        let share = share_of_square(mark, vec2f(place) + 0.5 - mark.middle);
+        return select(-1.0, mark.distance + mark.radius * share, share < 1.0);
+    }
     if (mark.samples > 12.0) {
         return hit_sphere(sample_ray(place), mark.centre, mark.radius);
     }

@@ -119,6 +119,67 @@ fn first_sample(i: u32) -> vec2u {
     return vec2u(i % view.size.x, i / view.size.x) * view.samples + vec2u(0u, SAMPLE_MARGIN);
 }
 
+// Bodies in the plane are areas: where particles cover half of the samples around, less what discs reach beyond the body.
+
+// Samples that are looked at around one, on four rings of equal area; how far, and how far particles reach beyond a straight side, both over
+// the radius of a particle's disc.
+const LOOKS: u32 = 48u;
+const LOOK_REACH: f32 = 1.5;
+const BEYOND_SIDE: f32 = 0.16;
+
+// Shade of the line around a body.
+const OUTLINE_SHADE: f32 = 0.3;
+
+fn look(k: u32, reach: f32) -> vec2i {
+    let ring = k / 12u;
+    let angle = (f32(k % 12u) + 0.25 * f32(ring)) * 0.52359878;
+    return vec2i(round(reach * sqrt((f32(ring) + 0.5) / 4.0) * vec2f(cos(angle), sin(angle))));
+}
+
+fn particle_at(place: vec2i) -> u32 {
+    let grid = sample_grid();
+    if (any(place < vec2i(0)) || any(place >= vec2i(grid))) {
+        return NOTHING;
+    }
+    return nearest[u32(place.x) + grid.x * u32(place.y)];
+}
+
+// The particle in a sample, or one of those around it; NOTHING if there is none.
+fn particle_near(place: vec2i, reach: f32) -> u32 {
+    var found = particle_at(place);
+    for (var k = 0u; k < LOOKS && found == NOTHING; k++) {
+        found = particle_at(place + look(k, reach));
+    }
+    return found;
+}
+
+// Radius of a particle's disc in samples, as far as a band allows to look.
+fn disc_samples(found: u32) -> f32 {
+    return clamp(samples_across(balls[2u * (FARTHEST - found)].w, 1.0), 1.0, f32(SAMPLE_MARGIN) / LOOK_REACH);
+}
+
+// Distance from a sample into the area, in samples: that to a straight side from the share of the samples around that are covered.
+fn depth_inside(place: vec2i, radius: f32) -> f32 {
+    let reach = LOOK_REACH * radius;
+    var covered_looks = 0.0;
+    for (var k = 0u; k < LOOKS; k++) {
+        covered_looks += select(0.0, 1.0, particle_at(place + look(k, reach)) != NOTHING);
+    }
+    return (covered_looks / f32(LOOKS) - 0.5) * 1.5707963 * reach - BEYOND_SIDE * radius;
+}
+
+// Colour of an area in a sample, and how much of the sample is covered.
+fn area_at(place: vec2i, widest: f32) -> vec4f {
+    let found = particle_near(place, widest);
+    if (found == NOTHING) {
+        return vec4f(0.0);
+    }
+    let inside = depth_inside(place, disc_samples(found));
+    let line = view.outline * f32(view.samples);
+    let shade = mix(OUTLINE_SHADE, 1.0, clamp(inside - line + 0.5, 0.0, 1.0));
+    return vec4f(shade * balls[2u * (FARTHEST - found) + 1u].rgb, clamp(inside + 0.5, 0.0, 1.0));
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn list_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
@@ -153,25 +214,24 @@ fn shade_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
     for (var s = 0u; s < count; s++) {
         let place = first + vec2u(s % view.samples, s / view.samples);
         let sample = place.x + sample_grid().x * place.y;
-        if (nearest[sample] != NOTHING) {
+        if (view.dimension < 3u) {
+            let area = area_at(vec2i(place), 1.0);
+            sum.color += area.w * area.rgb;
+            sum.coverage += area.w;
+        } else if (nearest[sample] != NOTHING) {
             let p = FARTHEST - nearest[sample];
             let depth = bitcast<f32>(FARTHEST - depth_in[sample]);
             let ray = sample_ray(place);
-            var color = balls[2u * p + 1u].rgb;
-            // Discs of a few pixels would turn into a pattern under a light.
-            if (view.dimension == 3u) {
-                let point = ray.start + depth * ray.direction;
-                let normal = normal_at(vec2i(place), ray, depth, p);
-                if (arriving < 0.0) {
-                    arriving = arriving_at(point, 1.5 * balls[2u * p].w);
-                }
-                color = lit_surface(color, point, normal, -ray.direction, arriving);
+            let point = ray.start + depth * ray.direction;
+            let normal = normal_at(vec2i(place), ray, depth, p);
+            if (arriving < 0.0) {
+                arriving = arriving_at(point, 1.5 * balls[2u * p].w);
             }
-            sum.color += color;
+            sum.color += lit_surface(balls[2u * p + 1u].rgb, point, normal, -ray.direction, arriving);
             sum.depth += depth;
             sum.coverage += 1.0;
         }
     }
-    let seen = max(sum.coverage, 1.0);
+    let seen = max(sum.coverage, 1e-6);
     surface[i] = pack_surface(Surface(sum.depth / seen, sum.coverage / f32(count), sum.color / seen));
 }

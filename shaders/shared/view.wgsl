@@ -34,8 +34,8 @@ struct View {
     // Rays per pixel along each axis.
     supersampling: u32,
     particles: u32,
-    // 1 if cells are drawn as squares, 0 if values are interpolated.
-    squares: u32,
+    // Width of the line around bodies in the plane, in rays.
+    outline: f32,
     // Values at the two ends of the colours.
     low: f32,
     high: f32,

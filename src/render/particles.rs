@@ -12,6 +12,8 @@ pub(super) struct Particles {
     pub(super) count: u64,
     /// Place and radius of each, radius 0 for what is not drawn; then its colour.
     pub(super) balls: Buffer<[[f32; 4]; 2]>,
+    /// Deformation gradients: three rows per particle.
+    pub(super) deformation: wgpu::Buffer,
     ranges: Buffer<[f32; 2]>,
     measure: Bound,
     find_range: Bound,
@@ -39,6 +41,7 @@ impl Particles {
             mix_paint: bind("mix_paint", &[&shared[..], &state, &mixed].concat())?,
             count: own.count.into(),
             balls,
+            deformation: own.deformation.clone(),
             ranges,
         })
     }

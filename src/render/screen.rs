@@ -137,8 +137,13 @@ impl Screen {
             let own = [("edges", edges.raw()), ("solid", solid.raw()), ("light_grid", light.grid.raw())];
             bind_with(gpu, "volume.wgsl", "draw_volume", &key.switches(), &[&drawn[..], &field, &own].concat())?
         } else {
-            let own =
-                [("cells", &sources.cells), ("field", gas.field.raw()), ("distance", distance.nodes.raw()), tables];
+            let own = [
+                ("cells", &sources.cells),
+                ("conserved", &sources.conserved),
+                ("field", gas.field.raw()),
+                ("distance", distance.nodes.raw()),
+                tables,
+            ];
             bind(gpu, "slice.wgsl", "draw_slice", &[&drawn[..], &own].concat())?
         };
         let trace = || {
@@ -256,9 +261,9 @@ impl Skin {
         let covered: Buffer<u32> = Buffer::new(gpu, "covered rays", 1 + rays)?;
         let groups: Buffer<u32> = Buffer::indirect(gpu, "skin groups", 3)?;
         let of_covered = ("covered", covered.raw());
-        let splat = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
-            bind(gpu, "points.wgsl", entry, &[&[of_view, balls, ("depth_bits", depth.raw())], own].concat())
-        };
+        let of_splat = [of_view, balls, ("deformation", &own.deformation), ("depth_bits", depth.raw())];
+        let splat =
+            |entry: &str, own: &[(&str, &wgpu::Buffer)]| bind(gpu, "points.wgsl", entry, &[&of_splat, own].concat());
         let smoothed = |from: &Buffer<u32>, to: &Buffer<u32>| {
             let own = [of_view, of_nearest, balls, ("depth_in", from.raw()), ("depth_out", to.raw())];
             bind(gpu, "skin.wgsl", "smooth_depth", &own)

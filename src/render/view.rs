@@ -17,6 +17,9 @@ fn particle_overlap(dimension: u32) -> f32 {
 /// Plastic strain at which a particle has lost half of its brightness.
 const DARK_STRAIN: f32 = 0.5;
 
+/// Width of the line around bodies in the plane, in pixels.
+const OUTLINE: f32 = 1.2;
+
 /// Length of a step of the ray march over the edge of a cell.
 const MARCH_STEP: f32 = 0.7;
 
@@ -60,8 +63,8 @@ pub struct View {
     pub supersampling: u32,
     /// Number of particles.
     pub particles: u32,
-    /// 1 if cells are drawn as squares, 0 if values are interpolated.
-    pub squares: u32,
+    /// Width of the line around bodies in the plane, in rays.
+    pub outline: f32,
     /// Value at the low end of the colours.
     pub low: f32,
     /// Value at the high end of the colours.
@@ -136,7 +139,6 @@ impl View {
     /// Grid, camera, light and places of a picture of `size` pixels; what depends on field and range is set later.
     pub(super) fn new(scene: &Scene, grid: &Grid, eye: &Eye, look: &RenderSettings, size: [u32; 2]) -> Self {
         let supersampling = look.supersampling.clamp(1, 4);
-        let magnified = if eye.parallel { 0.5 * grid.extent()[1] / eye.half_height } else { 1.0 };
         let mut view = Self {
             cells: grid.cells,
             dimension: grid.dimension,
@@ -153,8 +155,7 @@ impl View {
             // Several rays per pixel smooth edges well enough.
             samples: if supersampling > 1 { 1 } else { 2 },
             supersampling,
-            // Interpolation would hide the cells of a coarse grid and invent detail.
-            squares: u32::from(size[0] as f32 * magnified >= 4.0 * grid.cells[0] as f32),
+            outline: OUTLINE * supersampling as f32,
             low: 0.0,
             high: 1.0,
             contrast: 1.0,

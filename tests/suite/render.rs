@@ -6,6 +6,7 @@ use brisance::export::{self, Exporter, Moment, Origin};
 use brisance::gpu::{Folder, Shader, readback};
 use brisance::render::{Renderer, View};
 use brisance::scene::{Camera, Field};
+use brisance::simulation::Simulation;
 
 use crate::synthetic::{State, brightness, every_cell, gpu, pixel, render, scene};
 
@@ -26,6 +27,58 @@ fn slice_has_y_up_and_the_range_of_its_field() {
     let mean_y = seen.iter().map(|place| place.1).sum::<u32>() / seen.len() as u32;
     assert!(seen.len() > 200 && mean_y < 100, "{} pixels, mean row {mean_y}", seen.len());
     assert_eq!(pictures[1].range[0], 0.0);
+}
+
+#[test]
+fn gas_in_the_plane_has_no_steps_between_cells() {
+    let fields = "output.fields = [\"density\", \"schlieren\"]\nrender.particles = false\nrender.contours = 0";
+    for picture in render(2, 12, [640, 480], fields) {
+        // Across the blob, a cell is 35 pixels wide.
+        let row: Vec<i32> = (150..300).map(|x| brightness(pixel(&picture, x, 190))).collect();
+        let span = row.iter().max().unwrap() - row.iter().min().unwrap();
+        let jump = row.windows(2).map(|pair| (pair[1] - pair[0]).abs()).max().unwrap();
+        assert!(span > 150 && 6 * jump < span, "{}: a jump of {jump} from pixel to pixel in {span}", picture.name);
+    }
+}
+
+#[test]
+fn a_stretched_body_in_the_plane_is_one_area() {
+    let gpu = gpu();
+    let body = "materials.rubber.neo_hookean = { young_modulus = 1e3, poisson_ratio = 0.3 }\n\
+                [[bodies]]\nname = \"block\"\nmaterial = \"rubber\"\ndensity = 1.0\n\
+                shape.box = { center = [0.5, 0.5], size = [0.3, 0.3] }\n";
+    let scene = scene(2, 20, [480, 360], &format!("render.overlays = {{ scale_bar = false }}\n{body}"));
+    let simulation = Simulation::new(&gpu, &scene).unwrap();
+    // Twice as long along x.
+    let particles = &simulation.state.particles;
+    let mut position = readback::read(&gpu, &particles.position).unwrap();
+    position.iter_mut().for_each(|row| row[0] = 0.5 + 2.0 * (row[0] - 0.5));
+    particles.position.write(&gpu, 0, &position);
+    let mut deformation = readback::read(&gpu, &particles.deformation).unwrap();
+    deformation.iter_mut().step_by(3).for_each(|row| row[0] += 1.0);
+    particles.deformation.write(&gpu, 0, &deformation);
+
+    let mut renderer = Renderer::of(&simulation, &scene).unwrap();
+    let picture = renderer.draw(&scene.render, Field::Density, 0.0).unwrap();
+    let offset = |x: u32, y: u32| {
+        let at = renderer.ray(&scene.render, 0.0, [f64::from(x) + 0.5, f64::from(y) + 0.5]).origin;
+        [(at[0] - 0.5).abs(), (at[1] - 0.5).abs()]
+    };
+    let places = (0..480).flat_map(|x| (0..360).map(move |y| (x, y)));
+    let near = places.filter(|&(x, y)| offset(x, y)[0] < 0.45 && offset(x, y)[1] < 0.4);
+    let middle = near.clone().find(|&(x, y)| offset(x, y).iter().all(|d| *d < 3e-3)).unwrap();
+    let color = pixel(&picture, middle.0, middle.1);
+    let (edge, corner) = (0.015, 0.05);
+    let mut seen = [0; 2];
+    for (x, y) in near {
+        let [dx, dy] = offset(x, y);
+        let inside = (dx < 0.3 - edge && dy < 0.15 - corner) || (dx < 0.3 - corner && dy < 0.15 - edge);
+        let outside = dx > 0.3 + edge || dy > 0.15 + edge;
+        let same = pixel(&picture, x, y).iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 2);
+        assert!(!(inside && !same) && !(outside && same), "pixel {x}, {y}, {dx:.3} {dy:.3} from the middle");
+        seen[usize::from(outside)] += u32::from(inside || outside);
+    }
+    assert!(seen.iter().all(|count| *count > 5000), "{seen:?}");
 }
 
 #[test]
@@ -230,7 +283,7 @@ fn view_has_the_offsets_of_the_shader() {
         samples,
         supersampling,
         particles,
-        squares,
+        outline,
         low,
         high,
         contrast,
