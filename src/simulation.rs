@@ -84,8 +84,7 @@ impl Simulation {
     /// # Errors
     /// If the scene is wrong ([`Scene::checked`]), does not fit, or a shader is wrong.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Simulation> {
-        let scene = scene.checked()?;
-        let (simulation, buffers) = watched(|| Self::build(gpu, &scene));
+        let (simulation, buffers) = watched(|| Self::build(gpu, &scene.checked()?));
         Ok(Simulation { buffers, ..simulation? })
     }
 
