@@ -46,10 +46,7 @@ fn blasts(session: &mut Session<'_>) -> Result<()> {
     for &(pressure, corner, plane) in QUICK.iter().chain(more) {
         let mut overrides = vec![format!("gas.regions[0].pressure={pressure:?}"), "expect.probes=[]".to_owned()];
         if plane {
-            let plane = ["domain.dimension=2", "domain.cells=[64, 64]", "domain.size=[1.0, 1.0]", "probes=[]"];
-            overrides.extend(plane.map(str::to_owned));
-            overrides.extend(["y_min", "y_max"].map(|side| format!("boundary.{side}=outlet")));
-            overrides.push("gas.regions[0].shape.sphere.center=[0.5, 0.5]".to_owned());
+            overrides.push("variant=plane".to_owned());
         }
         if corner {
             let (center, walls) =
