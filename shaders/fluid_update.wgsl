@@ -143,11 +143,9 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
         let velocity = face_velocity(n, select(far, slot, up), select(slot, far, up), select(there, here, up), select(here, there, up));
         return (p + carried_along(slot, far)) * velocity + shift_between(p, select(far, slot, up), select(slot, far, up), n);
     }
-    // Open: the velocity that carries the gas there, as everywhere, or else that which the solve saw.
-    let opening = opening_of(cells[far]);
-    if CONSISTENT && !prescribes(opening) { return p * node[slot][n]; }
+    // Open: the velocity that the solve saw there.
     let face = OpenFace(energy[2u * params.slots + far], energy[params.slots + far]);
-    let y = admittance_of(opening, face, here.x, energy[params.slots + slot]);
+    let y = admittance_of(opening_of(cells[far]), face, here.x, energy[params.slots + slot]);
     return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 

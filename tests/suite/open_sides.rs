@@ -39,7 +39,7 @@ fn a_blast_leaves_the_pressure_of_the_start() {
             return;
         };
         eprintln!("blast of {pressure}, corner {corner}: {low} to {high}");
-        assert!(low > 0.99 && high < 1.01, "blast of {pressure}, corner {corner}: {low} to {high}");
+        assert!(low > 0.998 && high < 1.002, "blast of {pressure}, corner {corner}: {low} to {high}");
     }
 }
 
@@ -74,7 +74,7 @@ fn outlets_remember_their_own_states() {
 fn atmospheres_are_in_balance() {
     for law in ["isothermal", "isentropic"] {
         let text = format!(
-            "title = \"air\"\ngravity = [0.0, -9.81]\n[domain]\ndimension = 2\ncells = [4, 1000]\nsize = [4.0, 1000.0]\n\
+            "title = \"air\"\ngravity = [0.0, -9.81]\n[domain]\ndimension = 2\ncells = [1, 1000]\nsize = [1.0, 1000.0]\n\
              [gas]\natmosphere = \"{law}\"\nambient = {{ density = 1.225, pressure = 101325.0 }}\n[time]\nuntil = 0.1\n"
         );
         let scene = Scene::parse(&text, "air.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
@@ -103,15 +103,15 @@ fn still_air_stays_still() {
         let sides: Vec<String> = open.iter().map(|side| format!("{side} = \"outlet\"")).collect();
         let text = format!(
             "title = \"air\"\ngravity = {gravity:?}\n[domain]\ndimension = {dimension}\ncells = {cells:?}\nsize = {size:?}\n\
-             [gas]\nambient = {{ density = 1.225, pressure = 101325.0 }}\n[boundary]\n{}\n[time]\nuntil = {until:?}\nmax_courant = 4.0\n[numerics]\ntolerance = 1e-7\n",
+             [gas]\nambient = {{ density = 1.225, pressure = 101325.0 }}\n[boundary]\n{}\n[time]\nuntil = {until:?}\nmax_courant = 4.0\n",
             sides.join("\n")
         );
         Scene::parse(&text, "air.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
     };
     for (dimension, open, until) in [
-        (2, &["x_min", "x_max", "y_max"][..], 20.0),
+        (2, &["x_min", "x_max", "y_max"][..], 5.0),
         (2, &["x_max", "y_min", "y_max"], 5.0),
-        (2, &["x_min", "x_max"], 20.0),
+        (2, &["x_min", "x_max"], 5.0),
         (3, &["x_min", "x_max", "y_max", "z_max"], 2.0),
     ] {
         let mut simulation = Simulation::new(&gpu, &air(dimension, open, until)).unwrap();

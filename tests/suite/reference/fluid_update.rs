@@ -205,9 +205,7 @@ pub(crate) fn fluid_update(
         for face in boundary::open_faces(problem, &interface.cells).into_iter().filter(|face| face.1 == axis) {
             let slot = grid.slot(if face.2 { face.0 } else { shift(face.0, axis, -1) });
             let p = pressure[axis][slot];
-            let ring = boundary::behind(problem, face);
-            let solved = boundary::solved_velocity(problem, &intermediate.open, face, p);
-            work[axis][slot] = p * carrier.map_or(solved, |carrier| carrier.velocity[ring][axis]);
+            work[axis][slot] = p * boundary::solved_velocity(problem, &intermediate.open, face, p);
         }
         for c in &gas_slots {
             let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));
