@@ -110,9 +110,7 @@ fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32)
     if follows(o, RULE_FAR) {
         if mach >= 1.0 { return OpenFace(velocity, -1.0); }
         if mach <= -1.0 { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
-        // without the kick of gravity, which the pressure that it is solved for balances
-        let u = velocity - dt * params.gravity[n];
-        return OpenFace(u, pressure_from_afar(o, sound_from_afar(o, n, outward, far_density(o, here.flow.x, pressure), u)));
+        return OpenFace(velocity, pressure_from_afar(o, sound_from_afar(o, n, outward, far_density(o, here.flow.x, pressure), velocity)));
     }
     if mach >= 1.0 { return OpenFace(velocity, -1.0); }
     let drift = min(1.0, o.share * max(1.0 - mach * mach, 0.0) * c * dt);

@@ -22,7 +22,7 @@ fn rule_behind(problem: &Problem, c: [i32; 3]) -> (Side, usize) {
     let rules: Vec<(Side, usize)> = (0..grid.dimension)
         .filter(|d| !grid.periodic[*d])
         .filter(outside)
-        .map(|d| (problem.side_at(2 * d + usize::from(c[d] >= 0), grid.slot(c)), d))
+        .map(|d| (problem.sides[2 * d + usize::from(c[d] >= 0)], d))
         .collect();
     let prescribed = rules.iter().find(|(rule, _)| matches!(rule, Side::Inlet { .. } | Side::Subsonic { .. }));
     *prescribed.unwrap_or(&rules[0])
@@ -135,7 +135,7 @@ pub(crate) fn carried_velocity(problem: &Problem, star: &Gas, axis: usize, upper
     }
 }
 
-/// What an outlet with a far pressure knows of itself, by ring slot: velocity and pressure that the last step assumed, pressure that it found.
+/// What a free outlet knows of itself, by ring slot: velocity and pressure that the last step assumed, pressure that it found.
 pub(crate) type Memory = HashMap<usize, [f64; 3]>;
 
 /// The open faces of a step, by ring slot.
@@ -185,7 +185,7 @@ fn open_face(
     let known = memory
         .get(&ring)
         .map_or([velocity, pressure], |[u, p, found]| [u + outward * (found - p) / (density * sound), *found]);
-    match problem.side_at(2 * axis + usize::from(upper), ring) {
+    match problem.sides[2 * axis + usize::from(upper)] {
         Side::Inlet { velocity, .. } | Side::Subsonic { velocity, .. } => prescribed(velocity[axis]),
         Side::Total { density: total, pressure } => {
             let speed = reservoir_speed(total, pressure, outward * velocity, gamma);
@@ -202,8 +202,6 @@ fn open_face(
         Side::Far { velocity, .. } if mach <= -1.0 => prescribed(velocity[axis]),
         _ if mach >= 1.0 => prescribed(velocity),
         Side::Far { velocity: u, pressure: p, .. } => {
-            // without the kick of gravity, which the pressure that it is solved for balances
-            let velocity = velocity - dt * problem.gravity[axis];
             let gain = outward * (velocity - u[axis]);
             let (_, reference) = from_afar(far_density(density, pressure, p, gamma), p, gain, gamma);
             let rho = far_density(density, predicted[slot], p, gamma) * (reference / p).powf(1.0 / gamma);
@@ -214,7 +212,11 @@ fn open_face(
             admittance: passing,
             reference: known[1],
         },
-        Side::Wall | Side::Periodic => unreachable!("no open face"),
+        Side::Outlet | Side::Wall | Side::Periodic => OpenFace {
+            velocity: known[0] + drift(0.25) * (velocity - known[0]),
+            admittance: passing,
+            reference: known[1] + drift(0.25) * (pressure - known[1]),
+        },
     }
 }
 
