@@ -32,7 +32,6 @@ mod loads;
 mod materials;
 mod numerics;
 mod pages;
-mod open_sides;
 mod preconditioner;
 mod prose;
 mod quiet;

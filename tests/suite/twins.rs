@@ -27,10 +27,7 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
         Boundary::Inlet(state) => {
             Side::Inlet { density: state.density, velocity: state.velocity, pressure: state.pressure }
         }
-        Boundary::Outlet => {
-            let far = scene.gas.ambient;
-            Side::Far { density: far.density, velocity: far.velocity, pressure: far.pressure }
-        }
+        Boundary::Outlet => Side::Outlet,
         Boundary::Periodic => Side::Periodic,
         Boundary::SubsonicInlet(flow) => Side::Subsonic { density: flow.density, velocity: flow.velocity },
         Boundary::TotalInlet(total) => Side::Total { density: total.density, pressure: total.pressure },

@@ -52,12 +52,7 @@ fn reservoir_speed(density: f64, pressure: f64, outward: f64, gamma: f64) -> f64
     (-outward).clamp(0.0, (2.0 / (gamma + 1.0) * gamma * pressure / density).sqrt())
 }
 
-/// Density of gas where it has the far pressure.
-fn far_density(density: f64, pressure: f64, far: f64, gamma: f64) -> f64 {
-    density * (far / pressure).powf(1.0 / gamma)
-}
-
-/// Density and pressure of gas behind a simple wave that runs outward and changes its outward velocity.
+/// Density and pressure of far gas behind a simple wave that runs outward and changes its outward velocity.
 fn from_afar(density: f64, pressure: f64, gain: f64, gamma: f64) -> (f64, f64) {
     let sound = f64::max(1.0 + 0.5 * (gamma - 1.0) * gain / (gamma * pressure / density).sqrt(), 0.1);
     (density * sound.powf(2.0 / (gamma - 1.0)), pressure * sound.powf(2.0 * gamma / (gamma - 1.0)))
@@ -90,10 +85,7 @@ fn beyond(problem: &Problem, rule: Side, axis: usize, outward: f64, here: [f64; 
             if velocity <= -(gamma * (gamma - 1.0) * internal_energy(here) / here[0]).sqrt() {
                 return Gas::conserved_from_primitive(density, v, pressure, gamma);
             }
-            let now = (gamma - 1.0) * internal_energy(here);
-            let entering = far_density(here[0], now, pressure, gamma);
-            let (_, p) = from_afar(entering, pressure, velocity - outward * v[axis], gamma);
-            let rho = density * (p / pressure).powf(1.0 / gamma);
+            let (rho, p) = from_afar(density, pressure, velocity - outward * v[axis], gamma);
             v[axis] = outward * velocity;
             Gas::conserved_from_primitive(rho, v, p, gamma)
         }
@@ -201,10 +193,8 @@ fn open_face(
         }
         Side::Far { velocity, .. } if mach <= -1.0 => prescribed(velocity[axis]),
         _ if mach >= 1.0 => prescribed(velocity),
-        Side::Far { velocity: u, pressure: p, .. } => {
-            let gain = outward * (velocity - u[axis]);
-            let (_, reference) = from_afar(far_density(density, pressure, p, gamma), p, gain, gamma);
-            let rho = far_density(density, predicted[slot], p, gamma) * (reference / p).powf(1.0 / gamma);
+        Side::Far { density: far, velocity: u, pressure: p } => {
+            let (rho, reference) = from_afar(far, p, outward * (velocity - u[axis]), gamma);
             OpenFace { velocity, admittance: 1.0 / (gamma * reference * rho).sqrt(), reference }
         }
         Side::Pressure { pressure: far, relaxation } => OpenFace {
