@@ -136,12 +136,10 @@ fn look(k: u32, reach: f32) -> vec2i {
     return vec2i(round(reach * sqrt((f32(ring) + 0.5) / 4.0) * vec2f(cos(angle), sin(angle))));
 }
 
+// Beyond the picture is what is at its edge.
 fn particle_at(place: vec2i) -> u32 {
-    let grid = sample_grid();
-    if (any(place < vec2i(0)) || any(place >= vec2i(grid))) {
-        return NOTHING;
-    }
-    return nearest[u32(place.x) + grid.x * u32(place.y)];
+    let inside = vec2u(clamp(place, vec2i(0), vec2i(sample_grid()) - 1));
+    return nearest[inside.x + sample_grid().x * inside.y];
 }
 
 // The particle in a sample, or one of those around it; NOTHING if there is none.
