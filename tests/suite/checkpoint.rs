@@ -74,7 +74,7 @@ fn a_saved_state_leads_to_the_same_bits() {
 
 /// All files of a run but those that know the clock, in order.
 fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let known = ["report.json", "run.json", "written.txt"];
+    let known = ["report.json", "report.html", "run.json", "written.txt"];
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {

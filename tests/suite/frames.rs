@@ -250,7 +250,7 @@ fn a_film_is_made_where_there_is_ffmpeg() {
     let arguments = [&arguments[..], &[film.to_str().unwrap(), "--out", out.to_str().unwrap()]].concat();
 
     let output = brisance(&arguments).env("PATH", "/nowhere").output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert_eq!(output.status.code(), Some(9), "{}", err(&output));
     assert!(err(&output).contains("ffmpeg is not installed") && !film.exists(), "{}", err(&output));
     assert!(out.join("frames/0003.png").is_file() && out.join("frames/top/vorticity/0003.png").is_file());
 
