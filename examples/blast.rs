@@ -1,5 +1,7 @@
 //! A blast in a box: a scene made in code, a run, and a picture of the density.
 
+#![allow(clippy::disallowed_macros, reason = "the streams belong to the program")]
+
 use brisance::{Domain, Field, Gas, GasState, Gpu, Renderer, Result, Scene, Shape, Simulation};
 
 fn main() -> Result<()> {

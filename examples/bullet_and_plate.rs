@@ -1,5 +1,7 @@
 //! A bullet strikes a plate that is held at its ends, in air, all made in code.
 
+#![allow(clippy::disallowed_macros, reason = "the streams belong to the program")]
+
 use brisance::{Body, Boundary, Domain, Gas, GasState, Gpu, Material, Result, Scene, Shape, Simulation};
 
 fn main() -> Result<()> {

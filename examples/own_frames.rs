@@ -1,5 +1,7 @@
 //! A loop of one's own: stops at every frame, looks at the steps, and writes a numbered picture.
 
+#![allow(clippy::disallowed_macros, reason = "the streams belong to the program")]
+
 use brisance::{Domain, Field, Gas, GasState, Gpu, Renderer, Result, Scene, Shape, Simulation};
 
 const FRAMES: u32 = 4;

@@ -1,5 +1,7 @@
 //! Reads fields of the gas and numbers of the particles into arrays, from a shipped scene with changes.
 
+#![allow(clippy::disallowed_macros, reason = "the streams belong to the program")]
+
 use brisance::quantity::Values;
 use brisance::{Gpu, Result, Scene, Simulation};
 
