@@ -140,7 +140,7 @@ pub struct RunOptions {
     /// What to run.
     #[command(flatten)]
     pub scene: SceneOptions,
-    /// Folder for the results [default: out/<scene>, or the next free name beside it]
+    /// Folder for the results [default: out/SCENE, or the next free name beside it]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// End of the run [s], instead of time.until
