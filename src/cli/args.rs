@@ -288,6 +288,9 @@ pub struct SweepOptions {
 pub struct ConvertOptions {
     /// Folder of a run that has states (`brisance run SCENE --export states`) or checkpoints
     pub run: PathBuf,
+    /// Read mesh files of obstacles outside of the folder of the run, too, where the run found them: for the format mesh
+    #[arg(long)]
+    pub allow_outside: bool,
     /// Formats: vtk, vdb, usd, mesh, npz; separated by commas, may be repeated
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', required = true)]
     pub to: Vec<String>,

@@ -28,7 +28,11 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
         let text = "pictures and states are no formats to convert to; `brisance render DIR` draws png, png16 and exr";
         return Err(Error::Usage(format!("--to {}: {text}", options.to.join(","))));
     }
-    let Recorded { scene_hash, scene_file, particles, scene } = read_report(&options.run)?;
+    let Recorded { scene_hash, scene_file, particles, mut scene } = read_report(&options.run)?;
+    if needs.obstacles && !scene.obstacles.is_empty() {
+        let text = toml::to_string(&scene).map_err(|error| Error::Scene(format!("report.json: {error}")))?;
+        scene = Scene::recorded(&text, (&options.run, &scene_file), &[], options.allow_outside)?;
+    }
     let origin = Origin::of(&scene).at(&scene_file, "");
     let frames = frames(options, &scene)?;
     let grid = Grid::of(&scene.domain);

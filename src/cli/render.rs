@@ -105,8 +105,7 @@ fn with_look(recorded: Recorded, options: &RenderOptions) -> Result<Scene> {
             "only render.* and output.fields can change without simulating; use `brisance run` for other keys";
         return Err(Error::Usage(format!("--set {key}: {message}")));
     }
-    // What came from elsewhere names no files outside of its folder.
-    let mut overrides = vec![format!("allow_outside={}", options.allow_outside)];
+    let mut overrides = Vec::new();
     if let Some(camera) = &options.camera {
         scene.render.path = None;
         overrides.push(format!("render.camera={camera}"));
@@ -125,17 +124,7 @@ fn with_look(recorded: Recorded, options: &RenderOptions) -> Result<Scene> {
     }
     overrides.extend(options.set.iter().cloned());
     let text = toml::to_string(&scene).map_err(|error| Error::Scene(format!("report.json: {error}")))?;
-    if options.allow_outside {
-        return Scene::parse(&text, &recorded.scene_file, &overrides);
-    }
-    let place = options.run.join("scene.toml");
-    Scene::parse(&text, &place.display().to_string(), &overrides).map_err(|error| match error {
-        Error::Scene(text) if text.contains(".mesh.path") => {
-            let hint = "nothing outside of the folder of the run is read; --allow-outside reads meshes where the run found them";
-            Error::Scene(format!("{text}\n{hint}"))
-        }
-        error => error,
-    })
+    Scene::recorded(&text, (&options.run, &recorded.scene_file), &overrides, options.allow_outside)
 }
 
 /// The views that are asked for; what the command line says holds for each of them.

@@ -12,8 +12,8 @@ use super::ply::{self, Part};
 use super::surface::Surface;
 use crate::bodies::{Fragment, SPEEDS};
 use crate::export::{Exporter, Moment, Needs, atomic};
-use crate::scene::Scene;
 use crate::snapshot::Snapshot;
+use crate::state::Grid;
 use crate::{Error, Result, input};
 
 /// Columns of `mesh/NNNN.csv` before the speeds.
@@ -46,25 +46,24 @@ impl MeshExporter {
     }
 
     /// The surface of all obstacles, from their distance.
-    fn obstacles(&self, moment: &Moment) -> Result<()> {
-        let source = &moment.origin.source;
-        let scene = Scene::parse(&source.scene, &source.scene_file, &["allow_outside=true".to_owned()])?;
-        if scene.obstacles.is_empty() {
+    fn obstacles(&self, moment: &Moment, grid: &Grid) -> Result<()> {
+        let obstacles = &moment.origin.obstacles;
+        if obstacles.is_empty() {
             return Ok(());
         }
-        let (domain, low) = (&scene.domain, scene.domain.origin);
-        let high: [f64; 3] = std::array::from_fn(|axis| low[axis] + domain.size[axis]);
+        let (low, size, cell) = (grid.origin.map(f64::from), grid.extent().map(f64::from), f64::from(grid.spacing));
+        let high: [f64; 3] = std::array::from_fn(|axis| low[axis] + size[axis]);
         let middle: [f64; 3] = std::array::from_fn(|axis| 0.5 * (low[axis] + high[axis]));
         // where an obstacle goes on beyond the domain, the sides of the domain close it
         let inside = |point: [f64; 3]| {
-            let sides = (0..3).map(|axis| (point[axis] - middle[axis]).abs() - 0.5 * domain.size[axis]);
+            let sides = (0..3).map(|axis| (point[axis] - middle[axis]).abs() - 0.5 * size[axis]);
             sides.fold(f64::NEG_INFINITY, f64::max)
         };
         let distance = |point: [f64; 3]| {
-            let shapes = scene.obstacles.iter().map(|obstacle| obstacle.shape.distance(point));
+            let shapes = obstacles.iter().map(|obstacle| obstacle.shape.distance(point));
             shapes.fold(f64::INFINITY, f64::min).max(inside(point))
         };
-        let surface = Surface::of_distance([low, high], 0.5 * domain.spacing(), distance);
+        let surface = Surface::of_distance([low, high], 0.5 * cell, distance);
         let path = self.folder.join("obstacles.ply");
         ply::write(&path, &about(moment), &[Part { surface, ..Part::default() }])
     }
@@ -115,7 +114,7 @@ impl Exporter for MeshExporter {
             return Err(Error::Usage(text.to_owned()));
         }
         if !std::mem::replace(&mut self.begun, true) {
-            self.obstacles(moment)?;
+            self.obstacles(moment, &snapshot.grid)?;
         }
         let fragments = snapshot.fragments();
         let name = format!("{:04}", moment.index);
@@ -128,7 +127,7 @@ impl Exporter for MeshExporter {
     }
 
     fn needs(&self) -> Needs {
-        Needs { snapshot: true, ..Needs::default() }
+        Needs { snapshot: true, obstacles: true, ..Needs::default() }
     }
 
     fn go_on(&mut self, frames: u32, _: &dyn Fn(u32) -> f64) -> Result<()> {

@@ -27,13 +27,13 @@ pub mod vtk;
 use std::path::{Path, PathBuf};
 
 use crate::render::{Depth, Picture, Stored};
-use crate::scene::Scene;
+use crate::scene::{Obstacle, Scene};
 use crate::snapshot::Snapshot;
 use crate::spelling::did_you_mean;
 use crate::{Error, Result};
 
 /// What files say about the scene that they come from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Origin {
     /// Title of the scene.
     pub title: String,
@@ -41,6 +41,8 @@ pub struct Origin {
     pub hash: String,
     /// What states say.
     pub source: container::Source,
+    /// Its obstacles.
+    pub obstacles: Vec<Obstacle>,
 }
 
 impl Origin {
@@ -48,7 +50,8 @@ impl Origin {
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let source = container::Source::of(scene);
-        Self { title: scene.title.clone(), hash: source.scene_hash.clone(), source }
+        let obstacles = scene.obstacles.clone();
+        Self { title: scene.title.clone(), hash: source.scene_hash.clone(), source, obstacles }
     }
 
     /// The same of a scene that lies at a place, on a device.
@@ -116,6 +119,8 @@ pub struct Needs {
     pub snapshot: bool,
     /// [`Moment::stored`].
     pub stored: bool,
+    /// [`Origin::obstacles`] with their meshes read.
+    pub obstacles: bool,
     /// Pictures with more than 8 bits per channel.
     pub depth: Depth,
 }
@@ -127,6 +132,7 @@ impl Needs {
         exporters.iter().map(|exporter| exporter.needs()).fold(Self::default(), |a, b| Self {
             snapshot: a.snapshot || b.snapshot,
             stored: a.stored || b.stored,
+            obstacles: a.obstacles || b.obstacles,
             depth: Depth { linear: a.depth.linear || b.depth.linear, fine: a.depth.fine || b.depth.fine },
         })
     }

@@ -4,15 +4,12 @@ use std::path::Path;
 
 use super::check;
 use super::mesh::MeshFolder;
-use super::source::Finding;
+use super::source::{Finding, MOST_TOLD};
 use super::{
     Body, Boundaries, Boundary, Domain, Expect, Gas, GasState, Material, Numerics, Obstacle, Output, Probe, Region,
     RenderSettings, Sampling, Scene, Shape, Time,
 };
 use crate::{Error, Result};
-
-/// Findings that are told at most.
-const MOST_TOLD: usize = 20;
 
 /// A scene in the making. [`SceneBuilder::build`] checks it.
 #[derive(Clone, Debug)]

@@ -47,6 +47,32 @@ impl Scene {
         read(&mut source, u64::MAX).map_err(|findings| Error::Scene(source.report(&findings)))
     }
 
+    /// A scene that a run in a folder wrote down, with overrides. Files outside of that folder are read only if `outside` says so, from
+    /// where the run found them, beside `scene_file`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with every mistake, and what to do about a file that lies elsewhere.
+    pub fn recorded(
+        text: &str,
+        (folder, scene_file): (&Path, &str),
+        overrides: &[String],
+        outside: bool,
+    ) -> Result<Scene> {
+        let all: Vec<String> =
+            std::iter::once(format!("{OUTSIDE}={outside}")).chain(overrides.iter().cloned()).collect();
+        if outside {
+            return Scene::parse(text, scene_file, &all);
+        }
+        Scene::parse(text, &folder.join("scene.toml").display().to_string(), &all).map_err(|error| match error {
+            Error::Scene(text) if text.contains(".mesh.path") => {
+                let hint = "nothing outside of the folder of the run is read; --allow-outside reads meshes where the run \
+                            found them";
+                Error::Scene(format!("{text}\n{hint}"))
+            }
+            error => error,
+        })
+    }
+
     /// Reads a shipped scene by its path below `scenes/`, as the program carries it, and applies overrides.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 /// Keys inside each other that an override may name.
 const DEEPEST: usize = 64;
 /// Findings that are told at most.
-const MOST_TOLD: usize = 20;
+pub(super) const MOST_TOLD: usize = 20;
 
 /// Bytes of a line that is shown with what is wrong in it.
 const LONGEST_LINE: usize = 400;

@@ -33,18 +33,25 @@ impl Request {
     /// Those of [`Scene::find`].
     pub fn load(&self) -> Result<Scene> {
         if let Some(run) = self.run() {
-            if !self.overrides.is_empty() || self.resolution.is_some() {
+            let outside = self.allows_outside();
+            if self.overrides.len() > usize::from(outside) || self.resolution.is_some() {
                 let text =
                     "a run is shown as it was; what may change does so in the window, or by `brisance run --branch`";
                 return Err(Error::Usage(format!("{}: {text}", run.display())));
             }
-            return past::of_run(run).map(|(scene, ..)| scene);
+            return past::of_run(run, outside).map(|(scene, ..)| scene);
         }
         let scene = Scene::find(&self.name, &self.overrides)?;
         match self.resolution {
             Some(cells) => scene.with_resolution(cells),
             None => Ok(scene),
         }
+    }
+
+    /// Whether meshes may lie outside of the folder of the scene or run.
+    #[must_use]
+    pub fn allows_outside(&self) -> bool {
+        self.overrides.iter().any(|change| change == "allow_outside=true")
     }
 
     /// The folder of a run, if it is one.

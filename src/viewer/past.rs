@@ -115,18 +115,18 @@ struct About {
     start_budget: Budget,
 }
 
-/// A run on the disk: its scene, its checkpoints, and its books before the first step.
+/// A run on the disk: its scene, its checkpoints, and its books before the first step. `outside`: its meshes may lie elsewhere.
 ///
 /// # Errors
 /// [`Error::Usage`] if the folder has no checkpoints, or one of another scene; [`Error::Io`]; [`Error::Scene`].
-pub(super) fn of_run(run: &Path) -> Result<(Scene, Vec<Kept>, Budget)> {
+pub(super) fn of_run(run: &Path, outside: bool) -> Result<(Scene, Vec<Kept>, Budget)> {
     let all = checkpoint::list(run)?;
     let Some((_, last)) = all.last() else {
         let hint = "`brisance run SCENE --checkpoint 10min --keep 20` leaves some";
         return Err(Error::Usage(format!("{} is a folder without checkpoints to look at; {hint}", run.display())));
     };
     let (head, text, _) = checkpoint::read_texts(last)?;
-    let scene = Scene::parse(&text, &head.source.scene_file, &["allow_outside=true".to_owned()])?;
+    let scene = Scene::recorded(&text, (run, &head.source.scene_file), &[], outside)?;
     let (mut kept, mut start) = (Vec::new(), Budget::default());
     for (step, path) in all {
         let (own, _, about) = checkpoint::read_texts(&path)?;

@@ -46,12 +46,12 @@ impl Session {
         Ok(session)
     }
 
-    /// Opens a run on the disk at its last checkpoint.
+    /// Opens a run on the disk at its last checkpoint; `outside`: its meshes may lie outside of its folder.
     ///
     /// # Errors
     /// [`Error::Usage`] if it has none; [`Error::Io`]; those of [`Session::open`].
-    pub fn open_run(gpu: &Gpu, run: &Path) -> Result<Self> {
-        let (scene, kept, start) = past::of_run(run)?;
+    pub fn open_run(gpu: &Gpu, run: &Path, outside: bool) -> Result<Self> {
+        let (scene, kept, start) = past::of_run(run, outside)?;
         let mut session = Self::new(gpu, scene, kept)?;
         session.start = start;
         session.rewind(f64::INFINITY)?;

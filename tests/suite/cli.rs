@@ -1,6 +1,6 @@
 //! The program as a user meets it: exit codes, messages, files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use brisance::scene::Scene;
@@ -299,16 +299,29 @@ pieces = 1
     std::fs::write(path, text).unwrap();
 }
 
-#[test]
-fn a_run_leaves_its_files() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+/// The small scene in a folder of its own, and where a run of it goes.
+pub(crate) struct SmallRun {
+    /// The scene's file.
+    pub(crate) scene: String,
+    /// A folder that is not there yet.
+    pub(crate) out: PathBuf,
+    /// Holds both for as long as it lives.
+    pub(crate) folder: tempfile::TempDir,
+}
+
+/// Writes the small scene; nothing where a machine without a device skips what needs one.
+pub(crate) fn small_run() -> Option<SmallRun> {
+    gpu_or_skip()?;
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("small.toml");
     write_small_scene(&scene);
-    let target = folder.path().join("result");
-    let printed = succeeds(&["run", scene.to_str().unwrap(), "--out", target.to_str().unwrap()]);
+    Some(SmallRun { scene: scene.display().to_string(), out: folder.path().join("result"), folder })
+}
+
+#[test]
+fn a_run_leaves_its_files() {
+    let Some(SmallRun { scene, out: target, folder: _folder }) = small_run() else { return };
+    let printed = succeeds(&["run", &scene, "--out", target.to_str().unwrap()]);
     assert!(printed.contains("ok   pieces"), "{printed}");
     for name in ["frames/0000.png", "frames/0002.png", "frames/pressure/0001.png", "fields/0002.vti", "particles.pvd"] {
         assert!(target.join(name).is_file(), "{name}");
@@ -361,13 +374,7 @@ fn threads_of_the_driver_change_no_bit() {
 
 #[test]
 fn failed_expectations_have_their_own_exit_code() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("small.toml");
-    write_small_scene(&scene);
-    let target = folder.path().join("result");
+    let Some(SmallRun { scene, out: target, folder: _folder }) = small_run() else { return };
     let short = [
         "--set",
         "expect.min_pressure=1.5",
@@ -378,7 +385,7 @@ fn failed_expectations_have_their_own_exit_code() {
         "--out",
         target.to_str().unwrap(),
     ];
-    let arguments = [&["run", scene.to_str().unwrap()], &short[..]].concat();
+    let arguments = [&["run", &scene], &short[..]].concat();
     // what was changed by hand is another experiment
     assert!(err(&run(&arguments)).contains("not enforced, since the end was changed"));
     let text = fails(8, &[&arguments[..], &["--expect"]].concat());

@@ -83,7 +83,7 @@ fn vtk_files_hold_the_snapshot() {
         let mut exporters = export::open(&["vtk".to_owned()], &folder).unwrap();
         for index in 0..2 {
             let time = 0.1 * f64::from(index);
-            let origin = Origin { title: "t".to_owned(), hash: String::new(), source: Default::default() };
+            let origin = Origin { title: "t".to_owned(), hash: String::new(), ..Origin::default() };
             let snapshot = Some(&snapshot);
             let moment = Moment { index, origin: &origin, time, step: 3, pictures: &[], snapshot, stored: None };
             assert_eq!(Needs::of(&exporters), Needs { snapshot: true, ..Needs::default() });

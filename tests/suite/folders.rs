@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::cli::{brisance, err, fails, report, run, succeeds, table, write_small_scene};
+use crate::cli::{SmallRun, brisance, err, fails, report, run, small_run, succeeds, table, write_small_scene};
 use crate::common::gpu_or_skip;
 
 const SHORT: [&str; 7] = ["run", "sod", "--until", "0.01", "--frames", "1", "--out"];
@@ -140,15 +140,9 @@ fn scenes_come_by_name_by_pipe_and_from_nothing() {
 
 #[test]
 fn interruption_leaves_complete_files() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("small.toml");
-    write_small_scene(&scene);
-    let target = folder.path().join("result");
+    let Some(SmallRun { scene, out: target, folder: _folder }) = small_run() else { return };
     let long = ["--until", "1000", "--frames", "100000", "--out", target.to_str().unwrap()];
-    let arguments = [&["run", scene.to_str().unwrap()], &long[..]].concat();
+    let arguments = [&["run", &scene], &long[..]].concat();
     let mut child = brisance(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let start = Instant::now();
     while !target.join("frames/0003.png").exists() {

@@ -22,8 +22,7 @@ fn deep(dimension: u32, look: &str) -> Vec<Picture> {
 
 /// Writes the pictures of frame 3.
 fn write(exporter: &mut dyn Exporter, pictures: &[Picture]) {
-    let origin =
-        Origin { title: "Depth \u{2192} files".to_owned(), hash: "cafe".to_owned(), source: Default::default() };
+    let origin = Origin { title: "Depth \u{2192} files".to_owned(), hash: "cafe".to_owned(), ..Origin::default() };
     let (snapshot, stored) = (None, None);
     exporter.write(&Moment { index: 3, origin: &origin, time: 0.5, step: 9, pictures, snapshot, stored }).unwrap();
 }

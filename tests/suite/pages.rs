@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use crate::cli::{fails, report, run, succeeds, write_small_scene};
-use crate::common::gpu_or_skip;
+use crate::cli::{SmallRun, fails, report, run, small_run, succeeds};
 
 fn text(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -11,16 +10,10 @@ fn text(path: &Path) -> String {
 
 #[test]
 fn a_run_leaves_one_page_with_everything_in_it() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("small.toml");
-    write_small_scene(&scene);
-    let target = folder.path().join("result");
+    let Some(SmallRun { scene, out: target, folder: _folder }) = small_run() else { return };
     let out = target.to_str().unwrap();
     let sets = ["--set", "gas.regions[0].pressure=3.0", "--set", "time.until=0.2"];
-    succeeds(&[&["run", scene.to_str().unwrap(), "--out", out][..], &sets].concat());
+    succeeds(&[&["run", &scene, "--out", out][..], &sets].concat());
     let page = text(&target.join("report.html"));
     for part in [
         "<h1>Small</h1>",
@@ -45,14 +38,8 @@ fn a_run_leaves_one_page_with_everything_in_it() {
 
 #[test]
 fn a_sweep_leaves_a_table_and_a_page_and_goes_on() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("small.toml");
-    write_small_scene(&scene);
-    let out = folder.path().join("sweep");
-    let base = ["sweep", scene.to_str().unwrap(), "--no-frames", "--out", out.to_str().unwrap()];
+    let Some(SmallRun { scene, out, folder: _folder }) = small_run() else { return };
+    let base = ["sweep", &scene, "--no-frames", "--out", out.to_str().unwrap()];
     let over = ["--over", "gas.regions[0].pressure=2:4:3", "--over", "bodies[0].density=5,6"];
     succeeds(&[&base[..], &over, &["--shard", "1/2"]].concat());
     assert_eq!(text(&out.join("sweep.csv")).lines().count(), 1 + 3);
@@ -76,14 +63,8 @@ fn a_sweep_leaves_a_table_and_a_page_and_goes_on() {
 
 #[test]
 fn runs_of_a_sweep_may_share_their_start() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("small.toml");
-    write_small_scene(&scene);
-    let out = folder.path().join("sweep");
-    let base = ["sweep", scene.to_str().unwrap(), "--no-frames", "--out", out.to_str().unwrap()];
+    let Some(SmallRun { scene, out, folder: _folder }) = small_run() else { return };
+    let base = ["sweep", &scene, "--no-frames", "--out", out.to_str().unwrap()];
     let late = [&base[..], &["--branch-at", "0.02", "--over", "gravity=[0.0, -1.0],[0.0, -2.0]"]].concat();
     let said = fails(2, &late);
     assert!(said.contains("--branch-at 0.02: a time between 0 and the end, 0.02 s"), "{said}");

@@ -314,7 +314,7 @@ fn view_has_the_offsets_of_the_shader() {
 fn png_tells_where_it_comes_from() {
     let folder = tempfile::tempdir().unwrap();
     let pictures = render(2, 16, [64, 48], "output.fields = [\"pressure\", \"density\"]");
-    let origin = Origin { title: "Sod \u{2192} shell".to_owned(), hash: "cafe".to_owned(), source: Default::default() };
+    let origin = Origin { title: "Sod \u{2192} shell".to_owned(), hash: "cafe".to_owned(), ..Origin::default() };
     let (pictures, snapshot, stored) = (&pictures[..], None, None);
     let moment = Moment { index: 7, origin: &origin, time: 0.0125, step: 42, pictures, snapshot, stored };
     export::png::PngExporter::new(folder.path()).write(&moment).unwrap();

@@ -96,7 +96,7 @@ fn a_run_on_the_disk_is_looked_at_and_goes_on() {
     let out = run.to_str().unwrap();
     let every = ["--checkpoint", "3steps", "--keep", "9", "--no-frames", "-q", "--no-expect", "--out", out];
     crate::cli::succeeds(&[&["run", file.to_str().unwrap(), "--until", "0.2"][..], &every].concat());
-    let mut session = Session::open_run(&gpu, &run).unwrap();
+    let mut session = Session::open_run(&gpu, &run, false).unwrap();
     assert!((session.time() - 0.2).abs() < 1e-7 && session.kept().len() > 2, "{:?}", session.kept());
     let first = session.kept()[0];
     assert_eq!(session.rewind(first).unwrap(), first);
@@ -109,7 +109,7 @@ fn a_run_on_the_disk_is_looked_at_and_goes_on() {
     request.resolution = Some(20);
     assert!(request.load().unwrap_err().to_string().contains("as it was"));
     std::fs::remove_dir_all(run.join("checkpoints")).unwrap();
-    assert!(Session::open_run(&gpu, &run).unwrap_err().to_string().contains("--checkpoint"));
+    assert!(Session::open_run(&gpu, &run, false).unwrap_err().to_string().contains("--checkpoint"));
 }
 
 /// Waits until the outbox has what a test waits for; everything that came before is added to `seen`.
@@ -217,7 +217,7 @@ fn a_recording_counts_its_pictures() {
 }
 
 fn origin() -> Origin {
-    Origin { title: "charge".to_owned(), hash: "cafe".to_owned(), source: Default::default() }
+    Origin { title: "charge".to_owned(), hash: "cafe".to_owned(), ..Origin::default() }
 }
 
 #[test]

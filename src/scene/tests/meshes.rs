@@ -210,3 +210,25 @@ fn files_that_are_damaged_or_elsewhere() {
     refused(&folder, "path = \"missing.obj\"", &["missing.obj"]);
     refused(&folder, "path = \"a.step\"", &["no mesh file", ".glb"]);
 }
+
+/// What a run wrote down names files; whoever sent its folder may have chosen them.
+#[test]
+fn a_recorded_scene_reads_nothing_outside_of_the_folder_of_its_run() {
+    let root = tempfile::tempdir().expect("a temporary folder");
+    let [scenes, run] = ["scenes", "run"].map(|name| root.path().join(name));
+    for folder in [&scenes, &run] {
+        std::fs::create_dir(folder).expect("our own folder");
+    }
+    std::fs::write(scenes.join("ball.obj"), obj(&ball(2))).expect("our own folder");
+    let text = format!(
+        "{BASE}[[obstacles]]\nname = \"ball\"\n\
+         shape.translate = {{ offset = [0.5, 0.5, 0.5], shape = {{ mesh = {{ path = \"ball.obj\" }} }} }}\n"
+    );
+    let file = scenes.join("ball.toml").display().to_string();
+    let again = |text: &str, outside| Scene::recorded(text, (&run, &file), &["title=again".to_owned()], outside);
+    let told = again(&text, false).unwrap_err().to_string();
+    assert!(told.contains("nothing outside of the folder of the run") && told.contains("--allow-outside"), "{told}");
+    assert_eq!(again(&text, true).unwrap_or_else(|error| panic!("{error}")).title, "again");
+    let up = again(&text.replace("ball.obj", "../scenes/ball.obj"), false).unwrap_err().to_string();
+    assert!(up.contains("lies outside"), "{up}");
+}
