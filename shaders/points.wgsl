@@ -147,7 +147,8 @@ fn square_of(p: u32, given: Footprint) -> Footprint {
     var a = deformation[3u * p].xy + vec2f(1.0, 0.0);     // columns of F
     var b = deformation[3u * p + 1u].xy + vec2f(0.0, 1.0);
     let size = dot(a, a) + dot(b, b);
-    if (!(a.x * b.y - a.y * b.x > 0.02 * size) || size > 60.0) {
+    // What is crushed or torn beyond telling is drawn as at rest.
+    if (a.x * b.y - a.y * b.x <= 0.02 * size || size > 60.0) {
         a = vec2f(1.0, 0.0);
         b = vec2f(0.0, 1.0);
     }

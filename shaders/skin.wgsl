@@ -126,6 +126,11 @@ fn first_sample(i: u32) -> vec2u {
 const LOOKS: u32 = 48u;
 const LOOK_REACH: f32 = 1.5;
 const BEYOND_SIDE: f32 = 0.16;
+// Radius of the disc around a particle that is covered even if it is alone, over that of its disc: less than half of the distance of
+// neighbours, so that sides stay straight.
+const CORE: f32 = 0.64;
+// Largest width of the line around a body over the radius of a disc.
+const WIDEST_LINE: f32 = 0.35;
 
 // Shade of the line around a body.
 const OUTLINE_SHADE: f32 = 0.3;
@@ -166,14 +171,25 @@ fn depth_inside(place: vec2i, radius: f32) -> f32 {
     return (covered_looks / f32(LOOKS) - 0.5) * 1.5707963 * reach - BEYOND_SIDE * radius;
 }
 
+// Distance from a sample into the core of the particle that it shows, in samples; negative outside.
+fn depth_in_core(place: vec2i, radius: f32) -> f32 {
+    let found = particle_at(place);
+    if (found == NOTHING) {
+        return -1e9;
+    }
+    let middle = project(balls[2u * (FARTHEST - found)].xyz).xy * f32(view.samples) - vec2f(0.0, f32(sample_top()));
+    return CORE * radius - length(vec2f(place) + 0.5 - middle);
+}
+
 // Colour of an area in a sample, and how much of the sample is covered.
 fn area_at(place: vec2i, widest: f32) -> vec4f {
     let found = particle_near(place, widest);
     if (found == NOTHING) {
         return vec4f(0.0);
     }
-    let inside = depth_inside(place, disc_samples(found));
-    let line = view.outline * f32(view.samples);
+    let radius = disc_samples(found);
+    let inside = max(depth_inside(place, radius), depth_in_core(place, radius));
+    let line = min(view.outline * f32(view.samples), WIDEST_LINE * radius);
     let shade = mix(OUTLINE_SHADE, 1.0, clamp(inside - line + 0.5, 0.0, 1.0));
     return vec4f(shade * balls[2u * (FARTHEST - found) + 1u].rgb, clamp(inside + 0.5, 0.0, 1.0));
 }

@@ -83,6 +83,34 @@ fn a_stretched_body_in_the_plane_is_one_area() {
 }
 
 #[test]
+fn particles_alone_in_the_plane_are_seen() {
+    let gpu = gpu();
+    let body = "materials.rubber.neo_hookean = { young_modulus = 1e3, poisson_ratio = 0.3 }\n\
+                [[bodies]]\nname = \"block\"\nmaterial = \"rubber\"\ndensity = 1.0\n\
+                shape.box = { center = [0.5, 0.5], size = [0.15, 0.15] }\n";
+    let scene = scene(2, 20, [480, 360], &format!("render.overlays = {{ scale_bar = false }}\n{body}"));
+    let simulation = Simulation::new(&gpu, &scene).unwrap();
+    // Three times as far from each other as neighbours are.
+    let particles = &simulation.state.particles;
+    let mut position = readback::read(&gpu, &particles.position).unwrap();
+    let apart = |x: f32| 0.5 + 3.0 * (x - 0.5);
+    position.iter_mut().for_each(|row| [row[0], row[1]] = [apart(row[0]), apart(row[1])]);
+    particles.position.write(&gpu, 0, &position);
+
+    let mut renderer = Renderer::of(&simulation, &scene).unwrap();
+    let picture = renderer.draw(&scene.render, Field::Density, 0.0).unwrap();
+    let origin = |x: f64, y: f64| renderer.ray(&scene.render, 0.0, [x, y]).origin;
+    let (first, next) = (origin(0.0, 0.0), origin(1.0, 1.0));
+    let place = |axis: usize, x: f32| ((f64::from(x) - first[axis]) / (next[axis] - first[axis])) as u32;
+    let gas = pixel(&picture, place(0, 0.02), place(1, 0.02));
+    assert_eq!(position.len(), 36);
+    for row in position {
+        let own = pixel(&picture, place(0, row[0]), place(1, row[1]));
+        assert!(own.iter().zip(gas).any(|(a, b)| a.abs_diff(b) > 40), "{row:?}: {own:?} in gas of {gas:?}");
+    }
+}
+
+#[test]
 fn every_field_can_be_drawn() {
     let fields = r#"["density", "pressure", "velocity", "temperature", "schlieren", "mach", "vorticity"]"#;
     for dimension in [2, 3] {
