@@ -1,8 +1,8 @@
-// loads: force, moment, power and pressure of the gas on bodies and on static obstacles, one load each, in every step.
+// loads: force, moment, power and pressure of the gas on bodies, static obstacles and walls of sides, one load each, in every step.
 // load_owners: reads sorted particles; writes which body has each SOLID slot.
 // load_faces: after the gas has its momentum and energy, before floors: reads pressure, cells, gas, nodes; adds up the loads.
 // load_record: writes the loads of the step into their history ring and sets them to 0.
-// What a body gets is what the gas beside it has lost at their faces; of an obstacle what its slots have collected, and the surface in cut
+// What a body gets is what the gas beside it has lost at their faces; of an obstacle or wall what its slots have collected, and the surface in cut
 // cells. Sums are integers, whose order does not matter: numbers of 64 bits, the low half first, in 2^-32 of a unit.
 #include "shared/index.wgsl"
 #include "shared/listed.wgsl"
@@ -23,7 +23,7 @@
 @group(0) @binding(5) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(7) var<storage, read> work: array<vec4f>;
-// Numbers of all loads; then a word per slot: the load of the body that has it, one more, and above it that of the obstacle.
+// Numbers of all loads; then a word per slot: the load of the body that has it, one more, and above it that of the obstacle or side.
 @group(0) @binding(8) var<storage, read_write> loads: array<atomic<u32>>;
 @group(0) @binding(9) var<storage, read> order: array<u32>;
 @group(0) @binding(10) var<storage, read> cell_start: array<u32>;
@@ -31,7 +31,7 @@
 @group(0) @binding(12) var<storage, read> deformation: array<vec4f>;
 @group(0) @binding(13) var<storage, read_write> load_history: array<vec4f>;
 
-override LOADS: u32;            // how many there are: bodies, if their loads are wanted, then obstacles
+override LOADS: u32;            // how many there are: bodies, if their loads are wanted, then obstacles, then sides
 override LOAD_UNIT: f32;        // [Pa] a pressure of the start
 
 // Share of a solve in the mean of a step: with two solves what the first collects counts less than it spans [shared/ars.wgsl].
@@ -146,7 +146,7 @@ fn add_faces_of_body(load: u32, c: vec3i) {
     }
 }
 
-// An obstacle's slot: what it has collected.
+// A slot of an obstacle, or beyond a side: what it has collected.
 fn add_collected(load: u32, c: vec3i, slot: u32) {
     var pressed = 0.0;
     var area = 0.0;
@@ -196,11 +196,11 @@ fn mean_pressure(c: vec3i) -> f32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn load_faces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = busy_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     let owners = atomicLoad(&loads[owner_at(slot)]);
-    if owners == 0u || !inside(c) { return; }
+    if owners == 0u { return; }
     let kind = kind_of(cells[slot]);
     let body = owners & 0xffffu;
     let obstacle = owners >> 16u;

@@ -1,6 +1,10 @@
 //! Totals, extremes and solver history of each step.
 
+mod point;
+
 use serde::{Deserialize, Serialize};
+
+pub use point::PointRecord;
 
 /// What a probe sees after a step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -126,10 +130,14 @@ pub struct StepRecord {
     pub raised: u32,
     /// Particles held back at a wall.
     pub clamped: u32,
-    /// Loads of the gas: on each body, if one of them is held or driven, then on each obstacle.
+    /// Loads of the gas: on each body, if one of them is held or driven or has a gauge, then on each obstacle, then on the walls of each
+    /// side that has a gauge.
     pub loads: Vec<Load>,
     /// Probes.
     pub probes: Vec<ProbeRecord>,
+    /// Points of bodies that have gauges.
+    #[serde(default)]
+    pub points: Vec<PointRecord>,
 }
 
 impl StepRecord {

@@ -2,6 +2,7 @@
 
 mod elastic;
 mod fault;
+mod history;
 mod live;
 mod pace;
 mod recorded;
@@ -10,20 +11,19 @@ mod saved;
 
 use std::time::Instant;
 
-use crate::diagnostics::{Load, StepRecord};
+use crate::diagnostics::StepRecord;
 use crate::error::Result;
 use crate::gpu::{Allocation, Detail, Gpu, Pass, Settings, Times, readback, watched};
 use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
     Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate, G2p,
-    GasAdvection, InterfaceStage, IntermediatePressure, Loads, MpmGridUpdate, OddEven, P2g, ParticleSort, Parts, Still,
-    Supports, TimeStep, Totals, Transfer,
+    GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, MpmGridUpdate, OddEven, P2g, ParticleSort,
+    Parts, Still, Supports, TimeStep, Totals, Transfer,
 };
-use crate::state::constants::{self, NO_FAULT, REACHES};
-use crate::state::loads::LOAD_WIDTH;
+use crate::state::constants::{NO_FAULT, REACHES};
 use crate::state::params::STILL_ASLEEP;
-use crate::state::{Control, HISTORY, State};
+use crate::state::{Control, State};
 pub use live::Blast;
 use pace::Pace;
 use recorded::Recorded;
@@ -54,6 +54,7 @@ pub struct Simulation {
     odd_even: Option<OddEven>,
     totals: Totals,
     loads: Option<Loads>,
+    gauges: Option<Gauges>,
     detonate: Option<Detonate>,
     gamma: f64,
     /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
@@ -61,7 +62,7 @@ pub struct Simulation {
     /// Momentum and energy that gravity has given to the gas since the start, and the gas of the step before.
     pulled: [f64; 4],
     gas_before: [f64; 3],
-    /// Impulse and work of the gas on each body, if that is told, and on each obstacle, since the start.
+    /// Impulse and work of the gas on each body, if that is told, on each obstacle, and on walls with gauges, since the start.
     borne: Vec<[f64; 4]>,
     /// Energy of blasts.
     blasts: f64,
@@ -119,6 +120,7 @@ impl Simulation {
             odd_even: scene.filter().map(|filter| OddEven::new(parts, filter.share)).transpose()?,
             totals: Totals::new(parts)?,
             loads: Loads::new(parts)?,
+            gauges: Gauges::new(parts)?,
             detonate: None,
             gamma: scene.gas.gamma,
             given: [0.0; 4],
@@ -243,6 +245,9 @@ impl Simulation {
         if let Some(loads) = &self.loads {
             loads.record(pass, &self.state);
         }
+        if let Some(gauges) = &self.gauges {
+            gauges.record(pass, &self.state);
+        }
     }
 
     /// Clamped and driven nodes, friction at walls.
@@ -329,33 +334,6 @@ impl Simulation {
         }
         self.recorded = self.recorded.next(newest, control.phase != 0, self.solves, &self.state);
         Ok(control.remaining <= 0.0 && control.phase == 0)
-    }
-
-    /// Records of the steps since the last reading.
-    fn read_history(&mut self, step: u64, records: &mut Vec<StepRecord>) -> Result<()> {
-        if step == self.step {
-            return Ok(());
-        }
-        let ring = readback::read(&self.gpu, &self.state.history)?;
-        let probes = readback::read(&self.gpu, &self.state.probe_history)?;
-        let loads = readback::read(&self.gpu, &self.state.load_history)?;
-        let width = constants::HISTORY_WIDTH as usize;
-        let load_width = LOAD_WIDTH * self.borne.len();
-        let count = self.state.params.probes as usize;
-        let mut time = self.time;
-        for number in self.step..step {
-            let slot = (number % u64::from(HISTORY)) as usize;
-            let mut record = StepRecord::from_raw(&ring[slot * width..(slot + 1) * width]);
-            record.probes = StepRecord::probes_from_raw(&probes[2 * slot * count..2 * (slot + 1) * count]);
-            record.loads = Load::from_raw(&loads[slot * load_width..(slot + 1) * load_width], self.state.grid.origin);
-            time += f64::from(record.dt);
-            record.time = time;
-            record.add_up(&mut self.given);
-            self.pull(&record);
-            self.bear(&record);
-            records.push(record);
-        }
-        Ok(())
     }
 
     /// What the device decided last.

@@ -241,10 +241,16 @@ pub struct ParticleRows {
 impl ParticleRows {
     /// The particles that are inside the domain.
     fn samples(&self, grid: &Grid) -> Vec<ParticleSample> {
+        let inside = |p: &usize| self.deformation[3 * p + 1][3] > 0.0;
+        (0..self.position.len()).filter(inside).map(|p| self.sample(grid, p)).collect()
+    }
+
+    /// One particle.
+    pub(crate) fn sample(&self, grid: &Grid, p: usize) -> ParticleSample {
         let Self { position, velocity, affine, deformation, stress } = self;
         let axes = grid.dimension as usize;
         let xyz = |v: [f32; 4]| [v[0], v[1], v[2]];
-        let sample = |p: usize| ParticleSample {
+        ParticleSample {
             index: p as u32,
             position: xyz(position[p]),
             velocity: xyz(velocity[p]),
@@ -275,8 +281,7 @@ impl ParticleRows {
             },
             body: deformation[3 * p][3].to_bits(),
             material: affine[3 * p + 2][3].to_bits() & 0xffff,
-        };
-        (0..position.len()).filter(|&p| deformation[3 * p + 1][3] > 0.0).map(sample).collect()
+        }
     }
 }
 

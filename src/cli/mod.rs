@@ -25,6 +25,7 @@ mod duration;
 mod film;
 mod folder;
 mod gallery;
+mod gauges;
 mod index;
 mod init;
 mod interrupt;

@@ -1,6 +1,7 @@
 //! Pages that runs leave: everything inside one file, without scripts.
 
 mod curves;
+mod gauges;
 pub(super) mod run;
 pub(super) mod sweep;
 

@@ -1,10 +1,11 @@
-//! The tables of a run: one row per step in `diagnostics.csv` and `probes.csv`, one per frame and body in `bodies.csv`.
+//! The tables of a run: one row per step in `diagnostics.csv`, `probes.csv` and `gauges.csv`, one per frame and body in `bodies.csv`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::gauges::Gauges;
 use super::loads::{self, Loads, Sum};
 use crate::Result;
 use crate::diagnostics::{StepRecord, Total};
@@ -56,6 +57,7 @@ pub(super) struct Tables {
     bodies: Option<Table>,
     probes: Option<Table>,
     loads: Loads,
+    gauges: Option<Gauges>,
     names: Vec<String>,
 }
 
@@ -75,6 +77,7 @@ impl Tables {
             bodies: bodies.then(|| Table::new(&folder.join("bodies.csv"), &[&BODY_COLUMNS, more].concat())),
             probes: (!scene.probes.is_empty()).then(|| Table::new(&folder.join("probes.csv"), &columns)),
             loads,
+            gauges: Gauges::new(folder, scene),
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
         }
     }
@@ -103,7 +106,9 @@ impl Tables {
     }
 
     fn all(&mut self) -> impl Iterator<Item = &mut Table> {
-        [&mut self.steps].into_iter().chain(&mut self.bodies).chain(&mut self.probes).chain(self.loads.table())
+        let gauges = self.gauges.as_mut().map(|gauges| &mut gauges.table);
+        let own = [&mut self.steps].into_iter().chain(&mut self.bodies).chain(&mut self.probes);
+        own.chain(self.loads.table()).chain(gauges)
     }
 
     /// Adds steps.
@@ -111,6 +116,9 @@ impl Tables {
         for record in records {
             self.steps.push(step_row(record));
             self.loads.add(record);
+            if let Some(gauges) = &mut self.gauges {
+                gauges.add(record, &self.loads);
+            }
             if let Some(probes) = &mut self.probes {
                 let head: [Value; 2] = [record.step.into(), record.time.into()];
                 let values = record.probes.iter().flat_map(|probe| {
@@ -138,12 +146,7 @@ impl Tables {
 
     /// Brings the files up to date.
     pub(super) fn save(&mut self) -> Result<()> {
-        self.steps.save()?;
-        self.loads.save()?;
-        for table in self.bodies.iter_mut().chain(&mut self.probes) {
-            table.save()?;
-        }
-        Ok(())
+        self.all().try_for_each(Table::save)
     }
 }
 

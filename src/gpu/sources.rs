@@ -27,6 +27,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "fluid_update.wgsl",
     "g2p.wgsl",
     "gas_advection.wgsl",
+    "gauges.wgsl",
     "glow.wgsl",
     "interface.wgsl",
     "interface_mark.wgsl",

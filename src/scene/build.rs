@@ -6,8 +6,8 @@ use super::check;
 use super::mesh::MeshFolder;
 use super::source::{Finding, MOST_TOLD};
 use super::{
-    Body, Boundaries, Boundary, Domain, Expect, Gas, GasState, Material, Numerics, Obstacle, Output, Probe, Region,
-    RenderSettings, Sampling, Scene, Shape, Time,
+    Body, Boundaries, Boundary, Domain, Expect, Gas, GasState, Gauge, Material, Numerics, Obstacle, Output, Probe,
+    Region, RenderSettings, Sampling, Scene, Shape, Time,
 };
 use crate::{Error, Result};
 
@@ -45,6 +45,7 @@ impl Scene {
                 time: Time::default(),
                 numerics: Numerics::default(),
                 probes: Vec::new(),
+                gauges: Vec::new(),
                 output: Output::default(),
                 render: RenderSettings::default(),
                 expect: Expect::default(),
@@ -116,6 +117,13 @@ impl SceneBuilder {
     #[must_use]
     pub fn probe<const N: usize>(mut self, name: impl Into<String>, position: [f64; N]) -> Self {
         self.scene.probes.push(Probe { name: name.into(), position: filled(position, 0.0) });
+        self
+    }
+
+    /// Adds a gauge on a wall, an obstacle, a body, or a point of a body.
+    #[must_use]
+    pub fn gauge(mut self, gauge: Gauge) -> Self {
+        self.scene.gauges.push(gauge);
         self
     }
 

@@ -72,6 +72,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     check.names();
     let before = check.findings.len();
     check.geometry();
+    check.gauges();
     check.time();
     check.numerics();
     check.render();
@@ -225,7 +226,8 @@ impl Check<'_> {
         let bodies = scene.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
         let obstacles = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect::<Vec<_>>();
         let probes = scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>();
-        for (list, names) in [("bodies", bodies), ("obstacles", obstacles), ("probes", probes)] {
+        let gauges = scene.gauges.iter().map(|gauge| gauge.name.as_str()).collect::<Vec<_>>();
+        for (list, names) in [("bodies", bodies), ("obstacles", obstacles), ("probes", probes), ("gauges", gauges)] {
             let mut seen = BTreeSet::new();
             for (index, name) in names.into_iter().enumerate() {
                 let plain = |c: char| !(c.is_control() || [',', '"'].contains(&c));

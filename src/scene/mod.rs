@@ -24,6 +24,7 @@ mod expectation;
 mod extent;
 mod fill;
 mod fracture;
+mod gauge;
 mod integrator;
 mod load;
 mod mesh;
@@ -72,6 +73,7 @@ pub use cut::{CutCell, CutGeometry};
 pub use estimate::{Estimate, IMPLICIT_COURANT};
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
 pub use fracture::Breaking;
+pub use gauge::{Gauge, GaugePlace, Side};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
 pub use mesh::{Mesh, Up};
 pub use named::Named;
@@ -132,6 +134,9 @@ pub struct Scene {
     /// Points whose gas state is written every step.
     #[serde(default)]
     pub probes: Vec<Probe>,
+    /// Loads of the gas on walls, obstacles and bodies, and motions of points of bodies, written every step.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gauges: Vec<Gauge>,
     /// Which files a run leaves.
     #[serde(default)]
     pub output: Output,

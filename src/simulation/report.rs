@@ -42,10 +42,12 @@ impl Simulation {
         }
     }
 
-    /// Impulse \[kg m s^-1\] and work \[J\] of the gas since the start: on each body, if one of them is held or driven, and on each obstacle.
+    /// Impulse \[kg m s^-1\] and work \[J\] of the gas since the start: on each body, if one of them is held or
+    /// driven or has a gauge, and on each obstacle.
     #[must_use]
     pub fn borne(&self) -> (&[[f64; 4]], &[[f64; 4]]) {
-        self.borne.split_at(self.state.load_count[0])
+        let [bodies, obstacles, _] = self.state.load_count;
+        (&self.borne[..bodies], &self.borne[bodies..bodies + obstacles])
     }
 
     /// Energy of all blasts so far \[J\].

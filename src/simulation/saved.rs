@@ -8,7 +8,8 @@ use crate::error::{Error, Result};
 use crate::gpu::{Allocation, readback};
 
 /// Buffers that follow from the scene alone; the device only reads them.
-const FROM_SCENE: [&str; 6] = ["params", "materials", "knots", "motions", "probe_cells", "probe_history"];
+const FROM_SCENE: [&str; 8] =
+    ["params", "materials", "knots", "motions", "probe_cells", "probe_history", "gauge_particles", "gauge_history"];
 
 /// Buffers that no step reads before it has written them, wherever nothing sleeps.
 const SCRATCH: [&str; 9] =
@@ -92,6 +93,11 @@ impl Simulation {
     /// [`Error::Usage`] if an array is missing, foreign, of another length, or holds what is no number; driver errors.
     pub fn restore(&mut self, saved: &Saved) -> Result<()> {
         let wanted = self.carried();
+        if saved.host.borne.len() != self.borne.len() {
+            let text = "its loads are those of other bodies, obstacles and gauges: new gauges may sit on points of bodies, and on what had \
+                        loads before";
+            return Err(Error::Usage(text.to_owned()));
+        }
         for array in &saved.arrays {
             if !wanted.iter().any(|(name, _)| *name == array.name) {
                 return Err(Error::Usage(format!("array `{}` is none of this scene's and program's", array.name)));
@@ -119,9 +125,6 @@ impl Simulation {
             }
         }
         let host = &saved.host;
-        if host.borne.len() != self.borne.len() {
-            return Err(Error::Usage("its loads are those of other bodies and obstacles".to_owned()));
-        }
         (self.time, self.step, self.given, self.blasts) = (saved.time, saved.step, host.given, host.blasts);
         (self.pulled, self.gas_before, self.borne) = (host.pulled, host.gas_before, host.borne.clone());
         self.recorded = Recorded::of(host.recorded);

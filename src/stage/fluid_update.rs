@@ -16,7 +16,7 @@ pub struct FluidUpdate {
     /// In scenes with bodies.
     parting: Option<[Bound; 2]>,
     energy: [Bound; 2],
-    /// What faces of bodies and obstacles bear.
+    /// What faces of bodies, obstacles and walls bear.
     loads: Option<Bound>,
     floor: [Bound; 2],
 }
@@ -36,7 +36,7 @@ impl FluidUpdate {
             late_flux: follows.then(late_flux).transpose()?,
             momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
             parting: state.has_solids().then(parting).transpose()?,
-            loads: (state.load_count != [0; 2]).then(loads).transpose()?,
+            loads: (state.load_count != [0; 3]).then(loads).transpose()?,
             energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
             floor: parts.both("fluid_floor.wgsl", "fluid_floor", &[], &[])?,
         })

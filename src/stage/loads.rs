@@ -1,4 +1,4 @@
-//! Loads of the gas on bodies and obstacles: not part of the method, but of every record of it.
+//! Loads of the gas on bodies, obstacles and walls: not part of the method, but of every record of it.
 
 use super::time_step::slots;
 use super::{Parts, extent};
@@ -21,7 +21,7 @@ impl Loads {
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>) -> Result<Option<Self>> {
         let Parts { gpu, state } = parts;
-        if state.load_count == [0; 2] {
+        if state.load_count == [0; 3] {
             return Ok(None);
         }
         let bind = |entry: &str| state.bind(gpu, "loads.wgsl", entry, &[], &[("LISTED", 1.0)]);

@@ -206,6 +206,7 @@ pub fn source() -> String {
         ("BLOCKS", BLOCKS),
         ("BLOCK_GIVEN", BLOCK_GIVEN),
         ("LOAD_NUMBERS", super::loads::LOAD_NUMBERS),
+        ("GAUGE_WIDTH", super::gauges::GAUGE_WIDTH),
         ("NO_FAULT", NO_FAULT),
         ("MAX_ROUNDS", MAX_ROUNDS),
         ("NO_EXTRA", u32::MAX),

@@ -1,7 +1,7 @@
 //! Loads of the gas on what is held, driven or fixed: which there are, their sums on the device, and who owns a slot.
 
-use super::{Grid, Openings};
-use crate::scene::{CutGeometry, Scene};
+use super::{Grid, HISTORY, Openings};
+use crate::scene::{CutGeometry, GaugePlace, Scene};
 
 /// Numbers of a load: force, power, moment, force of the pressure alone, area. Mirror of `shaders/loads.wgsl`.
 pub const LOAD_NUMBERS: u32 = 9;
@@ -10,12 +10,40 @@ pub const LOAD_WIDTH: usize = 3;
 /// Most loads: a slot knows two of them by 16 bits each.
 const MOST: usize = 0xfffe;
 
-/// How many loads a scene has: its bodies, if some body is held or driven, for they touch each other; then its obstacles.
+/// How many loads a scene has: its bodies, if some body is held or driven or has a gauge, for they touch each other; then its obstacles;
+/// then the sides whose walls have gauges.
 #[must_use]
-pub fn count(scene: &Scene) -> [usize; 2] {
+pub fn count(scene: &Scene) -> [usize; 3] {
     let held = scene.bodies.iter().any(crate::scene::Body::is_driven);
-    let bodies = if held { scene.bodies.len() } else { 0 };
-    [bodies, scene.obstacles.len().min(MOST - bodies)]
+    let told = held || scene.gauge_places().iter().any(|place| matches!(place, GaugePlace::Body(_)));
+    let bodies = if told { scene.bodies.len() } else { 0 };
+    let sides = sides(scene).len();
+    [bodies, scene.obstacles.len().min(MOST - bodies - sides), sides]
+}
+
+/// The sides whose walls have gauges, in order.
+#[must_use]
+pub fn sides(scene: &Scene) -> Vec<usize> {
+    let places = scene.gauge_places();
+    (0..6).filter(|side| places.contains(&GaugePlace::Side(*side))).collect()
+}
+
+/// The load that a gauge shows; none where it shows a point.
+#[must_use]
+pub fn of_gauge(scene: &Scene, place: GaugePlace) -> Option<usize> {
+    let [bodies, obstacles, _] = count(scene);
+    match place {
+        GaugePlace::Body(body) => Some(body),
+        GaugePlace::Obstacle(obstacle) => Some(bodies + obstacle),
+        GaugePlace::Side(side) => Some(bodies + obstacles + sides(scene).iter().position(|own| *own == side)?),
+        GaugePlace::Point(..) => None,
+    }
+}
+
+/// vec4 entries of the history ring of so many loads.
+#[must_use]
+pub fn history_length(count: [usize; 3]) -> usize {
+    HISTORY as usize * LOAD_WIDTH * count.iter().sum::<usize>()
 }
 
 /// Words of the sums and owners.
@@ -41,15 +69,20 @@ fn unit(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> f64 {
     all.fold(scene.gas.ambient.pressure, f64::max)
 }
 
-/// Sums of nothing, and for each slot the load of the obstacle that has it, one more, in its upper half.
+/// Sums of nothing, and for each slot the load of the obstacle or side that has it, one more, in its upper half.
 #[must_use]
 pub(super) fn start(scene: &Scene, grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
-    let [bodies, obstacles] = count(scene);
+    let [bodies, obstacles, _] = count(scene);
     let mut words = vec![0; length(scene, grid.slots())];
+    let owners = words.len().saturating_sub(grid.slots());
+    for (index, side) in sides(scene).into_iter().enumerate() {
+        for slot in slots_beyond(grid, side) {
+            words[owners + slot] = ((bodies + obstacles + index + 1) as u32) << 16;
+        }
+    }
     if obstacles == 0 {
         return words;
     }
-    let owners = words.len() - grid.slots();
     let nearest = |cell: [u32; 3]| {
         let center = scene.domain.cell_center(cell);
         let distance = |k: &usize| scene.obstacles[*k].shape.distance(center);
@@ -63,4 +96,19 @@ pub(super) fn start(scene: &Scene, grid: &Grid, geometry: &CutGeometry) -> Vec<u
         words[owners + grid.slot(cell.map(|k| k as i32))] = nearest(cell);
     }
     words
+}
+
+/// Slots of the ring that share a face with the cells of a side.
+fn slots_beyond(grid: &Grid, side: usize) -> impl Iterator<Item = usize> + '_ {
+    let axis = side / 2;
+    let beyond = if side.is_multiple_of(2) { -1 } else { grid.cells[axis] as i32 };
+    let mut count = grid.cells.map(|n| n as i32);
+    count[axis] = 1;
+    let cell = move |x: i32, y: i32, z: i32| {
+        let mut cell = [x, y, z];
+        cell[axis] = beyond;
+        grid.slot(cell)
+    };
+    let [nx, ny, nz] = count;
+    (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| cell(x, y, z))))
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     HISTORY, Knot, MAX_MATERIALS, MAX_OPENINGS, Opening, Openings, Params, Support, coarse, constants,
-    control::Control, elastic_solve, extra_capacity, loads, surface,
+    control::Control, elastic_solve, extra_capacity, gauges, loads, surface,
 };
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
@@ -95,14 +95,18 @@ impl MemoryPlan {
         plan.add("fixed", &[("supports", MAX_BODIES as u64, size_of::<Support>() as u64)]);
         let motions = super::Supports::new(scene).motions.len() as u64;
         plan.add("fixed", &[("motions", motions, size_of::<super::MotionAt>() as u64)]);
-        let loads = loads::count(scene).iter().sum::<usize>() as u64;
-        let load_history = u64::from(HISTORY) * loads::LOAD_WIDTH as u64 * loads;
-        plan.add(
-            "fixed",
-            &[("loads", loads::length(scene, slots as usize) as u64, 4), ("load_history", load_history, 16)],
-        );
+        plan.add_recorded(scene, slots as usize);
         plan.add_fixed(scene.probes.len() as u64);
         plan
+    }
+
+    /// What is recorded in every step beside the totals.
+    fn add_recorded(&mut self, scene: &Scene, slots: usize) {
+        let load_history = loads::history_length(loads::count(scene)) as u64;
+        self.add("fixed", &[("loads", loads::length(scene, slots) as u64, 4), ("load_history", load_history, 16)]);
+        let points = gauges::count(scene) as u64;
+        let states = u64::from(gauges::GAUGE_WIDTH) * u64::from(HISTORY) * points;
+        self.add("fixed", &[("gauge_particles", points, 4), ("gauge_history", states, 16)]);
     }
 
     /// Buffers of the pressure system.

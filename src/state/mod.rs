@@ -6,6 +6,7 @@ pub mod control;
 pub mod cut;
 mod elastic_solve;
 pub mod gas;
+pub mod gauges;
 pub mod grid;
 pub mod interface;
 pub mod loads;
@@ -19,6 +20,7 @@ pub(crate) mod surface;
 pub use control::Control;
 pub use elastic_solve::ElasticBuffers;
 pub use gas::GasState;
+pub use gauges::GaugeBuffers;
 pub use grid::Grid;
 pub use interface::Interface;
 pub use memory::{MemoryPlan, memory_together};
@@ -83,8 +85,8 @@ pub struct State {
     pub loads: Buffer<u32>,
     /// Loads of the latest steps.
     pub load_history: Buffer<[f32; 4]>,
-    /// Bodies and obstacles whose loads are told.
-    pub load_count: [usize; 2],
+    /// Bodies, obstacles and sides whose loads are told.
+    pub load_count: [usize; 3],
     /// Momentum of the gas at the start \[kg m s^-1\].
     pub start_momentum: [f64; 3],
     /// Records of the latest steps.
@@ -93,6 +95,8 @@ pub struct State {
     pub probe_cells: Buffer<u32>,
     /// Two entries per probe and step.
     pub probe_history: Buffer<[f32; 4]>,
+    /// Points of bodies that have gauges.
+    pub gauges: GaugeBuffers,
     overrides: Vec<(&'static str, f64)>,
 }
 
@@ -136,7 +140,6 @@ impl State {
         };
         let table = cut::table(&grid, &geometry);
         let load_count = loads::count(scene);
-        let count: usize = load_count.iter().sum();
         let mut overrides = params::overrides(scene, !start.is_empty());
         overrides.extend(loads::overrides(scene, &start_gas, &openings));
         overrides.extend(switches(&supports, table.is_empty()));
@@ -162,12 +165,13 @@ impl State {
             elastic_solve: ElasticBuffers::new(gpu, scene, slots, &start)?,
             partials: Buffer::new(gpu, "partials", (constants::BLOCKS * constants::PARTIALS) as usize)?,
             loads: Buffer::from_slice(gpu, "loads", &loads::start(scene, &grid, &geometry))?,
-            load_history: Buffer::new(gpu, "load_history", HISTORY as usize * loads::LOAD_WIDTH * count)?,
+            load_history: Buffer::new(gpu, "load_history", loads::history_length(load_count))?,
             load_count,
             start_momentum: cut::momentum(scene, &geometry, &start_gas),
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
+            gauges: GaugeBuffers::new(gpu, scene, &start)?,
             overrides,
         };
         state.fill(gpu, scene);
@@ -331,6 +335,8 @@ impl State {
             ("history", self.history.raw()),
             ("probe_cells", self.probe_cells.raw()),
             ("probe_history", self.probe_history.raw()),
+            ("gauge_particles", self.gauges.particles.raw()),
+            ("gauge_history", self.gauges.history.raw()),
             ("loads", self.loads.raw()),
             ("load_history", self.load_history.raw()),
         ]

@@ -74,6 +74,12 @@ impl ParticleStart {
         start
     }
 
+    /// Where a particle is at the start \[m\].
+    pub(super) fn place(&self, particle: usize) -> [f32; 3] {
+        let [x, y, z, _] = self.position[particle];
+        [x, y, z]
+    }
+
     /// Particles of each body: they stay together.
     pub(super) fn ranges(&self, bodies: usize) -> Vec<std::ops::Range<u32>> {
         let of = |column: &[f32; 4]| column[3].to_bits() as usize;

@@ -20,6 +20,7 @@ mod fracture;
 mod frames;
 mod fuzz;
 mod gallery;
+mod gauges;
 mod gpu;
 mod hardware;
 mod images;

@@ -2,20 +2,24 @@
 
 use std::path::Path;
 
+use super::gauges;
 use crate::expect::Gauge;
 use crate::export::csv::Sheet;
 use crate::verify::{Plot, Style};
 
 /// Parts of a curve that keep their least and largest value.
 const PARTS: usize = 300;
+/// Tables of gauges: points in the gas, and what `[[gauges]]` sit on.
+const GAUGES: [&str; 2] = ["probes.csv", "gauges.csv"];
 /// Time axes.
-const TIME: &str = "time [s]";
+pub(super) const TIME: &str = "time [s]";
 
 /// The tables of a run.
 #[derive(Debug, Default)]
 pub(super) struct Tables {
     steps: Option<Sheet>,
     probes: Option<Sheet>,
+    gauges: Option<Sheet>,
     bodies: Option<Sheet>,
     obstacles: Option<Sheet>,
     /// What could not be read.
@@ -32,9 +36,10 @@ impl Tables {
                 None
             })
         };
-        let (steps, probes) = (read("diagnostics.csv", &[]), read("probes.csv", &[]));
+        let steps = read("diagnostics.csv", &[]);
+        let [probes, gauges] = GAUGES.map(|name| read(name, &[]));
         let (bodies, obstacles) = (read("bodies.csv", &["body"]), read("obstacles.csv", &["obstacle"]));
-        Self { steps, probes, bodies, obstacles, wrong }
+        Self { steps, probes, gauges, bodies, obstacles, wrong }
     }
 
     /// Mass, momentum and energy: parts, and what they come to.
@@ -87,10 +92,10 @@ impl Tables {
 
     /// Pressure of each gauge over time, with what was measured.
     pub(super) fn gauges(&self) -> Vec<(String, Option<Gauge>, Plot)> {
-        let Some(probes) = &self.probes else { return Vec::new() };
-        let times = probes.numbers("time").unwrap_or_default();
-        pressures(probes)
-            .map(|(name, pressure)| {
+        let sheets = [&self.probes, &self.gauges].into_iter().flatten();
+        sheets
+            .flat_map(|sheet| pressures(sheet).map(|own| (sheet.numbers("time").unwrap_or_default(), own)))
+            .map(|(times, (name, pressure))| {
                 let gauge = Gauge::of(times, &pressure);
                 let title = format!("Gauge {name}");
                 let mut plot =
@@ -105,6 +110,11 @@ impl Tables {
                 (name, gauge, plot)
             })
             .collect()
+    }
+
+    /// Forces, and what points of bodies do.
+    pub(super) fn forces_and_points(&self, axes: usize) -> Vec<Plot> {
+        self.gauges.as_ref().map_or_else(Vec::new, |sheet| gauges::plots(sheet, axes))
     }
 
     /// Paths, speed, strain, energy and loads of bodies, and loads of obstacles.
@@ -147,20 +157,24 @@ impl Tables {
     }
 }
 
-/// Gauges of a run with what they have measured, from `probes.csv`.
+/// Probes and gauges of a run with what they have measured, from `probes.csv` and `gauges.csv`.
 pub(in crate::cli) fn gauges(folder: &Path) -> Vec<(String, Gauge)> {
-    let Ok(Some(probes)) = Sheet::read(&folder.join("probes.csv"), &[]) else { return Vec::new() };
-    let times = probes.numbers("time").unwrap_or_default();
-    pressures(&probes).filter_map(|(name, pressure)| Some((name, Gauge::of(times, &pressure)?))).collect()
+    let read = |name: &str| Sheet::read(&folder.join(name), &[]).ok().flatten();
+    let all = GAUGES.into_iter().filter_map(read).flat_map(|sheet| {
+        let times = sheet.numbers("time").unwrap_or_default();
+        pressures(&sheet).filter_map(|(name, pressure)| Some((name, Gauge::of(times, &pressure)?))).collect::<Vec<_>>()
+    });
+    all.collect()
 }
 
-/// The pressures that probes saw in gas, by the names of the probes; elsewhere no number.
-fn pressures(probes: &Sheet) -> impl Iterator<Item = (String, Vec<f64>)> {
-    probes.names().iter().filter_map(|column| {
+/// The pressures of a table by names: what probes saw in gas, elsewhere no number; the mean over what a gauge sits on.
+fn pressures(sheet: &Sheet) -> impl Iterator<Item = (String, Vec<f64>)> {
+    sheet.names().iter().filter_map(|column| {
         let name = column.strip_suffix("_pressure")?;
-        let kind = probes.numbers(&format!("{name}_kind"))?;
+        let all = sheet.numbers(column)?;
+        let Some(kind) = sheet.numbers(&format!("{name}_kind")) else { return Some((name.to_owned(), all.to_vec())) };
         let gas = |(pressure, kind): (&f64, &f64)| if *kind == 0.0 { *pressure } else { f64::NAN };
-        Some((name.to_owned(), probes.numbers(column)?.iter().zip(kind).map(gas).collect()))
+        Some((name.to_owned(), all.iter().zip(kind).map(gas).collect()))
     })
 }
 
@@ -235,7 +249,7 @@ fn each(
 }
 
 /// A curve with as many points as can be seen: of each part the least and the largest value.
-fn thin(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
+pub(super) fn thin(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
     let all: Vec<[f64; 2]> = times.iter().zip(values).map(|(time, value)| [*time, *value]).collect();
     if all.len() <= 2 * PARTS {
         return all;

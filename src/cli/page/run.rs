@@ -48,13 +48,13 @@ fn html(folder: &Path, report: &Value, scene: &str) -> String {
     pictures(&mut page, &folder.join("frames"), MOVING_WIDTH);
     heading(&mut page, "Verdict");
     verdict(&mut page, report);
-    let gauges = tables.gauges();
-    if !gauges.is_empty() {
+    let axes = report["scene"]["domain"]["dimension"].as_u64().unwrap_or(3).clamp(1, 3) as usize;
+    let (gauges, more) = (tables.gauges(), tables.forces_and_points(axes));
+    if !(gauges.is_empty() && more.is_empty()) {
         heading(&mut page, "Gauges");
         measured(&mut page, &gauges);
-        plots(&mut page, gauges.into_iter().map(|(_, _, plot)| plot));
+        plots(&mut page, gauges.into_iter().map(|(_, _, plot)| plot).chain(more));
     }
-    let axes = report["scene"]["domain"]["dimension"].as_u64().unwrap_or(3).min(3) as usize;
     let bodies = tables.bodies(axes);
     if !bodies.is_empty() {
         heading(&mut page, "Bodies and obstacles");
@@ -110,6 +110,9 @@ fn verdict(page: &mut String, report: &Value) {
 }
 
 fn measured(page: &mut String, gauges: &[(String, Option<crate::expect::Gauge>, Plot)]) {
+    if gauges.is_empty() {
+        return;
+    }
     let _ = writeln!(
         page,
         "<table><thead><tr><th>gauge</th><th>first pressure [Pa]</th><th>arrival [s]</th><th>peak overpressure [Pa]</th>\

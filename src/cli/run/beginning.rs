@@ -21,10 +21,11 @@ use crate::state::MemoryPlan;
 use crate::{Error, Result, input};
 
 /// Keys that a branch may change, with what may follow; materials of the same model may change their strength.
-const CHANGEABLE: [&str; 12] = [
+const CHANGEABLE: [&str; 13] = [
     "title",
     "description",
     "probes",
+    "gauges",
     "output.",
     "render.",
     "expect.",
@@ -200,7 +201,7 @@ impl Beginning {
     }
 }
 
-const REFUSED: &str = "a state goes on only with the cells, bodies and gas that it has; a branch may change probes, output.*, render.*, \
+const REFUSED: &str = "a state goes on only with the cells, bodies and gas that it has; a branch may change probes, gauges, output.*, render.*, \
                        expect.*, boundary.* (states, not rules), gravity, time.*, numerics.tolerance, numerics.blending, and the \
                        strength of materials; run the scene anew for the rest";
 

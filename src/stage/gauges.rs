@@ -1,0 +1,33 @@
+//! Points of bodies with gauges: not part of the method, but of every record of it.
+
+use super::{Parts, extent};
+use crate::error::Result;
+use crate::gpu::{Bound, Pass};
+use crate::state::State;
+use crate::state::constants::Entry;
+
+/// Kernel of the points.
+#[derive(Debug)]
+pub struct Gauges(Bound);
+
+impl Gauges {
+    /// Binds, where some point has a gauge.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(parts: Parts<'_>) -> Result<Option<Self>> {
+        let Parts { gpu, state } = parts;
+        let points = state.gauges.start.len();
+        if points == 0 || !state.has_solids() {
+            return Ok(None);
+        }
+        let bound = state.bind(gpu, "gauges.wgsl", "gauge_record", &[], &[("GAUGES", points as f64)])?;
+        Ok(Some(Self(bound)))
+    }
+
+    /// The points after the step that has just ended, into their history ring.
+    pub fn record(&self, pass: &mut Pass, state: &State) {
+        pass.stage("totals");
+        pass.dispatch(&self.0, &extent(state, "END", Entry::Single));
+    }
+}
