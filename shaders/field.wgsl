@@ -1,5 +1,5 @@
 // The quantity a picture shows, from the state of the gas.
-// evaluate_field: reads conserved, energy, owed_flow, cells; writes field and heat (p / rho), NO_VALUE where there is no gas.
+// evaluate_field: reads conserved, energy, owed_flow, cells, maps; writes field and heat (p / rho), NO_VALUE where there is no gas.
 // find_range: reads field; writes the least and largest value that each workgroup saw.
 // pack_corners: reads field; writes, per cube between eight cell centres, their fractions of the range in 8 bits each.
 // pack_glow: reads heat; writes the same cubes' places in the black-body ramp.
@@ -22,6 +22,9 @@
 @group(0) @binding(10) var<storage, read> visible: array<u32>;
 // Mass and momentum that a slot owes; one entry alone where no slot inside the domain has books.
 @group(0) @binding(11) var<storage, read> owed_flow: array<vec4f>;
+
+// Largest pressure, impulse, what rounding took, largest plastic strain so far; one entry alone where no maps are kept.
+@group(0) @binding(12) var<storage, read> maps: array<vec4f>;
 
 fn has_gas(slot: u32) -> bool {
     return kind_of(cells[slot]) == KIND_GAS;
@@ -86,6 +89,22 @@ fn is_covered(slot: u32) -> bool {
     return kind_of(cells[slot]) == KIND_SOLID;
 }
 
+fn is_map() -> bool {
+    return view.field == FIELD_PEAK_PRESSURE || view.field == FIELD_IMPULSE || view.field == FIELD_PEAK_PLASTIC_STRAIN;
+}
+
+// What a place has seen so far, also where a body is now.
+fn mapped(slot: u32) -> f32 {
+    if (slot >= arrayLength(&maps) || kind_of(cells[slot]) == KIND_WALL) {
+        return NO_VALUE;
+    }
+    let seen = maps[slot];
+    if (view.field == FIELD_IMPULSE) {
+        return seen.y;
+    }
+    return select(seen.x, seen.w, view.field == FIELD_PEAK_PLASTIC_STRAIN);
+}
+
 fn value(cell: vec3i, slot: u32) -> f32 {
     let state = motion(slot);
     let speed = length(state.yzw);
@@ -122,6 +141,9 @@ fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invoca
     }
     if (view.field == FIELD_OWED && is_covered(slot)) {
         result = owed_gas(slot);
+    }
+    if (is_map()) {
+        result = mapped(slot);
     }
     field[i] = result;
     heat[i] = hot;

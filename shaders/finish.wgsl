@@ -1,12 +1,10 @@
 // From light to pixels.
 // finish: reads light; writes pixels, red in the lowest byte, alpha opaque: the mean of each pixel's rays.
-// finish_deep: reads light; writes deep, the mean of each pixel's rays before the tone map, or behind it where TONED.
+// finish_deep: reads light; writes deep, the mean of each pixel's rays behind the tone map.
 
 #include "shared/thread.wgsl"
 #include "shared/view.wgsl"
 #include "shared/color.wgsl"
-
-override TONED: bool = true;      // of finish_deep
 
 @group(0) @binding(1) var<storage, read> light: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> pixels: array<u32>;
@@ -41,16 +39,15 @@ fn band_pixels() -> u32 {
     return view.size.x / n * (view.rows / n);
 }
 
-// Mean light of a pixel's rays, before or behind the tone map.
-fn mean_light(i: u32, behind: bool) -> vec3f {
+// Mean light of a pixel's rays, behind the tone map.
+fn mean_light(i: u32) -> vec3f {
     let n = view.supersampling;
     let width = view.size.x / n;
     let place = vec2u(i % width, i / width);
     var sum = vec3f(0.0);
     for (var k = 0u; k < n * n; k++) {
         let ray = place * n + vec2u(k % n, k / n);
-        let own = light[ray.x + view.size.x * ray.y].rgb;
-        sum += select(own, toned(own), behind);
+        sum += toned(light[ray.x + view.size.x * ray.y].rgb);
     }
     return sum / f32(n * n);
 }
@@ -59,7 +56,7 @@ fn mean_light(i: u32, behind: bool) -> vec3f {
 fn finish_deep(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
     if (i < band_pixels()) {
-        deep[i] = vec4f(mean_light(i, TONED), 1.0);
+        deep[i] = vec4f(mean_light(i), 1.0);
     }
 }
 
@@ -75,6 +72,6 @@ fn finish(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_ind
     // In dark gradients of 3D noise breaks the bands.
     let noise = hash_unit((place.x + width * (place.y + view.first_row / n)) ^ 0x9e3779b9u);
     let dither = select(0.5, noise, view.dimension == 3u);
-    let levels = vec3u(srgb_from_linear(mean_light(i, true)) * 255.0 + dither);
+    let levels = vec3u(srgb_from_linear(mean_light(i)) * 255.0 + dither);
     pixels[i] = levels.x | (levels.y << 8u) | (levels.z << 16u) | 0xff000000u;
 }

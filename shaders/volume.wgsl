@@ -1,6 +1,6 @@
 // Ray march through a three-dimensional field, with bodies, obstacles and slices inside it and the edges of the domain around.
 // Emission, absorption and single scattering [Max 1995]: dC/ds = sigma (c - C) along the ray, front to back.
-// draw_volume: reads corners, glow, bricks, colors, light_grid, surface, solid; writes light.
+// draw_volume: reads corners, glow, bricks, colors, light_grid, surface, solid; writes light, and as fourth number how much of it is no background.
 
 #include "shared/thread.wgsl"
 #include "shared/view.wgsl"
@@ -201,6 +201,7 @@ fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     gathered = over(gathered, EDGE_COLOR, select(edge.y, 0.0, wall_depth * along < middle));
     gathered = over(gathered, wall.color, wall.coverage);
     let background = mix(BACKGROUND_TOP, BACKGROUND_BOTTOM, pixel.y / f32(view.size.y));
+    let alpha = 1.0 - gathered.passing;
     gathered = over(gathered, background, 1.0);
-    light[i] = vec4f(view.exposure * gathered.color, 1.0);
+    light[i] = vec4f(view.exposure * gathered.color, alpha);
 }

@@ -68,6 +68,9 @@ pub const TABLE: &[Quantity] = &[
     quantity(Place::Cell, "vorticity", "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
     quantity(Place::Cell, "entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma as f32)])),
     quantity(Place::Cell, "owed", "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
+    quantity(Place::Cell, "peak_pressure", "Pa", "largest pressure so far [Pa]", 1, |s| map(s, 0)),
+    quantity(Place::Cell, "impulse", "Pa s", "impulse so far [Pa s]", 1, |s| map(s, 1)),
+    quantity(Place::Cell, "peak_plastic_strain", "1", "largest plastic strain so far", 1, |s| map(s, 2)),
     quantity(Place::Cell, "kind", "1", "0 gas, 1 solid, 2 wall, 3 beyond an open side", 1, |s| Values::Whole(s.kind.iter().map(|kind| u32::from(*kind)).collect())),
     quantity(Place::Particle, "velocity", "m s^-1", "speed of solids [m/s]", 3, |s| each(s, |p| p.velocity)),
     quantity(Place::Particle, "mass", "kg", "mass [kg]", 1, |s| each(s, |p| [p.mass])),
@@ -85,10 +88,11 @@ pub const TABLE: &[Quantity] = &[
 ];
 
 impl Snapshot {
-    /// Values of a quantity in each cell, x fastest, by its name in [`TABLE`]: `mach`, `schlieren`; nothing if there is none of that name.
+    /// Values of a quantity in each cell, x fastest, by its name in [`TABLE`]: `mach`, `schlieren`; nothing if there is none of that name, or
+    /// if it is a map and the scene keeps none.
     #[must_use]
     pub fn cell_field(&self, name: &str) -> Option<Values> {
-        Some(find(Place::Cell, name)?.of(self))
+        Some(all(self, Place::Cell).find(|quantity| quantity.name == name)?.of(self))
     }
 
     /// Values of a quantity of each particle, in the order of [`Snapshot::particles`], by its name in [`TABLE`].
@@ -104,9 +108,19 @@ pub fn find(place: Place, name: &str) -> Option<&'static Quantity> {
     TABLE.iter().find(|quantity| quantity.place == place && quantity.name == name)
 }
 
-/// All quantities of cells or of particles.
-pub fn all(place: Place) -> impl Iterator<Item = &'static Quantity> {
-    TABLE.iter().filter(move |quantity| quantity.place == place)
+/// All quantities of cells or of particles that a state has: maps only where they were kept.
+pub fn all(snapshot: &Snapshot, place: Place) -> impl Iterator<Item = &'static Quantity> {
+    let kept = !snapshot.maps.is_empty();
+    TABLE.iter().filter(move |quantity| quantity.place == place && (kept || !MAPS.contains(&quantity.name)))
+}
+
+/// Quantities of what has been so far.
+const MAPS: [&str; 3] = ["peak_pressure", "impulse", "peak_plastic_strain"];
+
+/// A map; zeros where none was kept.
+fn map(snapshot: &Snapshot, number: usize) -> Values {
+    let own = snapshot.maps.iter().map(|map| map[number]);
+    Values::Real(if snapshot.maps.is_empty() { vec![0.0; snapshot.kind.len()] } else { own.collect() })
 }
 
 fn gas<const N: usize>(snapshot: &Snapshot, value: impl Fn(usize) -> [f32; N]) -> Values {
@@ -183,6 +197,7 @@ mod tests {
             pressure,
             energy,
             owed: vec![0.0; 25],
+            maps: Vec::new(),
             particles: Vec::new(),
         }
     }

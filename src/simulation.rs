@@ -18,7 +18,7 @@ use crate::scene::{self, Scene};
 use crate::snapshot::Snapshot;
 use crate::stage::{
     Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate, G2p,
-    GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, MpmGridUpdate, OddEven, P2g, ParticleSort,
+    GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven, P2g, ParticleSort,
     Parts, Still, Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::{NO_FAULT, REACHES};
@@ -55,6 +55,7 @@ pub struct Simulation {
     totals: Totals,
     loads: Option<Loads>,
     gauges: Option<Gauges>,
+    maps: Option<Maps>,
     detonate: Option<Detonate>,
     gamma: f64,
     /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
@@ -121,6 +122,7 @@ impl Simulation {
             totals: Totals::new(parts)?,
             loads: Loads::new(parts)?,
             gauges: Gauges::new(parts)?,
+            maps: Maps::new(parts)?,
             detonate: None,
             gamma: scene.gas.gamma,
             given: [0.0; 4],
@@ -247,6 +249,9 @@ impl Simulation {
         }
         if let Some(gauges) = &self.gauges {
             gauges.record(pass, &self.state);
+        }
+        if let Some(maps) = &self.maps {
+            maps.record(pass, &self.state);
         }
     }
 

@@ -43,6 +43,9 @@ pub struct Snapshot {
     pub energy: Vec<f32>,
     /// Gas that cells owe, and in covered cells all that they hold \[kg m^-3\].
     pub owed: Vec<f32>,
+    /// Of each cell since the start: largest pressure \[Pa\], integral over time of the pressure above ambient \[Pa s\], largest plastic
+    /// strain of what has passed; empty where the scene keeps no maps.
+    pub maps: Vec<[f32; 3]>,
     /// All particles of all bodies, in an order that does not change over time.
     pub particles: Vec<ParticleSample>,
 }
@@ -140,6 +143,7 @@ impl Snapshot {
             pressure: Vec::new(),
             energy: Vec::new(),
             owed: Vec::new(),
+            maps: Vec::new(),
             particles,
         }
     }
@@ -164,6 +168,7 @@ impl Snapshot {
         let owed = if books { readback::read(gpu, &state.gas.owed_flow)? } else { Vec::new() };
         let cells = CellRows {
             owed: owed.iter().map(|book| book[0]).collect(),
+            maps: readback::read(gpu, &state.maps)?,
             conserved: readback::read(gpu, &state.gas.conserved)?,
             energy: readback::read_range(gpu, &state.gas.energy, 0, grid.slots())?,
             kind: readback::read(gpu, &state.interface.cells)?.iter().map(|word| *word as u8 & kind::MASK).collect(),
@@ -191,6 +196,7 @@ impl Snapshot {
             pressure: flow.iter().zip(&energy).map(pressure).collect(),
             energy,
             owed: cells.owed_density(&grid),
+            maps: cells.kept_maps(&grid),
             particles: rows.samples(&grid),
         }
     }
@@ -205,11 +211,21 @@ pub struct CellRows {
     pub energy: Vec<f32>,
     /// Mass owed \[kg\]; empty where only the ring has books.
     pub owed: Vec<f32>,
+    /// Maps, see [`State::maps`]; empty where none are kept.
+    pub maps: Vec<[f32; 4]>,
     /// Kinds.
     pub kind: Vec<u8>,
 }
 
 impl CellRows {
+    /// Maps of the cells without what rounding took.
+    fn kept_maps(&self, grid: &Grid) -> Vec<[f32; 3]> {
+        if self.maps.is_empty() {
+            return Vec::new();
+        }
+        grid.unpadded(&self.maps).into_iter().map(|[peak, impulse, _, strain]| [peak, impulse, strain]).collect()
+    }
+
     /// What cells owe per volume, and in covered cells all that they hold.
     fn owed_density(&self, grid: &Grid) -> Vec<f32> {
         if self.owed.is_empty() {

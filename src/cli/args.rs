@@ -35,7 +35,7 @@ pub enum Command {
     Run(RunOptions),
     /// Draw the frames of a run again, with another camera or look, without simulating
     Render(RenderOptions),
-    /// Write the states of a run for other programs: vtk, vdb, usd, mesh, npz
+    /// Write the states of a run for other programs: vtk, vdb, usd, mesh, npz, exr
     Convert(ConvertOptions),
     /// Watch a scene in a live window; without a verb, the gallery of all scenes
     View(ViewOptions),
@@ -200,7 +200,7 @@ pub struct FilmOptions {
 }
 
 /// Options of `render`.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct RenderOptions {
     /// Folder of a run that has states: `brisance run SCENE --export states`
     pub run: PathBuf,
@@ -284,14 +284,14 @@ pub struct SweepOptions {
 }
 
 /// Options of `convert`.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct ConvertOptions {
     /// Folder of a run that has states (`brisance run SCENE --export states`) or checkpoints
     pub run: PathBuf,
     /// Read mesh files of obstacles outside of the folder of the run, too, where the run found them: for the format mesh
     #[arg(long)]
     pub allow_outside: bool,
-    /// Formats: vtk, vdb, usd, mesh, npz; separated by commas, may be repeated
+    /// Formats: vtk, vdb, usd, mesh, npz, and exr, which needs a device; separated by commas, may be repeated
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', required = true)]
     pub to: Vec<String>,
     /// Only this frame; may be repeated

@@ -21,11 +21,20 @@ use crate::{Error, Result};
 pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
+    let (drawn, to): (Vec<String>, Vec<String>) = options.to.iter().cloned().partition(|name| name == "exr");
+    if !drawn.is_empty() {
+        // what is wrong with the others is told before anything is drawn
+        export::open(&to, &options.run)?;
+        super::render::layers(options, cli)?;
+        if to.is_empty() {
+            return Ok(());
+        }
+    }
     let folder = options.out.clone().unwrap_or_else(|| options.run.clone());
-    let mut exporters = export::open(&options.to, &folder)?;
+    let mut exporters = export::open(&to, &folder)?;
     let needs = Needs::of(&exporters);
     if !needs.snapshot || needs.stored {
-        let text = "pictures and states are no formats to convert to; `brisance render DIR` draws png, png16 and exr";
+        let text = "png and states are no formats to convert to; `brisance render DIR` draws png and png16";
         return Err(Error::Usage(format!("--to {}: {text}", options.to.join(","))));
     }
     let Recorded { scene_hash, scene_file, particles, mut scene } = read_report(&options.run)?;

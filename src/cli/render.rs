@@ -6,7 +6,7 @@ use std::time::Instant;
 use serde::Deserialize;
 use serde_json::json;
 
-use super::args::{Cli, RenderOptions};
+use super::args::{Cli, ConvertOptions, RenderOptions};
 use super::interrupt;
 use super::progress::clock;
 use super::run::{PICTURES, without_coarse};
@@ -15,7 +15,7 @@ use super::{film, open_device};
 use crate::export::states;
 use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
-use crate::scene::{MOST_PARTICLES, Scene, Shot};
+use crate::scene::{MOST_PARTICLES, Overlays, Scene, Shot};
 use crate::state::Grid;
 use crate::{Error, Result, input};
 
@@ -36,6 +36,24 @@ pub(super) struct Recorded {
 /// # Errors
 /// [`Error::Usage`] if the run has no states or an option makes no sense; [`Error::Scene`] if the look is wrong.
 pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
+    let folder = options.out.clone().unwrap_or_else(|| options.run.join("again"));
+    perform(options, (files(options, folder)?, true), cli)
+}
+
+/// Draws the frames of a run for compositors: layers without letters, and without the edges of the domain.
+///
+/// # Errors
+/// As [`render`].
+pub(super) fn layers(options: &ConvertOptions, cli: &Cli) -> Result<()> {
+    let folder = options.out.clone().unwrap_or_else(|| options.run.clone());
+    let ConvertOptions { run, allow_outside, frame, quiet, .. } = options.clone();
+    let options = RenderOptions { run, allow_outside, frame, quiet, ..RenderOptions::default() };
+    let files = Files { folder, formats: vec!["exr".to_owned()], ..Files::default() };
+    perform(&options, (files, false), cli)
+}
+
+/// The same into files, with what is written over pictures or without it.
+fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
     let recorded = read_report(&options.run)?;
@@ -45,10 +63,12 @@ pub(super) fn render(options: &RenderOptions, cli: &Cli) -> Result<()> {
         let message = "the scene of the run is read differently by this program, or a mesh file of it has changed";
         return Err(Error::Usage(format!("{}: {message}; run it again", options.run.display())));
     }
-    let shots = chosen(&scene, options)?;
+    let mut shots = chosen(&scene, options)?;
+    if !labelled {
+        shots.iter_mut().for_each(|shot| shot.settings.overlays = Overlays::NONE);
+    }
     let frames = frames(options)?;
-    let folder = options.out.clone().unwrap_or_else(|| options.run.join("again"));
-    let files = files(options, folder.clone())?;
+    let folder = files.folder.clone();
     let gpu = open_device(cli)?;
     let mut drawing = Drawing { gpu, scene, hash, shots, particles, depth: files.needs()?.depth, at_work: None };
     let writer = Writer::start(files, &drawing.scene);
@@ -199,6 +219,13 @@ impl Drawing {
         let (hash, stored) = states::read(path, states::most_bytes(grid.slots() as u64, self.particles))?;
         if hash != self.hash || !stored.fits(&grid) {
             return Err(Error::Usage(format!("{} is a state of another scene than report.json", path.display())));
+        }
+        let map = self.shots.iter().flat_map(|shot| &shot.fields).find(|field| field.is_map());
+        if let Some(map) = map.filter(|_| stored.maps.is_empty()) {
+            let (path, name) = (path.display(), map.keyword());
+            return Err(Error::Usage(format!(
+                "{path} has no map of {name}; run the scene again with --set output.maps=true"
+            )));
         }
         let renderer = self.renderer(grid, &stored)?;
         let pictures = renderer.render(stored.time)?;

@@ -10,7 +10,7 @@ use super::container::{self, Array, Form};
 use super::npy::Kind;
 use crate::Result;
 use crate::export::{Exporter, Moment, Needs};
-use crate::quantity::{Place, TABLE, Values};
+use crate::quantity::{Place, Values, all};
 use crate::snapshot::Snapshot;
 
 /// Writes `arrays/NNNN.npz`.
@@ -44,20 +44,20 @@ impl Exporter for ArrayExporter {
 fn arrays(snapshot: &Snapshot) -> Vec<Array> {
     let grid = &snapshot.grid;
     let [x, y, z] = grid.cells.map(|n| n as usize);
-    let mut all = Vec::new();
+    let mut arrays = Vec::new();
     let mut add = |name: String, shape: &[usize], components: usize, (kind, bytes): (Kind, Vec<u8>), about: String| {
         let mut shape = shape.to_vec();
         if components > 1 {
             shape.push(components);
         }
-        all.push(Array { name, kind, shape, bytes, about });
+        arrays.push(Array { name, kind, shape, bytes, about });
     };
     let position: Vec<f32> = snapshot.particles.iter().flat_map(|particle| particle.position).collect();
     let count = snapshot.particles.len();
     add("origin".into(), &[3], 1, (Kind::F32, cast_slice(&grid.origin).to_vec()), "low corner of the cells [m]".into());
     add("spacing".into(), &[1], 1, (Kind::F32, cast_slice(&[grid.spacing]).to_vec()), "edge of a cell [m]".into());
     add("particle_position".into(), &[count], 3, (Kind::F32, cast_slice(&position).to_vec()), "position [m]".into());
-    for quantity in TABLE {
+    for quantity in all(snapshot, Place::Cell).chain(all(snapshot, Place::Particle)) {
         let (name, shape) = match quantity.place {
             Place::Cell => (quantity.name.to_owned(), vec![z, y, x]),
             Place::Particle => (format!("particle_{}", quantity.name), vec![count]),
@@ -68,5 +68,5 @@ fn arrays(snapshot: &Snapshot) -> Vec<Array> {
         };
         add(name, &shape, quantity.components, bytes, format!("{}, unit {}", quantity.caption, quantity.unit));
     }
-    all
+    arrays
 }

@@ -133,7 +133,7 @@ impl Needs {
             snapshot: a.snapshot || b.snapshot,
             stored: a.stored || b.stored,
             obstacles: a.obstacles || b.obstacles,
-            depth: Depth { linear: a.depth.linear || b.depth.linear, fine: a.depth.fine || b.depth.fine },
+            depth: Depth { layers: a.depth.layers || b.depth.layers, fine: a.depth.fine || b.depth.fine },
         })
     }
 }
@@ -188,7 +188,7 @@ pub const FORMATS: &[Format] = &[
     },
     Format {
         name: "exr",
-        description: "frames/NNNN.exr, linear light before the tone map",
+        description: "frames/NNNN.exr for compositors: linear light with alpha, depth, objects, velocities; no letters",
         open: |folder| Box::new(exr::ExrExporter::new(folder)),
     },
     Format {

@@ -42,7 +42,7 @@ impl Exporter for PngExporter {
     }
 
     fn needs(&self) -> Needs {
-        Needs { depth: Depth { fine: self.fine, linear: false }, ..Needs::default() }
+        Needs { depth: Depth { fine: self.fine, layers: false }, ..Needs::default() }
     }
 }
 

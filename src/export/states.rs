@@ -14,7 +14,7 @@ use crate::state::Grid;
 use crate::{Error, Result};
 
 /// Bytes of a slot of the grid, and of a particle.
-const SLOT: u64 = 28;
+const SLOT: u64 = 44;
 const PARTICLE: u64 = 160;
 
 /// Writes `states/NNNN.npz`.
@@ -92,6 +92,9 @@ pub fn write(path: &Path, source: &Source, state: &Stored) -> Result<()> {
     if !state.owed.is_empty() {
         arrays.push(array("owed", Kind::F32, 1, cast_slice(&state.owed)));
     }
+    if !state.maps.is_empty() {
+        arrays.push(array("maps", Kind::F32, 4, cast_slice(&state.maps)));
+    }
     if let Some(particles) = &state.particles {
         let own = particles.arrays();
         arrays.extend(own.map(|(name, values)| array(name, Kind::F32, 4, cast_slice(values))));
@@ -121,7 +124,13 @@ pub fn read(path: &Path, most: u64) -> Result<(String, Stored)> {
 pub fn snapshot(stored: Stored, grid: Grid, gamma: f64) -> Snapshot {
     let rows = stored.particles.unwrap_or_default();
     let StoredParticles { position, velocity, affine, deformation, stress } = rows;
-    let cells = CellRows { conserved: stored.conserved, energy: stored.energy, owed: stored.owed, kind: stored.kind };
+    let cells = CellRows {
+        conserved: stored.conserved,
+        energy: stored.energy,
+        owed: stored.owed,
+        maps: stored.maps,
+        kind: stored.kind,
+    };
     let rows = ParticleRows { position, velocity, affine, deformation, stress };
     Snapshot::of(grid, gamma, (stored.time, stored.step), &cells, &rows)
 }
@@ -137,6 +146,7 @@ fn stored(mut contents: Contents) -> std::result::Result<Stored, String> {
     };
     let owed =
         if has(&contents, "owed") { take(&mut contents, "owed")? } else { owed_of(&mut contents, conserved.len())? };
+    let maps = if has(&contents, "maps") { take(&mut contents, "maps")? } else { Vec::new() };
     let position: Vec<[f32; 4]> =
         if has(&contents, "position") { take(&mut contents, "position")? } else { Vec::new() };
     let particles = if position.is_empty() {
@@ -150,7 +160,7 @@ fn stored(mut contents: Contents) -> std::result::Result<Stored, String> {
             stress: take(&mut contents, "stress")?,
         })
     };
-    Ok(Stored { time: contents.head.time, step: contents.head.step, conserved, energy, owed, kind, particles })
+    Ok(Stored { time: contents.head.time, step: contents.head.step, conserved, energy, owed, maps, kind, particles })
 }
 
 /// The mass owed, of a full state; nothing where only the ring has books.
@@ -184,6 +194,7 @@ mod tests {
             conserved: rows(27),
             energy,
             owed: vec![0.5; 27],
+            maps: rows(27),
             kind,
             particles: Some(particles),
         }

@@ -21,7 +21,7 @@ const COMPRESSION: u32 = 1 | 2;
 /// Largest number of the format of 16 bits.
 const MOST_HALF: f32 = 65504.0;
 /// Quantities that are written.
-const GRIDS: [&str; 5] = ["density", "pressure", "temperature", "velocity", "schlieren"];
+const GRIDS: [&str; 7] = ["density", "pressure", "temperature", "velocity", "schlieren", "peak_pressure", "impulse"];
 
 /// Writes `vdb/NNNN.vdb`.
 #[derive(Debug)]
@@ -89,7 +89,7 @@ struct Volume {
 
 impl Volume {
     fn of(name: &str, snapshot: &Snapshot) -> Option<Self> {
-        let quantity = quantity::find(Place::Cell, name)?;
+        let quantity = quantity::all(snapshot, Place::Cell).find(|quantity| quantity.name == name)?;
         let Values::Real(values) = quantity.of(snapshot) else { return None };
         let components = quantity.components;
         // the background is what most of the far corner holds: gas at rest, which no front has reached

@@ -86,7 +86,7 @@ pub fn write_fields(path: &Path, snapshot: &Snapshot) -> Result<()> {
         "<ImageData WholeExtent=\"{extent}\" Origin=\"{}\" Spacing=\"{spacing:?} {spacing:?} {spacing:?}\">",
         origin.join(" ")
     );
-    file.field_data(snapshot.time, Place::Cell, &[]);
+    file.field_data(snapshot, Place::Cell, &[]);
     let _ = writeln!(file.head, "<Piece Extent=\"{extent}\">\n<CellData Scalars=\"density\" Vectors=\"velocity\">");
     file.quantities(snapshot, Place::Cell);
     let hidden: Vec<u8> = snapshot.kind.iter().map(|cell| if *cell == kind::GAS { 0 } else { HIDDEN }).collect();
@@ -101,7 +101,7 @@ pub fn write_particles(path: &Path, snapshot: &Snapshot, names: [&[String]; 2]) 
     let count = particles.len();
     let mut file = Appended::new("PolyData");
     file.head.push_str("<PolyData>\n");
-    file.field_data(snapshot.time, Place::Particle, &[("bodies", names[0]), ("materials", names[1])]);
+    file.field_data(snapshot, Place::Particle, &[("bodies", names[0]), ("materials", names[1])]);
     let _ = writeln!(
         file.head,
         "<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
@@ -174,13 +174,14 @@ impl Appended {
     }
 
     /// The physical time, under the name ParaView looks for, the units of the arrays, and further lists of names.
-    fn field_data(&mut self, time: f64, place: Place, lists: &[(&str, &[String])]) {
+    fn field_data(&mut self, snapshot: &Snapshot, place: Place, lists: &[(&str, &[String])]) {
+        let time = snapshot.time;
         let _ = writeln!(
             self.head,
             "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>"
         );
-        let units: Vec<String> = quantity::all(place).map(|own| format!("{}: {}", own.name, own.unit)).collect();
-        self.texts("units", &units);
+        let unit = |own: &quantity::Quantity| format!("{}: {}", own.name, own.unit);
+        self.texts("units", &quantity::all(snapshot, place).map(unit).collect::<Vec<_>>());
         for (name, texts) in lists {
             self.texts(name, texts);
         }
@@ -201,7 +202,7 @@ impl Appended {
 
     /// All quantities of cells or of particles.
     fn quantities(&mut self, snapshot: &Snapshot, place: Place) {
-        for own in quantity::all(place) {
+        for own in quantity::all(snapshot, place) {
             match own.of(snapshot) {
                 Values::Real(values) => self.array(own.name, own.components, &values),
                 Values::Whole(values) => self.array(own.name, own.components, &values),

@@ -13,6 +13,8 @@ pub struct SceneBuffers<'a> {
     pub energy: &'a wgpu::Buffer,
     /// Mass and momentum owed, one vec4 per slot; nothing where only the ring has books.
     pub owed: Option<&'a wgpu::Buffer>,
+    /// Largest values so far, one vec4 per slot, see [`State::maps`]; nothing where no maps are kept.
+    pub maps: Option<&'a wgpu::Buffer>,
     /// Cell words, one u32 per slot; bits 0 and 1 are the kind.
     pub cells: &'a wgpu::Buffer,
     /// The particles, if there are any.
@@ -46,6 +48,7 @@ impl<'a> SceneBuffers<'a> {
             conserved: state.gas.conserved.raw(),
             energy: state.gas.energy.raw(),
             owed: (state.gas.owed_flow.len() == state.grid.slots()).then(|| state.gas.owed_flow.raw()),
+            maps: (state.maps.len() > 0).then(|| state.maps.raw()),
             cells: state.interface.cells.raw(),
             particles: state.has_solids().then(|| ParticleBuffers {
                 count: particles.count,
@@ -66,6 +69,7 @@ pub(super) struct Sources {
     pub(super) conserved: wgpu::Buffer,
     pub(super) energy: wgpu::Buffer,
     pub(super) owed: Option<wgpu::Buffer>,
+    pub(super) maps: Option<wgpu::Buffer>,
     pub(super) cells: wgpu::Buffer,
     pub(super) particles: Option<ParticleSources>,
 }
@@ -96,6 +100,7 @@ impl From<&SceneBuffers<'_>> for Sources {
             conserved: buffers.conserved.clone(),
             energy: buffers.energy.clone(),
             owed: buffers.owed.cloned(),
+            maps: buffers.maps.cloned(),
             cells: buffers.cells.clone(),
             particles,
         }

@@ -1,5 +1,7 @@
 //! Finished pictures in memory.
 
+use super::layers::{LayerPixel, Layers};
+
 /// A picture: 8 bits per channel, sRGB, rows from the top.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Frame {
@@ -14,8 +16,8 @@ pub struct Frame {
 /// What a picture holds beside its 8 bits per channel.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Depth {
-    /// Linear light before the tone map.
-    pub linear: bool,
+    /// Layers for compositors.
+    pub layers: bool,
     /// 16 bits per channel.
     pub fine: bool,
 }
@@ -31,9 +33,8 @@ pub struct Picture {
     pub range: [f64; 2],
     /// The pixels.
     pub frame: Frame,
-    /// Linear light of each pixel before the tone map, red, green, blue; empty unless asked for. What is written over and around
-    /// the picture has the light of its sRGB colour.
-    pub linear: Vec<[f32; 3]>,
+    /// Linear light, depth and objects of the plot alone; empty unless asked for.
+    pub layers: Layers,
     /// The pixels with 16 bits per channel, sRGB; empty unless asked for.
     pub fine: Vec<[u16; 3]>,
 }
@@ -43,8 +44,8 @@ pub struct Picture {
 pub(super) struct Drawn {
     /// 8 bits per channel, sRGB, dithered in 3D.
     pub(super) pixels: Vec<u32>,
-    /// Linear light before the tone map.
-    pub(super) linear: Vec<[f32; 4]>,
+    /// Layers for compositors.
+    pub(super) layers: Vec<LayerPixel>,
     /// Linear light behind it, 0 to 1.
     pub(super) toned: Vec<[f32; 4]>,
 }

@@ -58,12 +58,13 @@ impl Gas {
         let shared = ("view", view.raw());
         let (of_field, of_heat) = (("field", field.raw()), ("heat", heat.raw()));
         let (of_corners, of_glow) = (("corners", corners.raw()), ("glow", glow.raw()));
-        let nothing: Buffer<[f32; 4]> = Buffer::new(gpu, "nothing owed", 1)?;
+        let nothing: Buffer<[f32; 4]> = Buffer::new(gpu, "nothing owed or kept", 1)?;
         let owed = sources.owed.as_ref().unwrap_or(nothing.raw());
         let state = [
             ("conserved", &sources.conserved),
             ("energy", &sources.energy),
             ("owed_flow", owed),
+            ("maps", sources.maps.as_ref().unwrap_or(nothing.raw())),
             ("cells", &sources.cells),
         ];
         let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "field.wgsl", entry, buffers);

@@ -73,5 +73,16 @@ pub(super) fn bind_with(
     buffers: &[(&str, &wgpu::Buffer)],
 ) -> Result<Bound> {
     let overrides: Vec<(&str, f64)> = switches.iter().map(|&(name, on)| (name, f64::from(u8::from(on)))).collect();
-    Kernel::new(gpu, shader, entry, &Constants { source: &constants(), overrides: &overrides })?.bind(gpu, buffers)
+    bind_numbers(gpu, shader, entry, &overrides, buffers)
+}
+
+/// The same with numbers.
+pub(super) fn bind_numbers(
+    gpu: &Gpu,
+    shader: &str,
+    entry: &str,
+    overrides: &[(&str, f64)],
+    buffers: &[(&str, &wgpu::Buffer)],
+) -> Result<Bound> {
+    Kernel::new(gpu, shader, entry, &Constants { source: &constants(), overrides })?.bind(gpu, buffers)
 }

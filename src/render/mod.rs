@@ -12,6 +12,7 @@ mod colormap;
 mod frame;
 mod gas;
 mod kernels;
+mod layers;
 mod light;
 mod lines;
 mod overlay;
@@ -30,6 +31,7 @@ pub use camera::Ray;
 pub use colormap::colors;
 pub use frame::{Depth, Frame, Picture};
 pub use kernels::constants as shader_constants;
+pub use layers::{LayerPixel, Layers};
 pub use quantity::{caption, particle_caption};
 pub use stored::{Loaded, Stored, StoredParticles};
 pub(crate) use ticks::ticks;
@@ -178,6 +180,7 @@ impl Renderer {
             bars: [bars[0], own],
             arrows: (view.arrows, arrows),
             scale: self.scale(look, &layout, time),
+            camera: layers::camera(&self.eye(look, time), layout.plot.width as f32 / layout.plot.height as f32),
         };
         let picture = plane::compose(look.size, &layout, &drawn, &labels, self.sources.grid.dimension < 3);
         Ok(Picture { name: field.keyword().to_owned(), range, ..picture })
@@ -329,10 +332,10 @@ impl Renderer {
         let ambient = &self.scene.gas.ambient;
         let neutral = match field {
             Field::Density => ambient.density,
-            Field::Pressure => ambient.pressure,
+            Field::Pressure | Field::PeakPressure => ambient.pressure,
             Field::Temperature => ambient.pressure / ambient.density,
             Field::Entropy => quantity::entropy(ambient, self.scene.gas.gamma),
-            Field::Owed => 0.0,
+            Field::Owed | Field::Impulse | Field::PeakPlasticStrain => 0.0,
             Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => range[0],
         };
         let neutral = ((neutral - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) as f32;

@@ -8,6 +8,7 @@ use super::canvas::Canvas;
 use super::colormap::{linear_from_srgb, srgb_from_linear};
 use super::frame::{Depth, Drawn, Frame, Picture};
 use super::gas::Gas;
+use super::layers::{LayerPixel, Layers};
 use super::light::{Distance, Light};
 use super::overlay::{self, Layout};
 use super::particles::Particles;
@@ -30,6 +31,7 @@ pub(super) struct Drawing {
     light: Light,
     /// Of the pictures drawn last, the newest at the end.
     screens: Vec<Screen>,
+    bodies: usize,
     /// As many as there are views, so that none is made anew for every frame.
     kept: usize,
 }
@@ -62,6 +64,8 @@ pub(super) struct Labels<'a> {
     pub(super) arrows: ([u32; 2], Vec<[f32; 4]>),
     /// Pixels per metre, if a scale bar is drawn.
     pub(super) scale: Option<f64>,
+    /// Matrices of the camera.
+    pub(super) camera: [[f32; 16]; 2],
 }
 
 impl Drawing {
@@ -71,7 +75,7 @@ impl Drawing {
         let particles = Particles::new(gpu, sources, &gas)?;
         let distance = Distance::new(gpu, scene, &sources.grid)?;
         let light = Light::new(gpu, &gas, particles.as_ref(), &distance)?;
-        Ok(Self { gas, particles, distance, light, screens: Vec::new(), kept })
+        Ok(Self { gas, particles, distance, light, screens: Vec::new(), bodies: scene.bodies.len(), kept })
     }
 
     /// Computes the view's field and the particles' quantity; returns least and largest value of both.
@@ -97,7 +101,7 @@ impl Drawing {
         tables: &Tables,
         wanted: Wanted,
     ) -> Result<(Drawn, Vec<[f32; 4]>)> {
-        let Self { gas, particles, distance, light, screens, kept } = self;
+        let Self { gas, particles, distance, light, screens, bodies, kept } = self;
         wanted.go_on()?;
         gas.view.write(gpu, 0, &[*view]);
         gas.set_tables(gpu, tables);
@@ -108,7 +112,7 @@ impl Drawing {
         }
         light.record(&mut pass, view);
         pass.submit()?;
-        let shared = Shared { gpu, sources, gas, particles: particles.as_ref(), light, distance };
+        let shared = Shared { gpu, sources, gas, particles: particles.as_ref(), light, distance, bodies: *bodies };
         match screens.iter().position(|screen| screen.fits(view, wanted.depth)) {
             Some(place) => screens[place..].rotate_left(1),
             None => {
@@ -147,8 +151,12 @@ pub(super) fn compose(size: [u32; 2], layout: &Layout, drawn: &Drawn, labels: &L
         }
     }
     overlay::header(&mut canvas, labels.stamp.title, labels.stamp.time);
-    let depth = Depth { linear: !drawn.linear.is_empty(), fine: !drawn.toned.is_empty() };
+    let depth = Depth { layers: false, fine: !drawn.toned.is_empty() };
     let mut picture = flat(frame, depth);
+    if !drawn.layers.is_empty() {
+        let (width, height) = (plot.width as u32, plot.height as u32);
+        picture.layers = Layers { width, height, pixels: drawn.layers.clone(), camera: Some(labels.camera) };
+    }
     let corner = [plot.x as usize, plot.y as usize];
     deepen(&mut picture, drawn, corner, plot.width as usize);
     picture
@@ -158,22 +166,23 @@ pub(super) fn compose(size: [u32; 2], layout: &Layout, drawn: &Drawn, labels: &L
 pub(super) fn flat(frame: Frame, depth: Depth) -> Picture {
     let pixels = || frame.rgba.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]);
     let light = |value: u8| linear_from_srgb(f32::from(value) / 255.0);
-    let linear = if depth.linear { pixels().map(|pixel| pixel.map(light)).collect() } else { Vec::new() };
+    let mut layers = Layers::default();
+    if depth.layers {
+        layers.pixels = pixels().map(|pixel| LayerPixel::flat(pixel.map(light))).collect();
+        (layers.width, layers.height) = (frame.width, frame.height);
+    }
     let fine =
         if depth.fine { pixels().map(|pixel| pixel.map(|value| 257 * u16::from(value))).collect() } else { Vec::new() };
-    Picture { frame, linear, fine, ..Picture::default() }
+    Picture { frame, layers, fine, ..Picture::default() }
 }
 
 /// Puts the full depth of the plot where nothing was written over it.
 fn deepen(picture: &mut Picture, drawn: &Drawn, corner: [usize; 2], width: usize) {
-    let Picture { frame, linear, fine, .. } = picture;
+    let Picture { frame, fine, .. } = picture;
     for (i, pixel) in drawn.pixels.iter().enumerate() {
         let place = (corner[1] + i / width) * frame.width as usize + corner[0] + i % width;
         if frame.rgba[4 * place..4 * place + 4] != pixel.to_le_bytes() {
             continue;
-        }
-        if let Some([red, green, blue, _]) = drawn.linear.get(i) {
-            linear[place] = [*red, *green, *blue];
         }
         if let Some([red, green, blue, _]) = drawn.toned.get(i) {
             fine[place] = [*red, *green, *blue].map(|light| (65535.0 * srgb_from_linear(light)).round() as u16);

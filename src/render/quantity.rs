@@ -4,7 +4,7 @@ use crate::quantity::{self, Place};
 use crate::scene::{Field, GasState, ParticleColor};
 
 /// All fields with the constants that shaders switch on.
-const CODES: [(&str, Field); 9] = [
+const CODES: [(&str, Field); 12] = [
     ("FIELD_DENSITY", Field::Density),
     ("FIELD_PRESSURE", Field::Pressure),
     ("FIELD_VELOCITY", Field::Velocity),
@@ -14,6 +14,9 @@ const CODES: [(&str, Field); 9] = [
     ("FIELD_VORTICITY", Field::Vorticity),
     ("FIELD_ENTROPY", Field::Entropy),
     ("FIELD_OWED", Field::Owed),
+    ("FIELD_PEAK_PRESSURE", Field::PeakPressure),
+    ("FIELD_IMPULSE", Field::Impulse),
+    ("FIELD_PEAK_PLASTIC_STRAIN", Field::PeakPlasticStrain),
 ];
 
 /// What the colours of particles mean, with the constants that shaders switch on.
@@ -91,7 +94,13 @@ pub(super) fn entropy(state: &GasState, gamma: f64) -> f64 {
 
 /// Whether the range of a field always starts at zero.
 fn starts_at_zero(field: Field) -> bool {
-    matches!(field, Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity)
+    match field {
+        Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => true,
+        Field::Impulse | Field::PeakPlasticStrain => true,
+        Field::Density | Field::Pressure | Field::Temperature | Field::Entropy | Field::Owed | Field::PeakPressure => {
+            false
+        }
+    }
 }
 
 /// The range to show for the values seen: from zero for magnitudes, and never so narrow that rounding becomes a pattern.
@@ -100,10 +109,11 @@ pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamm
     let scale = match field {
         Field::Density | Field::Owed => ambient.density,
         Field::Entropy => entropy(ambient, gamma),
-        Field::Pressure => ambient.pressure,
+        Field::Pressure | Field::PeakPressure => ambient.pressure,
+        Field::Impulse => ambient.pressure * spacing / sound_speed,
         Field::Temperature => ambient.pressure / ambient.density,
         Field::Velocity => sound_speed,
-        Field::Mach => 1.0,
+        Field::Mach | Field::PeakPlasticStrain => 1.0,
         Field::Schlieren => ambient.density / spacing,
         Field::Vorticity => sound_speed / spacing,
     };

@@ -6,6 +6,7 @@ use super::buffers::Sources;
 use super::frame::{Depth, Drawn};
 use super::gas::{Gas, RANGE_GROUPS};
 use super::kernels::{SAMPLE_MARGIN, bind, bind_with};
+use super::layers::LayerKernel;
 use super::light::{Distance, Light};
 use super::particles::Particles;
 use super::plane::Wanted;
@@ -30,6 +31,8 @@ pub(super) struct Shared<'a> {
     pub(super) particles: Option<&'a Particles>,
     pub(super) light: &'a Light,
     pub(super) distance: &'a Distance,
+    /// Bodies of the scene.
+    pub(super) bodies: usize,
 }
 
 /// Everything bound for one size of picture.
@@ -48,13 +51,13 @@ pub(super) struct Screen {
     draw: Bound,
     finish: Bound,
     deep: Option<Deep>,
+    layers: Option<LayerKernel>,
 }
 
-/// The kernels that write more than 8 bits per channel.
+/// The kernel that writes more than 8 bits per channel.
 #[derive(Debug)]
 struct Deep {
     light: Buffer<[f32; 4]>,
-    linear: Bound,
     toned: Bound,
 }
 
@@ -151,18 +154,20 @@ impl Screen {
             let own = [of_view, ("distance", distance.nodes.raw()), ("solid", solid.raw())];
             bind_with(gpu, "solids.wgsl", "trace_solids", &key.switches(), &[&shade[..], &own].concat())
         };
+        let skin = shared.particles.map(|own| Skin::new(shared, own, (view, &key), band_rows, &surface)).transpose()?;
+        let samples = skin.as_ref().map(|skin| [&skin.depth, &skin.nearest]);
+        let layered = || LayerKernel::new(shared, pixels.len(), [drawn[2], ("solid", solid.raw())], samples);
         let optics = || Optics::new(shared, width as usize * height as usize, &surface, &solid, &gathered);
         Ok(Self {
             key,
             band_rows,
-            skin: shared.particles.map(|own| Skin::new(shared, own, (view, &key), band_rows, &surface)).transpose()?,
             trace_solids: volume.then(trace).transpose()?,
             optics: (view.optics > 0).then(optics).transpose()?,
             draw,
             finish: bind(gpu, "finish.wgsl", "finish", &[of_view, drawn[2], ("pixels", pixels.raw())])?,
-            deep: (depth != Depth::default())
-                .then(|| Deep::new(gpu, &[of_view, drawn[2]], pixels.len()))
-                .transpose()?,
+            deep: depth.fine.then(|| Deep::new(gpu, &[of_view, drawn[2]], pixels.len())).transpose()?,
+            layers: depth.layers.then(layered).transpose()?,
+            skin,
             edges,
             surface,
             solid,
@@ -195,14 +200,10 @@ impl Screen {
             let count = view.size[0] / n * (view.rows / n);
             drawn.pixels.extend(readback::read_range(gpu, &self.pixels, 0, count as usize)?);
             if let Some(deep) = &self.deep {
-                let depth = self.key.depth;
-                for (kernel, of, into) in
-                    [(&deep.linear, depth.linear, &mut drawn.linear), (&deep.toned, depth.fine, &mut drawn.toned)]
-                {
-                    if of {
-                        into.extend(deep.read(gpu, kernel, count as usize)?);
-                    }
-                }
+                drawn.toned.extend(deep.read(gpu, count as usize)?);
+            }
+            if let Some(layers) = &self.layers {
+                drawn.layers.extend(layers.read(shared, count as usize)?);
             }
         }
         Ok(drawn)
@@ -228,14 +229,13 @@ impl Deep {
     fn new(gpu: &Gpu, shared: &[(&str, &wgpu::Buffer)], pixels: usize) -> Result<Self> {
         let light: Buffer<[f32; 4]> = Buffer::new(gpu, "deep pixels", pixels)?;
         let own = [shared, &[("deep", light.raw())]].concat();
-        let bind = |toned: bool| bind_with(gpu, "finish.wgsl", "finish_deep", &[("TONED", toned)], &own);
-        Ok(Self { linear: bind(false)?, toned: bind(true)?, light })
+        Ok(Self { toned: bind(gpu, "finish.wgsl", "finish_deep", &own)?, light })
     }
 
-    /// What one of the kernels makes of the band drawn last.
-    fn read(&self, gpu: &Gpu, kernel: &Bound, count: usize) -> Result<Vec<[f32; 4]>> {
+    /// What the kernel makes of the band drawn last.
+    fn read(&self, gpu: &Gpu, count: usize) -> Result<Vec<[f32; 4]>> {
         let mut pass = Pass::new(gpu, "deep pixels");
-        pass.dispatch(kernel, &Extent::Threads(count as u64));
+        pass.dispatch(&self.toned, &Extent::Threads(count as u64));
         pass.submit()?;
         readback::read_range(gpu, &self.light, 0, count)
     }

@@ -19,6 +19,8 @@ pub struct Stored {
     pub energy: Vec<f32>,
     /// Mass owed \[kg\]; empty where only the ring has books.
     pub owed: Vec<f32>,
+    /// Largest values so far, see [`crate::state::State::maps`]; empty where no maps are kept.
+    pub maps: Vec<[f32; 4]>,
     /// Kind of each cell, see [`kind`].
     pub kind: Vec<u8>,
     /// The particles, if there are any.
@@ -88,6 +90,7 @@ impl Stored {
                 Some(owed) => elements::<[f32; 4]>(gpu, owed, slots)?.iter().map(|owed| owed[0]).collect(),
                 None => Vec::new(),
             },
+            maps: buffers.maps.map_or(Ok(Vec::new()), |maps| elements(gpu, maps, slots))?,
             kind: words.iter().map(|word| *word as u8 & kind::MASK).collect(),
             particles: particles.transpose()?,
         })
@@ -107,7 +110,9 @@ impl Stored {
             let count = own.position.len();
             own.arrays().iter().zip(ROWS).all(|((_, array), rows)| array.len() == rows * count)
         });
-        cells == [slots; 3] && (self.owed.is_empty() || self.owed.len() == slots) && particles
+        cells == [slots; 3]
+            && [self.owed.len(), self.maps.len()].iter().all(|len| [0, slots].contains(len))
+            && particles
     }
 }
 
@@ -118,6 +123,7 @@ pub struct Loaded {
     conserved: Buffer<[f32; 4]>,
     energy: Buffer<f32>,
     owed: Option<Buffer<[f32; 4]>>,
+    maps: Option<Buffer<[f32; 4]>>,
     cells: Buffer<u32>,
     count: u32,
     particles: Option<[Buffer<[f32; 4]>; 5]>,
@@ -142,6 +148,10 @@ impl Loaded {
                 true => None,
                 false => Some(Buffer::from_slice(gpu, "owed_flow", &stored.owed_flow())?),
             },
+            maps: match stored.maps.is_empty() {
+                true => None,
+                false => Some(Buffer::from_slice(gpu, "maps", &stored.maps)?),
+            },
             cells: Buffer::from_slice(gpu, "cells", &words)?,
             count: stored.particles.as_ref().map_or(0, |own| own.position.len() as u32),
             particles: particles.transpose()?,
@@ -161,15 +171,16 @@ impl Loaded {
                 stress: stress.raw(),
             });
         let (conserved, energy, cells) = (self.conserved.raw(), self.energy.raw(), self.cells.raw());
-        let owed = self.owed.as_ref().map(Buffer::raw);
-        SceneBuffers { grid: self.grid, conserved, energy, owed, cells, particles }
+        let [owed, maps] = [&self.owed, &self.maps].map(|buffer| buffer.as_ref().map(Buffer::raw));
+        SceneBuffers { grid: self.grid, conserved, energy, owed, maps, cells, particles }
     }
 
     /// Puts another state of the same scene into the same buffers; false, and nothing done, if its sizes differ.
     #[must_use]
     pub fn fill(&self, gpu: &Gpu, stored: &Stored) -> bool {
         let count = stored.particles.as_ref().map_or(0, |own| own.position.len() as u32);
-        if !stored.fits(&self.grid) || count != self.count || stored.owed.is_empty() != self.owed.is_none() {
+        let other = stored.owed.is_empty() != self.owed.is_none() || stored.maps.is_empty() != self.maps.is_none();
+        if !stored.fits(&self.grid) || count != self.count || other {
             return false;
         }
         let words: Vec<u32> = stored.kind.iter().map(|kind| u32::from(*kind)).collect();
@@ -178,6 +189,9 @@ impl Loaded {
         self.cells.write(gpu, 0, &words);
         if let Some(owed) = &self.owed {
             owed.write(gpu, 0, &stored.owed_flow());
+        }
+        if let Some(maps) = &self.maps {
+            maps.write(gpu, 0, &stored.maps);
         }
         if let (Some(buffers), Some(own)) = (&self.particles, &stored.particles) {
             for (buffer, (_, array)) in buffers.iter().zip(own.arrays()) {

@@ -14,7 +14,7 @@ const MANY_STEPS: f64 = 1e6;
 const PNG: f64 = 0.25;
 /// Bytes of a pixel in pictures of 16 bits per channel, and in pictures of linear light: what is fine hardly shrinks.
 const PNG16: f64 = 4.0;
-const EXR: f64 = 6.0;
+const EXR: f64 = 9.0;
 /// Bytes of a cell and of a particle in VTK files and states, before they are compressed.
 const CELL: f64 = 32.0;
 const PARTICLE: f64 = 160.0;

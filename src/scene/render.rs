@@ -30,11 +30,17 @@ pub enum Field {
     Entropy,
     /// Gas that a cell owes or, below zero, has too much of; of covered cells, what they hold `[kg m^-3]`.
     Owed,
+    /// Largest pressure since the start `[Pa]`.
+    PeakPressure,
+    /// Integral over time of the pressure above that of the ambient gas `[Pa s]`.
+    Impulse,
+    /// Largest plastic strain of what has passed.
+    PeakPlasticStrain,
 }
 
 impl Field {
     /// All fields, in the order of menus.
-    pub const ALL: [Field; 9] = [
+    pub const ALL: [Field; 12] = [
         Field::Density,
         Field::Pressure,
         Field::Velocity,
@@ -44,6 +50,9 @@ impl Field {
         Field::Vorticity,
         Field::Entropy,
         Field::Owed,
+        Field::PeakPressure,
+        Field::Impulse,
+        Field::PeakPlasticStrain,
     ];
 
     /// The field's keyword in scene files.
@@ -59,7 +68,16 @@ impl Field {
             Field::Vorticity => "vorticity",
             Field::Entropy => "entropy",
             Field::Owed => "owed",
+            Field::PeakPressure => "peak_pressure",
+            Field::Impulse => "impulse",
+            Field::PeakPlasticStrain => "peak_plastic_strain",
         }
+    }
+
+    /// Whether it is a map of what has been so far, which only scenes keep that ask for it.
+    #[must_use]
+    pub fn is_map(self) -> bool {
+        matches!(self, Field::PeakPressure | Field::Impulse | Field::PeakPlasticStrain)
     }
 }
 
@@ -350,6 +368,11 @@ pub struct Overlays {
     pub scale_bar: bool,
     /// The edges of a 3D domain.
     pub edges: bool,
+}
+
+impl Overlays {
+    /// Nothing is written.
+    pub const NONE: Overlays = Overlays { title: false, time: false, color_bar: false, scale_bar: false, edges: false };
 }
 
 impl Default for Overlays {

@@ -214,6 +214,8 @@ pub struct Output {
     pub png16: bool,
     /// Also write the pictures' linear light.
     pub exr: bool,
+    /// Keep maps of the largest pressure, the impulse and the largest plastic strain so far, for files; fields that show them turn it on.
+    pub maps: bool,
     /// Also write what pictures are drawn from, so that `brisance render` can draw them again.
     pub states: bool,
 }
@@ -228,6 +230,6 @@ impl Output {
 
 impl Default for Output {
     fn default() -> Self {
-        Output { fields: vec![Field::Density], vtk: false, png16: false, exr: false, states: false }
+        Output { fields: vec![Field::Density], vtk: false, png16: false, exr: false, maps: false, states: false }
     }
 }

@@ -39,6 +39,13 @@ const FNV_PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 const CAMERAS: [&str; 2] = ["camera", "path"];
 
 impl Scene {
+    /// Whether a run keeps maps of what has been so far: the scene asks for them, or for a picture of one.
+    #[must_use]
+    pub fn keeps_maps(&self) -> bool {
+        let shown = || self.shots().is_ok_and(|shots| shots.iter().any(|shot| shot.fields.iter().any(|f| f.is_map())));
+        self.output.maps || self.output.fields.iter().any(|field| field.is_map()) || shown()
+    }
+
     /// The scene's own look, then its further views by name.
     ///
     /// # Errors

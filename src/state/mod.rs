@@ -95,6 +95,9 @@ pub struct State {
     pub probe_cells: Buffer<u32>,
     /// Two entries per probe and step.
     pub probe_history: Buffer<[f32; 4]>,
+    /// Largest pressure so far \[Pa\], impulse of the pressure above ambient \[Pa s\] and what that sum lost to rounding, largest plastic
+    /// strain, per slot; empty where the scene asks for no maps.
+    pub maps: Buffer<[f32; 4]>,
     /// Points of bodies that have gauges.
     pub gauges: GaugeBuffers,
     overrides: Vec<(&'static str, f64)>,
@@ -138,8 +141,7 @@ impl State {
             least_entropy: gas::least_entropy(scene, start_entropy),
             ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.settings == Settings::Software, capacity))
         };
-        let table = cut::table(&grid, &geometry);
-        let load_count = loads::count(scene);
+        let (table, load_count) = (cut::table(&grid, &geometry), loads::count(scene));
         let mut overrides = params::overrides(scene, !start.is_empty());
         overrides.extend(loads::overrides(scene, &start_gas, &openings));
         overrides.extend(switches(&supports, table.is_empty()));
@@ -172,6 +174,7 @@ impl State {
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
             gauges: GaugeBuffers::new(gpu, scene, &start)?,
+            maps: Buffer::new(gpu, "maps", if scene.keeps_maps() { slots } else { 0 })?,
             overrides,
         };
         state.fill(gpu, scene);
@@ -226,6 +229,9 @@ impl State {
                     index += 1;
                 }
             }
+        }
+        if self.maps.len() > 0 {
+            self.maps.write(gpu, 0, &gas::first_maps(&conserved, &energy, self.params.gamma));
         }
         self.gas.conserved.write(gpu, 0, &conserved);
         self.gas.energy.write(gpu, 0, &energy);
@@ -335,6 +341,7 @@ impl State {
             ("history", self.history.raw()),
             ("probe_cells", self.probe_cells.raw()),
             ("probe_history", self.probe_history.raw()),
+            ("maps", self.maps.raw()),
             ("gauge_particles", self.gauges.particles.raw()),
             ("gauge_history", self.gauges.history.raw()),
             ("loads", self.loads.raw()),

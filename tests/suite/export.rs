@@ -43,6 +43,7 @@ fn snapshot(dimension: u32) -> Snapshot {
         pressure: vec![1.0; count],
         energy: vec![2.5; count],
         owed: (0..count).map(|index| 0.5 * number(index)).collect(),
+        maps: Vec::new(),
         particles: (0..5).map(particle).collect(),
     }
 }

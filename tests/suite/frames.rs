@@ -17,7 +17,7 @@ fn deep(dimension: u32, look: &str) -> Vec<Picture> {
     let scene = scene(dimension, 12, [48, 40], look);
     let state = State::new(&gpu, &scene);
     let renderer = Renderer::new(&gpu, &scene, &state.buffers()).unwrap();
-    renderer.with_depth(Depth { linear: true, fine: true }).render(0.5).unwrap()
+    renderer.with_depth(Depth { layers: true, fine: true }).render(0.5).unwrap()
 }
 
 /// Writes the pictures of frame 3.
@@ -34,7 +34,7 @@ fn pictures_have_their_whole_depth_on_the_disk() {
         let pictures = deep(dimension, look);
         write(&mut PngExporter::fine(folder.path()), &pictures);
         write(&mut ExrExporter::new(folder.path()), &pictures);
-        let Picture { frame, linear, fine, .. } = &pictures[0];
+        let Picture { frame, layers, fine, .. } = &pictures[0];
 
         let file = std::fs::File::open(folder.path().join("frames/0003.png")).unwrap();
         let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
@@ -49,17 +49,32 @@ fn pictures_have_their_whole_depth_on_the_disk() {
             words.iter().zip(coarse).all(|(word, byte)| (f64::from(*word) / 257.0 - f64::from(*byte)).abs() <= 1.01)
         );
 
-        let image = exr::prelude::read_first_rgba_layer_from_file(
-            folder.path().join("frames/0003.exr"),
-            |size, _| vec![[0.0_f32; 3]; size.width() * size.height()],
-            |pixels, place, (red, green, blue, _): (f32, f32, f32, f32)| {
-                pixels[place.x() + 48 * place.y()] = [red, green, blue];
-            },
-        )
-        .unwrap();
-        assert_eq!(&image.layer_data.channel_data.pixels, linear, "{dimension}D");
-        let comments = image.layer_data.attributes.comments.unwrap().to_string();
+        let image = exr::prelude::read_all_flat_layers_from_file(folder.path().join("frames/0003.exr")).unwrap();
+        let layer = &image.layer_data[0];
+        let comments = layer.attributes.comments.as_ref().unwrap().to_string();
         assert!(comments.contains("Scene: cafe") && comments.contains("Step: 9"), "{comments}");
+        let channel = |name: &str| -> Vec<f32> {
+            let found =
+                layer.channel_data.list.iter().find(|own| own.name.eq(name)).unwrap_or_else(|| panic!("{name}"));
+            found.sample_data.values_as_f32().collect()
+        };
+        assert_eq!((layer.size.width(), layer.size.height()), (layers.width as usize, layers.height as usize));
+        for (k, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+            let own = layers.pixels.iter().map(|pixel| pixel.light[k]);
+            let close = |(read, own): (f32, f32)| (read - own).abs() <= 1e-3 * own.abs() + 1e-6;
+            assert!(channel(name).into_iter().zip(own).all(close), "{dimension}D: {name}");
+        }
+        let objects: Vec<u32> = channel("id").into_iter().map(|id| id as u32).collect();
+        let bodies = layers.pixels.iter().filter(|pixel| pixel.object > 0);
+        assert!(objects.iter().copied().eq(layers.pixels.iter().map(|pixel| pixel.object)));
+        // the plot of so small a picture in 2D has hardly a pixel
+        assert_eq!(bodies.clone().count() > 10, dimension == 3, "{dimension}D: {}", bodies.clone().count());
+        assert!(bodies.clone().all(|pixel| pixel.depth.is_finite()) && channel("Z").len() == objects.len());
+        assert_eq!(layer.attributes.world_to_camera.is_some(), dimension > 1);
+        let clear = layers.pixels.iter().filter(|pixel| pixel.light[3] < 0.9).count();
+        assert_eq!(clear > 100, dimension == 3, "{dimension}D: {clear} pixels let something through");
+        let linear: Vec<[f32; 3]> =
+            layers.pixels.iter().map(|pixel| [pixel.light[0], pixel.light[1], pixel.light[2]]).collect();
         let most = linear.iter().flatten().fold(0.0_f32, |most, value| most.max(*value));
         assert_eq!(most > 1.5, dimension == 3, "{dimension}D: light above white only where exposure makes it: {most}");
     }
@@ -71,8 +86,56 @@ fn depth_costs_nothing_where_it_is_not_wanted() {
     let scene = scene(3, 12, [48, 40], "");
     let state = State::new(&gpu, &scene);
     let plain = Renderer::new(&gpu, &scene, &state.buffers()).unwrap().render(0.5).unwrap();
-    assert!(plain[0].linear.is_empty() && plain[0].fine.is_empty());
+    assert!(plain[0].layers.pixels.is_empty() && plain[0].fine.is_empty());
     assert_eq!(plain[0].frame, deep(3, "")[0].frame, "and changes no pixel");
+}
+
+/// Depths, objects and velocities lead through the matrices of the header back to the particles.
+#[test]
+fn layers_lead_back_to_the_particles() {
+    let picture = &deep(3, "")[0];
+    let layers = &picture.layers;
+    let [to_camera, to_picture] = layers.camera.unwrap().map(|columns| glam::Mat4::from_cols_array(&columns));
+    let (back, projection) = (to_camera.inverse(), to_picture * to_camera.inverse());
+    let half = glam::Vec2::new(1.0 / projection.x_axis.x, 1.0 / projection.y_axis.y);
+    let mut seen = [0; 2];
+    for (i, pixel) in layers.pixels.iter().enumerate().filter(|(_, pixel)| pixel.object > 0) {
+        let (column, row) = (i as u32 % layers.width, i as u32 / layers.width);
+        let place = glam::Vec2::new(column as f32 + 0.5, row as f32 + 0.5)
+            / glam::UVec2::new(layers.width, layers.height).as_vec2();
+        let ndc = glam::Vec2::new(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y);
+        let point = back.transform_point3((pixel.depth * half * ndc).extend(-pixel.depth));
+        let middle = glam::Vec3::from(crate::synthetic::BLOB);
+        let radius = point.distance(middle);
+        assert!((radius - 0.28).abs() < 0.08, "{point}: {radius} from the middle");
+        assert!((pixel.velocity[0] - 0.1 - 0.1 * point.x).abs() < 0.01, "{pixel:?} at {point}");
+        if (point.x - middle.x).abs() > 0.05 {
+            assert_eq!(pixel.object, 1 + u32::from(point.x > middle.x), "{point}");
+            seen[usize::from(point.x > middle.x)] += 1;
+        }
+    }
+    assert!(seen[0] > 20 && seen[1] > 20, "{seen:?}");
+}
+
+/// Compositors get the plot alone, from the states of a run.
+#[test]
+fn states_are_converted_for_compositors() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("shell.toml");
+    write_shell(&scene);
+    let out = folder.path().join("run");
+    let run = out.to_str().unwrap();
+    succeeds(&["run", scene.to_str().unwrap(), "--no-frames", "--export", "states", "--out", run]);
+    succeeds(&["convert", run, "--to", "exr,npz", "--frame", "1"]);
+    let image = exr::prelude::read_all_flat_layers_from_file(out.join("frames/0001.exr")).unwrap();
+    let names: Vec<String> = image.layer_data[0].channel_data.list.iter().map(|own| own.name.to_string()).collect();
+    assert_eq!(names, ["A", "B", "G", "R", "Z", "id", "velocity.X", "velocity.Y", "velocity.Z"]);
+    assert!(out.join("arrays/0001.npz").exists() && !out.join("frames/0001.png").exists());
+    assert!(fails(2, &["convert", run, "--to", "exr,gif"]).contains("no export format `gif`"));
+    assert!(fails(2, &["convert", run, "--to", "png"]).contains("no formats to convert to"));
 }
 
 #[test]

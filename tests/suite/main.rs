@@ -30,6 +30,7 @@ mod layouts;
 mod listed_operator;
 mod live;
 mod loads;
+mod maps;
 mod materials;
 mod numerics;
 mod pages;

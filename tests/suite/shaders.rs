@@ -7,11 +7,12 @@ use brisance::gpu::{Compiled, Folder, SOURCES, Shader};
 use wgpu::naga;
 
 /// Shaders of the pictures; all others belong to the step.
-const PICTURES: [&str; 11] = [
+const PICTURES: [&str; 12] = [
     "arrows.wgsl",
     "field.wgsl",
     "finish.wgsl",
     "glow.wgsl",
+    "layers.wgsl",
     "light.wgsl",
     "optics.wgsl",
     "points.wgsl",

@@ -91,6 +91,7 @@ impl State {
             conserved: self.conserved.raw(),
             energy: self.energy.raw(),
             owed: None,
+            maps: None,
             cells: self.cells.raw(),
             particles: Some(ParticleBuffers {
                 count: self.particles,

@@ -165,12 +165,17 @@ impl Beginning {
     /// Those of [`Simulation::new`]; [`Error::Usage`] if the checkpoint is not of this scene and program.
     pub(super) fn simulation(&self, gpu: &Gpu, plan: &MemoryPlan) -> Result<Simulation> {
         let Some(from) = &self.from else { return Simulation::new(gpu, &self.scene) };
+        if self.scene.keeps_maps() && !from.scene.keeps_maps() {
+            let text = "maps of the largest values begin with the run: this one kept none, run the scene anew with output.maps=true";
+            return Err(Error::Usage(text.to_owned()));
+        }
         from.warn(gpu);
         // built as the run was, and then changed as a run at work is
         let mut before = self.scene.clone();
         let was = &from.scene;
         (before.gravity, before.time, before.boundary) = (was.gravity, was.time.clone(), was.boundary.clone());
         before.time.frames = self.scene.time.frames;
+        before.output.clone_from(&was.output);
         (before.numerics.tolerance, before.numerics.blending) = (was.numerics.tolerance, was.numerics.blending);
         let mut simulation = Simulation::new(gpu, &before)?;
         let read = checkpoint::read(&from.path, plan.bytes(None).max(simulation.saved_bytes()))?;
