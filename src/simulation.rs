@@ -3,6 +3,7 @@
 mod elastic;
 mod fault;
 mod history;
+mod least_step;
 mod live;
 mod pace;
 mod recorded;
@@ -24,6 +25,7 @@ use crate::stage::{
 use crate::state::constants::{NO_FAULT, REACHES};
 use crate::state::params::STILL_ASLEEP;
 use crate::state::{Control, State};
+use least_step::LeastStep;
 pub use live::Blast;
 use pace::Pace;
 use recorded::Recorded;
@@ -75,6 +77,7 @@ pub struct Simulation {
     /// All buffers, in the order in which they were made.
     buffers: Vec<Allocation>,
     pace: Pace,
+    least_step: LeastStep,
 }
 
 /// Steps per submission at most.
@@ -136,6 +139,7 @@ impl Simulation {
             recorded: Recorded::FIRST,
             buffers: Vec::new(),
             pace: Pace::default(),
+            least_step: LeastStep::new(scene.time.until),
             gpu: gpu.clone(),
             state,
         };
@@ -279,6 +283,7 @@ impl Simulation {
     /// # Errors
     /// Driver errors.
     pub fn set_target(&mut self, time: f64) -> Result<()> {
+        self.least_step.start_frame();
         let mut control = self.control()?;
         control.remaining = (time - self.time).max(0.0) as f32;
         (control.time, control.time_error) = (self.time as f32, 0.0);
@@ -332,11 +337,12 @@ impl Simulation {
         let first = records.len();
         self.read_history(u64::from(control.step), records)?;
         let newest = &records[first..];
-        self.time += newest.iter().map(|record| f64::from(record.dt)).sum::<f64>();
+        let endless = self.pass_time(newest);
         self.step = u64::from(control.step);
         if control.fault != NO_FAULT {
             return Err(self.fault(&control));
         }
+        endless.map_or(Ok(()), |endless| Err(self.too_short(&endless)?))?;
         self.recorded = self.recorded.next(newest, control.phase != 0, self.solves, &self.state);
         Ok(control.remaining <= 0.0 && control.phase == 0)
     }

@@ -27,6 +27,7 @@ mod images;
 mod kernels;
 mod layering;
 mod layouts;
+mod least_step;
 mod listed_operator;
 mod live;
 mod loads;
