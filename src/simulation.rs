@@ -98,10 +98,10 @@ impl Simulation {
         let parts = Parts { gpu, state: &state };
         let solids = state.has_solids();
         let transfer = match scene.numerics.transfer {
-            scene::Transfer::Gather => Transfer::Gather,
-            scene::Transfer::Scatter => Transfer::Scatter,
-            scene::Transfer::Auto if gpu.settings == Settings::Software => Transfer::Gather,
-            scene::Transfer::Auto => Transfer::Scatter,
+            scene::Transfer::Columns => Transfer::Columns,
+            scene::Transfer::Nodes => Transfer::Nodes,
+            scene::Transfer::Auto if gpu.settings == Settings::Software => Transfer::Columns,
+            scene::Transfer::Auto => Transfer::Nodes,
         };
         let coupled_solve = CoupledSolve::new(parts, scene)?;
         let simulation = Simulation {

@@ -48,7 +48,6 @@ struct Params {
     extra_capacity: u32,        // vertices that may carry P, h and Q apart
     max_iterations: u32,
     probes: u32,
-    crowd: f32,                 // weights that meet at one node at most, scatter form of p2g
     history: u32,               // steps that the history ring holds
     bodies: u32,
     max_substeps: u32,

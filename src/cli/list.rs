@@ -71,8 +71,8 @@ fn reason(cli: &Cli) -> String {
 /// Whose settings a device takes, for people.
 pub(super) fn settings(gpu: &Gpu) -> &'static str {
     match gpu.settings {
-        Settings::Software => "a software device: gather, long marches, few groups",
-        Settings::Hardware => "hardware: scatter, short marches, many groups, submissions of 100 ms",
+        Settings::Software => "a software device: transfer by columns, long marches, few groups",
+        Settings::Hardware => "hardware: transfer by nodes, short marches, many groups, submissions of 100 ms",
     }
 }
 

@@ -193,13 +193,13 @@ pub enum Film {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Transfer {
-    /// Scatter on a GPU, gather on a software device.
+    /// Nodes on a GPU, columns on a software device.
     #[default]
     Auto,
-    /// Integer atomics.
-    Scatter,
-    /// Sums over sorted particles.
-    Gather,
+    /// Each node sums what the particles around it give.
+    Nodes,
+    /// Each column of cells hands on what its particles give.
+    Columns,
 }
 
 /// Which files a run leaves.

@@ -22,7 +22,7 @@ pub struct G2p {
 }
 
 impl G2p {
-    /// Binds the form that goes with the one of `p2g`: [`Transfer::Gather`] works cell by cell.
+    /// Binds the form that goes with the one of `p2g`: [`Transfer::Columns`] works cell by cell.
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
@@ -30,8 +30,8 @@ impl G2p {
         let Parts { gpu, state } = parts;
         let bind = |entry: &str| state.bind(gpu, "g2p.wgsl", entry, &[], &[]);
         let form = match transfer {
-            Transfer::Gather => Form::Cells([bind("g2p_cells")?, bind("g2p_particles")?]),
-            Transfer::Scatter => Form::Particles(bind("g2p")?),
+            Transfer::Columns => Form::Cells([bind("g2p_cells")?, bind("g2p_particles")?]),
+            Transfer::Nodes => Form::Particles(bind("g2p")?),
         };
         Ok(Self { form })
     }

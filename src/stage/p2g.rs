@@ -1,6 +1,5 @@
-//! `p2g`: what do the solids look like on the grid? Two forms with the same result in the same buffers: gather over sorted
-//! particles, column by column in a fixed order, and scatter by fixed-point integer atomics, tile by tile. Both give equal bits on
-//! every run.
+//! `p2g`: what do the solids look like on the grid? Two forms with the same result in the same buffers, both over sorted particles in a
+//! fixed order: column by column, and node by node. Both give equal bits on every run.
 
 use super::{Parts, extent};
 use crate::error::Result;
@@ -11,10 +10,10 @@ use crate::state::constants::Entry;
 /// How particles reach nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
-    /// Columns of cells collect their sorted particles: cheaper in software.
-    Gather,
-    /// Particles add to nodes.
-    Scatter,
+    /// Columns of cells hand on what their particles give: each particle is read once, few threads; cheaper in software.
+    Columns,
+    /// Each node sums what the particles around it give: more reads, one thread per node; for hardware.
+    Nodes,
 }
 
 /// What one transfer carries.
@@ -29,12 +28,12 @@ enum Carry {
 #[derive(Clone, Debug)]
 enum Kernels {
     /// `colors` run one after the other; only mass and momentum have something to finish.
-    Gather {
+    Columns {
         clear: Bound,
         colors: Vec<Bound>,
         finish: Option<Bound>,
     },
-    Scatter([Bound; 5]),
+    Nodes(Bound),
 }
 
 /// Kernels of the stage.
@@ -56,8 +55,8 @@ impl Force {
     /// If a shader or buffer is wrong.
     pub(super) fn new(parts: Parts<'_>, transfer: Transfer, stress: &wgpu::Buffer) -> Result<Self> {
         Ok(Self(match transfer {
-            Transfer::Gather => Kernels::gather(parts, true, stress)?,
-            Transfer::Scatter => Kernels::scatter(parts, Carry::Force, stress)?,
+            Transfer::Columns => Kernels::columns(parts, true, stress)?,
+            Transfer::Nodes => Kernels::nodes(parts, Carry::Force, stress)?,
         }))
     }
 
@@ -77,7 +76,7 @@ fn driver(parts: Parts<'_>, stress: &wgpu::Buffer) -> bool {
 }
 
 impl Kernels {
-    fn gather(parts: Parts<'_>, force: bool, stress: &wgpu::Buffer) -> Result<Self> {
+    fn columns(parts: Parts<'_>, force: bool, stress: &wgpu::Buffer) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let switches = [("WITH_FORCE", flag(force)), ("WITH_DRIVER", flag(force && driver(parts, stress)))];
         let bind = |entry: &str| state.bind(gpu, "p2g.wgsl", entry, &[], &switches);
@@ -93,29 +92,21 @@ impl Kernels {
             }
         }
         let finish = if force { None } else { Some(bind("p2g_finish")?) };
-        Ok(Self::Gather { clear: bind("p2g_clear")?, colors, finish })
+        Ok(Self::Columns { clear: bind("p2g_clear")?, colors, finish })
     }
 
-    fn scatter(parts: Parts<'_>, carry: Carry, stress: &wgpu::Buffer) -> Result<Self> {
+    fn nodes(parts: Parts<'_>, carry: Carry, stress: &wgpu::Buffer) -> Result<Self> {
         let Parts { gpu, state } = parts;
         let force = carry != Carry::Mass;
         let driver = force && driver(parts, stress);
         let switches =
             [("WITH_MASS", flag(carry != Carry::Force)), ("WITH_FORCE", flag(force)), ("WITH_DRIVER", flag(driver))];
-        let renamed = [("sums", state.gas.work.raw()), ("bounds", state.partials.raw()), ("stress", stress)];
-        let bind = |entry: &str| state.bind(gpu, "p2g_scatter.wgsl", entry, &renamed, &switches);
-        Ok(Self::Scatter([
-            bind("scatter_bounds")?,
-            bind("scatter_units")?,
-            bind("scatter_clear")?,
-            bind("scatter_add")?,
-            bind("scatter_resolve")?,
-        ]))
+        Ok(Self::Nodes(state.bind(gpu, "p2g_nodes.wgsl", "p2g_nodes", &[("stress", stress)], &switches)?))
     }
 
     fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
         match self {
-            Self::Gather { clear, colors, finish } => {
+            Self::Columns { clear, colors, finish } => {
                 pass.dispatch(clear, &extent(state, phase, Entry::Slots));
                 for color in colors {
                     pass.dispatch(color, &extent(state, phase, Entry::Color));
@@ -124,13 +115,7 @@ impl Kernels {
                     pass.dispatch(finish, &extent(state, phase, Entry::Slots));
                 }
             }
-            Self::Scatter([bounds, units, clear, add, resolve]) => {
-                pass.dispatch(bounds, &extent(state, phase, Entry::Reduce));
-                pass.dispatch(units, &extent(state, phase, Entry::Single));
-                pass.dispatch(clear, &extent(state, phase, Entry::Slots));
-                pass.dispatch(add, &extent(state, phase, Entry::Reduce));
-                pass.dispatch(resolve, &extent(state, phase, Entry::Slots));
-            }
+            Self::Nodes(nodes) => pass.dispatch(nodes, &extent(state, phase, Entry::Slots)),
         }
     }
 }
@@ -147,12 +132,12 @@ impl P2g {
         let stress = parts.state.particles.stress.raw();
         let force = Force::new(parts, transfer, stress)?;
         let (mass, both) = match transfer {
-            Transfer::Gather => {
-                let mass = Kernels::gather(parts, false, stress)?;
+            Transfer::Columns => {
+                let mass = Kernels::columns(parts, false, stress)?;
                 (mass.clone(), vec![mass, force.0.clone()])
             }
-            Transfer::Scatter => {
-                (Kernels::scatter(parts, Carry::Mass, stress)?, vec![Kernels::scatter(parts, Carry::Both, stress)?])
+            Transfer::Nodes => {
+                (Kernels::nodes(parts, Carry::Mass, stress)?, vec![Kernels::nodes(parts, Carry::Both, stress)?])
             }
         };
         Ok(Self { mass, force, both })

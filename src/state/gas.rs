@@ -12,7 +12,7 @@ pub struct GasState {
     pub conserved: Buffer<[f32; 4]>,
     /// Total energy per volume: now, then two scratch parts (stages of advection; cell pressure of the predictor); the kept states, the internal energy of the first, what the next solve starts from.
     pub energy: Buffer<f32>,
-    /// Two parts of scratch: stages of advection; forces of gas nodes and of solid nodes; integer sums of p2g; the kept states.
+    /// Two parts of scratch: stages of advection; forces of gas nodes and of solid nodes; the kept states.
     pub work: Buffer<[f32; 4]>,
     /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\]; in GHOST and WALL slots what has crossed the boundary, per cell volume.
     /// Without bodies and obstacles only the slots of the ring have a place, in their order (`shaders/shared/books.wgsl`).

@@ -130,7 +130,7 @@ impl State {
         let grid = Grid::of(domain);
         let slots = grid.slots();
         let start = ParticleStart::new(scene);
-        let limits = solid_limits(scene, &start);
+        let limits = SolidLimits { particles: start.len() as u32, max_density: start.max_density };
         let capacity = extra_capacity(slots, start.len(), domain.dimension);
         let unknowns = slots + 2 * capacity;
         let (openings, supports) = (Openings::new(scene), Supports::new(scene));
@@ -354,17 +354,6 @@ impl State {
 fn switches(supports: &Supports, whole: bool) -> [(&'static str, f64); 3] {
     [("DRIVEN", supports.driven), ("FRICTION", supports.friction), ("CUT", !whole)]
         .map(|(name, on)| (name, f64::from(u8::from(on))))
-}
-
-/// What the particles of the start add to the parameters.
-fn solid_limits(scene: &Scene, start: &ParticleStart) -> SolidLimits {
-    let dimension = scene.domain.dimension as i32;
-    let per_cell = scene.bodies.iter().map(|body| f64::from(scene.particles_along_axis(body)).powi(dimension));
-    SolidLimits {
-        particles: start.len() as u32,
-        max_density: start.max_density,
-        per_cell: per_cell.fold(0.0, f64::max),
-    }
 }
 
 /// Slot of the cell that each probe looks at.

@@ -54,8 +54,6 @@ pub struct Params {
     pub max_iterations: u32,
     /// Probes.
     pub probes: u32,
-    /// Sum of weights that may meet at one node, scatter form of p2g.
-    pub crowd: f32,
     /// Steps that the history ring holds.
     pub history: u32,
     /// Bodies.
@@ -84,6 +82,8 @@ pub struct Params {
     pub table_at: u32,
     /// Place of the runs of the list there.
     pub list_runs_at: u32,
+    /// Fills the space before vectors.
+    pub unused: u32,
     /// Groups of each dispatch of a prefix sum over all slots and one more.
     pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
 }
@@ -100,8 +100,6 @@ pub struct SolidLimits {
     pub particles: u32,
     /// Largest density of a particle \[kg m^-3\].
     pub max_density: f64,
-    /// Largest number of particles that fill one cell at rest.
-    pub per_cell: f64,
 }
 
 /// Smallest share of a full node's mass that the solve sees: lighter nodes would rule its conditioning.
@@ -109,8 +107,6 @@ pub(crate) const LIGHTEST_NODE: f64 = 0.01;
 /// The same as a share of the heaviest node next to it, in 1D, 2D and 3D: all that the nodes of one particle gain stays below half of
 /// its mass.
 pub(crate) const LIGHTEST_BESIDE: [f64; 3] = [0.5, 0.2, 0.03];
-/// Crowding, relative to bodies at rest, that the scatter form of p2g has room for.
-const CROWDING: f64 = 16.0;
 /// Steps that the history ring holds; the host reads it before it wraps.
 pub const HISTORY: u32 = 256;
 
@@ -186,7 +182,6 @@ impl Params {
             extra_capacity: limits.extra_capacity,
             max_iterations: numerics.max_iterations,
             probes: scene.probes.len() as u32,
-            crowd: (CROWDING * solids.per_cell.max(1.0)) as f32,
             history: HISTORY,
             bodies: scene.bodies.len() as u32,
             max_substeps: scene.max_substeps(),
@@ -204,6 +199,7 @@ impl Params {
             still_at: 0,
             table_at: 0,
             list_runs_at: 0,
+            unused: 0,
             scan: [[0; 4]; constants::SCAN_DISPATCHES],
         };
         let places = super::interface::Places::new(

@@ -43,25 +43,25 @@ fn equal_bits(transfer: &str) {
 }
 
 #[test]
-fn gather_gives_equal_bits() {
-    equal_bits("gather");
+fn columns_give_equal_bits() {
+    equal_bits("columns");
 }
 
 #[test]
-fn scatter_gives_equal_bits() {
-    equal_bits("scatter");
+fn nodes_give_equal_bits() {
+    equal_bits("nodes");
 }
 
 #[test]
-fn gather_and_scatter_agree() {
+fn columns_and_nodes_agree() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let (gather, scatter) = (run(&gpu, "gather"), run(&gpu, "scatter"));
+    let (columns, nodes) = (run(&gpu, "columns"), run(&gpu, "nodes"));
     for (name, tolerance) in [("conserved", 2e-4), ("position", 1e-5), ("velocity", 2e-4)] {
         let values = |all: &[(&str, Vec<u32>)]| -> Vec<f32> {
             let (_, words) = all.iter().find(|(known, _)| *known == name).unwrap();
             words.iter().map(|word| f32::from_bits(*word)).collect()
         };
-        let (a, b) = (values(&gather), values(&scatter));
+        let (a, b) = (values(&columns), values(&nodes));
         let scale = a.iter().fold(0.0, |most: f32, v| most.max(v.abs()));
         let worst = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max) / scale;
         eprintln!("{name}: {worst:.1e}");

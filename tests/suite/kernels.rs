@@ -240,7 +240,7 @@ fn stiff_ball_by_backward_euler() {
     let implicit = ["numerics.elasticity=implicit", "numerics.elastic_tolerance=1e-6"];
     let stiff = "materials.rubber.neo_hookean.young_modulus=1000.0";
     body(3, &[&implicit[..], &[stiff]].concat());
-    body(2, &[&implicit[..], &[stiff, "numerics.transfer=scatter"]].concat());
+    body(2, &[&implicit[..], &[stiff, "numerics.transfer=nodes"]].concat());
     body(2, &["numerics.elasticity=implicit", "numerics.elastic_tolerance=1e-7", SOFT_METAL]);
 }
 
@@ -277,14 +277,14 @@ fn block_in_a_corner_in_space() {
 }
 
 #[test]
-fn crumbs_by_scatter() {
+fn crumbs_by_nodes() {
     body(
         3,
         &[
             SOFT_METAL,
             "bodies[0].shape.sphere.radius=0.04",
             "bodies[0].density=2.0",
-            "numerics.transfer=scatter",
+            "numerics.transfer=nodes",
             "numerics.tolerance=2e-7",
         ],
     );

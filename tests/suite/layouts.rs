@@ -59,7 +59,6 @@ fn params() {
             extra_capacity,
             max_iterations,
             probes,
-            crowd,
             history,
             bodies,
             max_substeps,

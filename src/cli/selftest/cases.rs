@@ -14,8 +14,8 @@ pub(super) const CASES: [Case; 22] = [
     Case { name: "sum, minimum, maximum", stage: "reduction", run: host::reductions },
     Case { name: "prefix sum", stage: "prefix sum", run: host::prefix_sum },
     Case { name: "particles in order", stage: "particle_sort", run: host::sorting },
-    Case { name: "particles to nodes, gathered", stage: "p2g", run: host::gather },
-    Case { name: "particles to nodes, atomics", stage: "p2g", run: host::scatter },
+    Case { name: "particles to nodes, by columns", stage: "p2g", run: host::columns },
+    Case { name: "particles to nodes, by nodes", stage: "p2g", run: host::nodes },
     Case { name: "a value that is no number", stage: "time_step", run: fault },
     Case { name: "totals", stage: "totals", run: totals },
     Case { name: "Sod, exact", stage: "gas", run: sod },
@@ -186,14 +186,14 @@ fn repeated(gpu: &Gpu, full: bool) -> Result<Found> {
 
 fn transfers(gpu: &Gpu, full: bool) -> Result<Found> {
     let by = |transfer: &str| shell_state(gpu, &[transfer], full);
-    Ok(difference([by("numerics.transfer=gather")?, by("numerics.transfer=scatter")?], 1e-3))
+    Ok(difference([by("numerics.transfer=columns")?, by("numerics.transfer=nodes")?], 1e-3))
 }
 
 fn both_settings(gpu: &Gpu, full: bool) -> Result<Found> {
     let with = |settings: Settings| {
         let mut gpu = gpu.clone();
         gpu.settings = settings;
-        shell_state(&gpu, &["numerics.transfer=gather"], full)
+        shell_state(&gpu, &["numerics.transfer=columns"], full)
     };
     Ok(difference([with(Settings::Software)?, with(Settings::Hardware)?], 1e-3))
 }

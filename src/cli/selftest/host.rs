@@ -98,7 +98,7 @@ fn name_of(grid: &Grid, slot: usize) -> String {
 
 /// Where the particles of every cell begin, and their order.
 pub(super) fn sorting(gpu: &Gpu, _full: bool) -> Result<Found> {
-    let Transferred { simulation, position, .. } = transferred(gpu, Transfer::Gather)?;
+    let Transferred { simulation, position, .. } = transferred(gpu, Transfer::Columns)?;
     let grid = simulation.state.grid;
     let slots = grid.slots();
     let mut cells = vec![Vec::new(); slots];
@@ -152,12 +152,12 @@ fn p2g(gpu: &Gpu, transfer: Transfer) -> Result<Found> {
     Ok(Found::between(&is, &should, 1e-5, |k| name_of(&grid, k / 4)))
 }
 
-/// Particles to nodes, gathered.
-pub(super) fn gather(gpu: &Gpu, _full: bool) -> Result<Found> {
-    p2g(gpu, Transfer::Gather)
+/// Particles to nodes, column by column.
+pub(super) fn columns(gpu: &Gpu, _full: bool) -> Result<Found> {
+    p2g(gpu, Transfer::Columns)
 }
 
-/// Particles to nodes by integer atomics.
-pub(super) fn scatter(gpu: &Gpu, _full: bool) -> Result<Found> {
-    p2g(gpu, Transfer::Scatter)
+/// Particles to nodes, node by node.
+pub(super) fn nodes(gpu: &Gpu, _full: bool) -> Result<Found> {
+    p2g(gpu, Transfer::Nodes)
 }
