@@ -15,7 +15,7 @@ use std::time::Instant;
 use crate::diagnostics::StepRecord;
 use crate::error::Result;
 use crate::gpu::{Allocation, Detail, Gpu, Pass, Settings, Times, readback, watched};
-use crate::scene::{self, Scene};
+use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 use crate::stage::{
     Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate, G2p,
@@ -97,12 +97,7 @@ impl Simulation {
         let state = State::new(gpu, scene)?;
         let parts = Parts { gpu, state: &state };
         let solids = state.has_solids();
-        let transfer = match scene.numerics.transfer {
-            scene::Transfer::Columns => Transfer::Columns,
-            scene::Transfer::Nodes => Transfer::Nodes,
-            scene::Transfer::Auto if gpu.settings == Settings::Software => Transfer::Columns,
-            scene::Transfer::Auto => Transfer::Nodes,
-        };
+        let transfer = Transfer::of(scene.numerics.transfer, gpu.settings);
         let coupled_solve = CoupledSolve::new(parts, scene)?;
         let simulation = Simulation {
             time_step: TimeStep::new(parts, scene, coupled_solve.pcg.control.raw())?,
@@ -143,6 +138,7 @@ impl Simulation {
             gpu: gpu.clone(),
             state,
         };
+        gpu.finish_kernels()?;
         let mut pass = Pass::new(gpu, "start");
         simulation.time_step.record_start(&mut pass);
         if let Some(particle_sort) = &simulation.particle_sort {

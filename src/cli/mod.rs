@@ -186,8 +186,12 @@ fn window(cli: &Cli) -> Result<()> {
 /// Opens the device that the command line names; a processor in the role of a GPU is announced, once.
 fn open_device(cli: &Cli) -> Result<Gpu> {
     static ANNOUNCED: AtomicBool = AtomicBool::new(false);
-    let stop: Option<fn() -> bool> = Some(interrupt::wish);
-    let gpu = Gpu::new(&GpuOptions { device: cli.device.clone(), stop, ..GpuOptions::default() })?;
+    let gpu = Gpu::new(&GpuOptions {
+        device: cli.device.clone(),
+        stop: Some(interrupt::wish),
+        compiling: Some(progress::compiling),
+        ..GpuOptions::default()
+    })?;
     if gpu.is_software() && !ANNOUNCED.swap(true, Ordering::Relaxed) {
         let name = &gpu.info.name;
         tell!("warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU");

@@ -1,6 +1,8 @@
 //! What a run shows while it works: a bar on a terminal, a plain line every few seconds elsewhere.
 
 use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -12,6 +14,11 @@ use crate::math::plain;
 const TICKS: u64 = 10_000;
 /// Time between plain lines.
 const PAUSE: Duration = Duration::from_secs(5);
+/// What is quicker is not shown.
+const MOMENT: Duration = Duration::from_millis(300);
+
+/// Whether nothing is to be shown.
+static QUIET: AtomicBool = AtomicBool::new(false);
 
 /// Progress of one run.
 #[derive(Debug)]
@@ -71,6 +78,37 @@ impl Progress {
             bar.finish_and_clear();
         }
     }
+}
+
+/// Shows on a terminal how many kernels are compiled, of how many; what is cached takes a moment and shows nothing.
+pub(super) fn compiling(done: usize, all: usize) {
+    static SHOWN: Mutex<Option<(Instant, Option<ProgressBar>)>> = Mutex::new(None);
+    let mut shown = SHOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if done == all {
+        if let Some((_, Some(bar))) = shown.take() {
+            bar.finish_and_clear();
+        }
+        return;
+    }
+    let (start, bar) = shown.get_or_insert_with(|| (Instant::now(), None));
+    if start.elapsed() >= MOMENT && std::io::stderr().is_terminal() && !QUIET.load(Ordering::Relaxed) {
+        let bar = bar.get_or_insert_with(bar_of_kernels);
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    }
+}
+
+/// Shows nothing of what happens before a run, either.
+pub(super) fn hush() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+fn bar_of_kernels() -> ProgressBar {
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{bar:32} compiling kernel {pos} of {len}") {
+        bar.set_style(style);
+    }
+    bar
 }
 
 fn bar() -> ProgressBar {

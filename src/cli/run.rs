@@ -14,7 +14,7 @@ use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
 use super::outcome::{Verdict, device, ended, last_words};
-use super::progress::Progress;
+use super::progress::{self, Progress};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device};
 use crate::diagnostics::StepRecord;
@@ -46,6 +46,9 @@ pub(super) fn run(options: &RunOptions, cli: &Cli) -> Result<()> {
 /// The same, with or without the report on standard output.
 pub(super) fn perform(options: &RunOptions, cli: &Cli, json: bool) -> Result<()> {
     let start = Instant::now();
+    if options.quiet || json {
+        progress::hush();
+    }
     let beginning = Beginning::of(options)?;
     begun(&beginning, &open_device(cli)?, (start, json))
 }

@@ -41,14 +41,15 @@ impl AdapterSummary {
     /// What is known about devices of its kind.
     #[must_use]
     pub fn known(&self) -> &'static str {
-        let text = self.driver.to_lowercase();
+        let text = format!("{} {}", self.name, self.driver).to_lowercase();
         let found = KNOWN.iter().find(|(part, _)| text.contains(part));
         found.map_or("never run; `brisance selftest` tells, and its file is welcome in an issue", |(_, known)| known)
     }
 }
 
 /// What has run on which driver, by a part of its description.
-const KNOWN: [(&str, &str); 2] = [
+const KNOWN: [(&str, &str); 3] = [
+    ("nvidia h200", "selftest and most of the suite have run on it, under Vulkan"),
     ("mesa 22.3", "the whole suite runs on it, at every change"),
     ("llvmpipe", "the suite runs on Mesa 22.3 and 25.0; newer ones compile longer and compute faster"),
 ];

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use super::adapters::{choose, enough, new_instance, ranked_adapters};
 use super::kernel::Kernel;
+use super::pipeline::Pipeline;
 use super::reflect::Compiled;
 use super::shader::Folder;
 use crate::error::{Error, Result};
@@ -27,6 +28,8 @@ pub struct GpuOptions {
     pub kernels: Option<PathBuf>,
     /// Asked before each kernel is compiled, which takes seconds for all of a scene: whether to stop.
     pub stop: Option<fn() -> bool>,
+    /// Told how many of the kernels of a scene are compiled, and how many there are.
+    pub compiling: Option<fn(usize, usize)>,
 }
 
 /// Choices that are about speed: which transfer to the grid, how many groups, how long a march, how long a submission. Results agree to
@@ -79,6 +82,10 @@ pub struct Gpu {
     pub(super) written: Option<PathBuf>,
     /// Whether somebody wants to stop.
     stop: Option<fn() -> bool>,
+    /// Told how many kernels are compiled, of how many.
+    pub(super) compiling: Option<fn(usize, usize)>,
+    /// Kernels that nobody has waited for.
+    pub(super) queued: Queue,
     /// Longest wait for a submission.
     patience: Duration,
     /// What was submitted last, for whom it does not end.
@@ -93,6 +100,9 @@ pub struct Gpu {
 
 /// Compiled shaders by file name and constants text.
 type ShaderCache = Arc<Mutex<HashMap<(String, String), (Arc<Compiled>, wgpu::ShaderModule)>>>;
+
+/// Pipelines asked for, in order.
+type Queue = Arc<Mutex<Vec<Arc<Pipeline>>>>;
 
 /// Kernels by shader, entry point, overrides and constants text.
 type KernelCache = Arc<Mutex<HashMap<String, Kernel>>>;
@@ -112,6 +122,8 @@ enum Fault {
     Failed(String),
     /// What was asked for breaks a rule.
     Refused(String),
+    /// A kernel that was not waited for does not compile.
+    Shader(Error),
 }
 
 impl Gpu {
@@ -167,6 +179,8 @@ impl Gpu {
             settings,
             written,
             stop: options.stop,
+            compiling: options.compiling,
+            queued: Arc::default(),
             patience,
             at_work: Arc::default(),
             shaders,
@@ -213,8 +227,14 @@ impl Gpu {
                 self.allocated_bytes() as f64 / GIB
             ))),
             Some(Fault::Failed(text)) => Err(Error::Gpu(format!("{} failed: {text}", self.info.name))),
+            Some(Fault::Shader(error)) => Err(error),
             Some(Fault::Refused(text)) => Err(Error::Bug(format!("the graphics library refused a call: {text}"))),
         }
+    }
+
+    /// Keeps a kernel's error for [`Gpu::check`].
+    pub(super) fn note(&self, error: Error) {
+        lock(&self.faults).first.get_or_insert(Fault::Shader(error));
     }
 
     /// Before work that takes a while.

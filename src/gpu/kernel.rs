@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::buffer::Buffer;
 use super::device::{Gpu, lock};
+use super::pipeline::{Pipeline, Recipe};
 use super::reflect::{Access, Binding, Compiled};
 use super::shader::Shader;
 use crate::error::{Error, Result};
@@ -33,7 +34,7 @@ pub struct Constants<'a> {
 pub struct Kernel {
     label: String,
     name: Arc<str>,
-    pipeline: wgpu::ComputePipeline,
+    pipeline: Arc<Pipeline>,
     layout: wgpu::BindGroupLayout,
     bindings: Vec<Binding>,
     threads_per_group: u32,
@@ -42,7 +43,7 @@ pub struct Kernel {
 /// A kernel with its buffers: what a [`super::Pass`] dispatches.
 #[derive(Clone, Debug)]
 pub struct Bound {
-    pub(super) pipeline: wgpu::ComputePipeline,
+    pub(super) pipeline: Arc<Pipeline>,
     pub(super) group: wgpu::BindGroup,
     pub(super) threads_per_group: u32,
     /// Entry point, with its form where there are several.
@@ -69,7 +70,8 @@ pub fn group_counts(groups: u64) -> [u32; 3] {
 }
 
 impl Kernel {
-    /// One entry point of a shader, compiled once per device, constants text, and values of the overrides that it reads.
+    /// One entry point of a shader, once per device, constants text, and values of the overrides that it reads. It is compiled on
+    /// another core; [`Gpu::finish_kernels`] waits for it, and so does the first dispatch.
     ///
     /// # Errors
     /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings; [`Error::Interrupted`].
@@ -91,7 +93,7 @@ impl Kernel {
         Ok(kernel)
     }
 
-    /// Compiles one entry point.
+    /// Has one entry point compiled.
     fn compile(
         gpu: &Gpu,
         (compiled, module): (&Compiled, &wgpu::ShaderModule),
@@ -102,7 +104,6 @@ impl Kernel {
         let bindings = compiled.bindings(entry)?;
         let threads_per_group = compiled.threads_per_group(entry)?;
         let entries: Vec<_> = bindings.iter().map(layout_entry).collect();
-        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let layout = gpu
             .device
             .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(&label), entries: &entries });
@@ -115,20 +116,14 @@ impl Kernel {
             constants.overrides.iter().copied().filter(|(name, _)| compiled.has_override(name)).collect();
         let listed = overrides.iter().any(|&(name, value)| name == LISTED && value != 0.0);
         let name = if listed { format!("{entry} (listed)") } else { entry.to_owned() };
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(&label),
-            layout: Some(&pipeline_layout),
-            module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &overrides, ..Default::default() },
-            cache: None,
-        });
-        if let Some(error) = pollster::block_on(scope.pop()) {
-            return Err(Error::Shader(format!("{label}: {error}")));
-        }
+        gpu.check()?;
         if let Some(folder) = &gpu.written {
             super::written::write(folder, compiled, entry, &overrides)?;
         }
+        let overrides = overrides.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+        let (module, entry) = (module.clone(), entry.to_owned());
+        let recipe = Recipe { label: label.clone(), layout: pipeline_layout, module, entry, overrides };
+        let pipeline = Pipeline::queue(gpu, recipe);
         Ok(Kernel { label, pipeline, layout, bindings, threads_per_group, name: name.into() })
     }
 
@@ -158,7 +153,7 @@ impl Kernel {
             entries: &entries,
         });
         gpu.check()?;
-        let (pipeline, name) = (self.pipeline.clone(), self.name.clone());
+        let (pipeline, name) = (Arc::clone(&self.pipeline), self.name.clone());
         Ok(Bound { pipeline, group, threads_per_group: self.threads_per_group, name })
     }
 

@@ -1,7 +1,7 @@
 //! The GPU without physics: device, buffers, shaders, kernels, passes, readback.
 //!
-//! The usual order: [`Gpu::new`] picks a device, [`Buffer::new`] allocates, [`Kernel::new`] compiles one entry point and
-//! reflects its bindings, [`Kernel::bind`] connects buffers by name, a [`Pass`] records dispatches and submits them,
+//! The usual order: [`Gpu::new`] picks a device, [`Buffer::new`] allocates, [`Kernel::new`] reflects the bindings of one entry
+//! point and has it compiled, [`Kernel::bind`] connects buffers by name, a [`Pass`] records dispatches and submits them,
 //! [`readback::read`] brings numbers back. Nothing here panics on a driver error: the first one is kept and
 //! [`Gpu::check`] hands it out.
 
@@ -11,6 +11,7 @@ mod buffer;
 mod device;
 mod kernel;
 mod pass;
+mod pipeline;
 pub mod readback;
 mod reflect;
 mod shader;

@@ -142,8 +142,12 @@ impl Pass {
             self.close_group();
             self.open = None;
         }
+        let pipeline = match bound.pipeline.get(&self.gpu.device) {
+            Ok(pipeline) => pipeline,
+            Err(error) => return self.gpu.note(error),
+        };
         let pass = self.compute(&bound.name);
-        pass.set_pipeline(&bound.pipeline);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &bound.group, &[]);
         match extent {
             Extent::Threads(threads) => {

@@ -92,6 +92,7 @@ impl Renderer {
         let sources = Sources::from(buffers);
         let drawing = if sources.grid.dimension > 1 { Some(Drawing::new(gpu, scene, &sources)?) } else { None };
         let shots = scene.shots()?;
+        gpu.finish_kernels()?;
         Ok(Self {
             gpu: gpu.clone(),
             scene: scene.clone(),

@@ -3,7 +3,8 @@
 
 use super::{Parts, extent};
 use crate::error::Result;
-use crate::gpu::{Bound, Buffer, Pass};
+use crate::gpu::{Bound, Buffer, Pass, Settings};
+use crate::scene;
 use crate::state::State;
 use crate::state::constants::Entry;
 
@@ -14,6 +15,17 @@ pub enum Transfer {
     Columns,
     /// Each node sums what the particles around it give: more reads, one thread per node; for hardware.
     Nodes,
+}
+
+impl Transfer {
+    /// What a scene asks for, or what suits the device.
+    #[must_use]
+    pub fn of(asked: scene::Transfer, settings: Settings) -> Self {
+        match (asked, settings) {
+            (scene::Transfer::Columns, _) | (scene::Transfer::Auto, Settings::Software) => Self::Columns,
+            (scene::Transfer::Nodes, _) | (scene::Transfer::Auto, Settings::Hardware) => Self::Nodes,
+        }
+    }
 }
 
 /// What one transfer carries.

