@@ -308,8 +308,7 @@ impl<'a> Run<'a> {
             return self.close_writer();
         }
         self.heard.get_or_insert_with(interrupt::listen_between_steps);
-        let written = Written { frames: index + 1, ..Written::default() };
-        self.write_report((Status::Running, "running"), written, Verdict::default()).map(|_| ())
+        self.report_frame(index)
     }
 
     /// Waits for the writer.

@@ -1,5 +1,7 @@
 //! What pictures are drawn from, bit by bit on the host: read from a simulation, kept in files, and brought to a device again.
 
+use bytemuck::cast_slice;
+
 use super::buffers::{ParticleBuffers, SceneBuffers};
 use crate::Result;
 use crate::gpu::{Buffer, Gpu, readback};
@@ -94,6 +96,31 @@ impl Stored {
             kind: words.iter().map(|word| *word as u8 & kind::MASK).collect(),
             particles: particles.transpose()?,
         })
+    }
+
+    /// Puts the state into the buffers of a simulation, to draw it there; false, and nothing done, if sizes differ. The simulation cannot go
+    /// on from it.
+    #[must_use]
+    pub fn write(&self, gpu: &Gpu, buffers: &SceneBuffers) -> bool {
+        let count = self.particles.as_ref().map_or(0, |own| own.position.len() as u32);
+        let other = buffers.particles.map_or(0, |own| own.count) != count
+            || (buffers.maps.is_some() && self.maps.is_empty())
+            || (buffers.owed.is_some() && self.owed.is_empty());
+        if other || !self.fits(&buffers.grid) {
+            return false;
+        }
+        let words: Vec<u32> = self.kind.iter().map(|kind| u32::from(*kind)).collect();
+        let put = |buffer: &wgpu::Buffer, bytes: &[u8]| gpu.queue.write_buffer(buffer, 0, bytes);
+        put(buffers.conserved, cast_slice(&self.conserved));
+        put(buffers.energy, cast_slice(&self.energy));
+        put(buffers.cells, cast_slice(&words));
+        buffers.owed.iter().for_each(|buffer| put(buffer, cast_slice(&self.owed_flow())));
+        buffers.maps.iter().for_each(|buffer| put(buffer, cast_slice(&self.maps)));
+        if let (Some(own), Some(stored)) = (buffers.particles, &self.particles) {
+            let into = [own.position, own.velocity, own.affine, own.deformation, own.stress];
+            into.iter().zip(stored.arrays()).for_each(|(buffer, (_, array))| put(buffer, cast_slice(array)));
+        }
+        true
     }
 
     /// What is owed as the device has it; pictures read the mass alone.

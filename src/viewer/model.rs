@@ -39,7 +39,7 @@ impl Request {
                     "a run is shown as it was; what may change does so in the window, or by `brisance run --branch`";
                 return Err(Error::Usage(format!("{}: {text}", run.display())));
             }
-            return past::of_run(run, outside).map(|(scene, ..)| scene);
+            return past::of_run(run, outside).map(|recorded| recorded.scene);
         }
         let scene = Scene::find(&self.name, &self.overrides)?;
         match self.resolution {

@@ -1,11 +1,13 @@
-//! States of a scene at work that it can go back to: in memory, thinned out as the run gets longer, or the checkpoints of a run.
+//! States of a scene at work that it can go back to: in memory, thinned out as the run gets longer, or the checkpoints of a run; and those
+//! of its frames, which can only be looked at.
 
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
 use crate::expect::{Budget, Summary};
-use crate::export::checkpoint;
+use crate::export::{checkpoint, container, states};
+use crate::render::Stored;
 use crate::scene::Scene;
 use crate::simulation::{Host, Saved};
 use crate::{Error, Result};
@@ -22,6 +24,17 @@ const ROUNDING: f64 = 1e-9;
 enum Place {
     Memory(Box<Saved>),
     File(PathBuf, Box<Host>),
+    /// What pictures are drawn from.
+    Light(PathBuf),
+}
+
+/// A state that was read.
+#[derive(Debug)]
+pub(super) enum Found {
+    /// One to go on from.
+    Whole(Box<Saved>),
+    /// One to look at.
+    Light(Box<Stored>),
 }
 
 /// A state to go back to.
@@ -45,12 +58,19 @@ impl Kept {
     /// The state, of at most so many bytes.
     ///
     /// # Errors
-    /// [`Error::Io`] if a checkpoint cannot be read.
-    pub(super) fn saved(&self, most: u64) -> Result<Saved> {
-        match &self.place {
-            Place::Memory(saved) => Ok((**saved).clone()),
-            Place::File(path, host) => Ok(Saved { host: (**host).clone(), ..checkpoint::read(path, most)? }),
-        }
+    /// [`Error::Io`] if its file cannot be read.
+    pub(super) fn state(&self, most: u64) -> Result<Found> {
+        Ok(match &self.place {
+            Place::Memory(saved) => Found::Whole(saved.clone()),
+            Place::File(path, host) => {
+                Found::Whole(Box::new(Saved { host: (**host).clone(), ..checkpoint::read(path, most)? }))
+            }
+            Place::Light(path) => Found::Light(Box::new(states::read(path, most)?.1)),
+        })
+    }
+
+    fn is_whole(&self) -> bool {
+        !matches!(self.place, Place::Light(_))
     }
 }
 
@@ -78,7 +98,8 @@ impl Past {
 
     /// Keeps a state. Where there is no room, every second one in memory goes.
     pub(super) fn keep(&mut self, state: Kept) {
-        self.kept.push(state);
+        let place = self.kept.partition_point(|one| (one.time, one.step) <= (state.time, state.step));
+        self.kept.insert(place, state);
         let in_memory = |one: &Kept| matches!(one.place, Place::Memory(_));
         if self.kept.iter().filter(|one| in_memory(one)).count() > self.room {
             let mut index = 0;
@@ -94,6 +115,12 @@ impl Past {
     pub(super) fn latest(&self, time: f64) -> Option<&Kept> {
         let reached = |one: &&Kept| one.time <= time * (1.0 + ROUNDING);
         self.kept.iter().rev().find(reached).or(self.kept.first())
+    }
+
+    /// The last state up to a time \[s\] that the scene can go on from.
+    pub(super) fn latest_whole(&self, time: f64) -> Option<&Kept> {
+        let reached = |one: &&Kept| one.is_whole() && one.time <= time * (1.0 + ROUNDING);
+        self.kept.iter().rev().find(reached)
     }
 
     /// Forgets what came later: from here the scene goes another way.
@@ -115,30 +142,52 @@ struct About {
     start_budget: Budget,
 }
 
-/// A run on the disk: its scene, its checkpoints, and its books before the first step. `outside`: its meshes may lie elsewhere.
+/// A run on the disk.
+#[derive(Debug)]
+pub(super) struct Recorded {
+    /// Its scene.
+    pub(super) scene: Scene,
+    /// Its checkpoints, and the states of its frames between them.
+    pub(super) kept: Vec<Kept>,
+    /// Its books before the first step; none where it left no checkpoint.
+    pub(super) start: Option<Budget>,
+}
+
+/// Reads what a run left. `outside`: its meshes may lie elsewhere.
 ///
 /// # Errors
-/// [`Error::Usage`] if the folder has no checkpoints, or one of another scene; [`Error::Io`]; [`Error::Scene`].
-pub(super) fn of_run(run: &Path, outside: bool) -> Result<(Scene, Vec<Kept>, Budget)> {
-    let all = checkpoint::list(run)?;
-    let Some((_, last)) = all.last() else {
-        let hint = "`brisance run SCENE --checkpoint 10min --keep 20` leaves some";
-        return Err(Error::Usage(format!("{} is a folder without checkpoints to look at; {hint}", run.display())));
+/// [`Error::Usage`] if the folder has neither checkpoints nor states, or some of another scene; [`Error::Io`]; [`Error::Scene`].
+pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
+    let (whole, light) = (checkpoint::list(run)?, states::list(run)?);
+    let all = || whole.iter().map(|(_, path)| path).chain(light.iter().map(|(_, path)| path));
+    let Some(last) = whole.last().map(|(_, path)| path).or(light.last().map(|(_, path)| path)) else {
+        let hint = "`brisance run SCENE --export states`, or `--checkpoint 10min --keep 20`, leaves some";
+        return Err(Error::Usage(format!("{} is a folder without states to look at; {hint}", run.display())));
     };
-    let (head, text, _) = checkpoint::read_texts(last)?;
-    let scene = Scene::recorded(&text, (run, &head.source.scene_file), &[], outside)?;
-    let (mut kept, mut start) = (Vec::new(), Budget::default());
-    for (step, path) in all {
-        let (own, _, about) = checkpoint::read_texts(&path)?;
-        if own.source.scene_hash != head.source.scene_hash {
-            return Err(Error::Usage(format!("{}: a checkpoint of another scene than the last one", path.display())));
+    let (head, texts) = container::read_texts(last)?;
+    let text = texts.get(container::SCENE).map_or("", String::as_str);
+    let scene = Scene::recorded(text, (run, &head.source.scene_file), &[], outside)?;
+    for path in all() {
+        if container::read_texts(path)?.0.source.scene_hash != head.source.scene_hash {
+            return Err(Error::Usage(format!("{}: a state of another scene than the last one", path.display())));
         }
+    }
+    let (mut kept, mut start) = (Vec::new(), None);
+    for (step, path) in whole {
+        let (own, _, about) = checkpoint::read_texts(&path)?;
         let About { host, summary, start_budget } =
             toml::from_str(&about).map_err(|error| Error::Usage(format!("{}: {error}", path.display())))?;
-        start = start_budget;
+        start = Some(start_budget);
         kept.push(Kept { time: own.time, step, summary, place: Place::File(path, Box::new(host)) });
     }
-    Ok((scene, kept, start))
+    for (_, path) in light {
+        let (own, _) = container::read_texts(&path)?;
+        if kept.iter().all(|other: &Kept| other.step != own.step) {
+            kept.push(Kept { time: own.time, step: own.step, summary: Summary::default(), place: Place::Light(path) });
+        }
+    }
+    kept.sort_by(|a, b| a.time.total_cmp(&b.time));
+    Ok(Recorded { scene, kept, start })
 }
 
 #[cfg(test)]

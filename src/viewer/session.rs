@@ -4,14 +4,15 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::model::{Look, Strike};
-use super::past::{self, Kept, Past};
+use super::past::{self, Found, Kept, Past, Recorded};
 use super::pick;
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Ending, Summary, Warning};
+use crate::export::states;
 use crate::gpu::{Detail, Gpu};
-use crate::render::{Picture, Renderer};
+use crate::render::{Picture, Renderer, SceneBuffers, Stored};
 use crate::scene::{Camera, Field, RenderSettings, Scene};
-use crate::simulation::{Blast, Simulation};
+use crate::simulation::{Blast, Saved, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
 
@@ -33,6 +34,8 @@ pub struct Session {
     summary: Summary,
     warnings: Vec<Warning>,
     past: Past,
+    /// Time \[s\] and step of a state that is shown and cannot go on.
+    light: Option<(f64, u64)>,
 }
 
 impl Session {
@@ -46,14 +49,23 @@ impl Session {
         Ok(session)
     }
 
-    /// Opens a run on the disk at its last checkpoint; `outside`: its meshes may lie outside of its folder.
+    /// Opens a run on the disk at its last state; `outside`: its meshes may lie outside of its folder.
     ///
     /// # Errors
     /// [`Error::Usage`] if it has none; [`Error::Io`]; those of [`Session::open`].
     pub fn open_run(gpu: &Gpu, run: &Path, outside: bool) -> Result<Self> {
-        let (scene, kept, start) = past::of_run(run, outside)?;
+        let Recorded { scene, kept, start } = past::of_run(run, outside)?;
+        let begins = kept.first().is_some_and(|first| first.time == 0.0);
         let mut session = Self::new(gpu, scene, kept)?;
-        session.start = start;
+        match start {
+            Some(start) => session.start = start,
+            // a branch of another run begins later, from a state that is not here
+            None if begins => {
+                let saved = session.simulation.save()?;
+                session.past.keep(Kept::of(saved, Summary::default()));
+            }
+            None => {}
+        }
         session.rewind(f64::INFINITY)?;
         Ok(session)
     }
@@ -67,7 +79,8 @@ impl Session {
         let (start, summary, warnings) = (Budget::read(&simulation, &scene, 0.0)?, Summary::default(), Vec::new());
         let past = Past::new(scene.time.until, simulation.saved_bytes(), kept);
         let scene = Arc::new(scene);
-        Ok(Self { scene, simulation, renderer, particles, finished: false, dt: 0.0, start, summary, warnings, past })
+        let (finished, dt, light) = (false, 0.0, None);
+        Ok(Self { scene, simulation, renderer, particles, finished, dt, start, summary, warnings, past, light })
     }
 
     /// The scene as it is now.
@@ -85,13 +98,13 @@ impl Session {
     /// Simulated time \[s\].
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.simulation.time()
+        self.light.map_or(self.simulation.time(), |(time, _)| time)
     }
 
     /// Steps done.
     #[must_use]
     pub fn step_count(&self) -> u64 {
-        self.simulation.step_count()
+        self.light.map_or(self.simulation.step_count(), |(_, step)| step)
     }
 
     /// Length of the last step \[s\]; 0 before the first.
@@ -125,6 +138,7 @@ impl Session {
     /// # Errors
     /// Driver errors.
     pub fn go_on(&mut self) -> Result<()> {
+        self.whole()?;
         self.finished = false;
         self.simulation.set_target(NEVER)
     }
@@ -134,6 +148,7 @@ impl Session {
     /// # Errors
     /// [`Error::Diverged`]; driver errors.
     pub fn advance(&mut self, steps: u32, records: &mut Vec<StepRecord>) -> Result<()> {
+        self.whole()?;
         self.past.forget_after(self.time());
         let before = records.len();
         let outcome = self.simulation.advance_batch_of(records, steps);
@@ -159,16 +174,52 @@ impl Session {
     pub fn rewind(&mut self, time: f64) -> Result<f64> {
         let Some(kept) = self.past.latest(time) else { return Ok(self.time()) };
         if kept.step != self.step_count() || kept.time != self.time() {
-            let saved = kept.saved(self.simulation.saved_bytes())?;
-            self.simulation.restore(&saved)?;
-            self.summary = kept.summary.clone();
-            self.dt = self.summary.last.as_ref().map_or(0.0, |last| last.dt.into());
-            let until = self.scene.time.until;
-            self.finished = self.time() >= until * (1.0 - 1e-6);
-            self.simulation.set_target(if self.finished { NEVER } else { until })?;
-            self.warnings = expect::marks(&self.scene, &self.start, &self.summary);
+            match kept.state(self.simulation.saved_bytes().max(self.most_light()))? {
+                Found::Whole(saved) => {
+                    let summary = kept.summary.clone();
+                    self.set(&saved, summary)?;
+                }
+                Found::Light(stored) => self.show(&stored)?,
+            }
         }
         Ok(self.time())
+    }
+
+    /// Bytes that a state to look at has at most.
+    fn most_light(&self) -> u64 {
+        states::most_bytes(self.simulation.state.grid.slots() as u64, self.particles)
+    }
+
+    /// Shows a state that the scene cannot go on from.
+    fn show(&mut self, stored: &Stored) -> Result<()> {
+        let buffers = SceneBuffers::of(&self.simulation.state);
+        if !stored.write(self.simulation.gpu(), &buffers) {
+            return Err(Error::Usage("a state of the run has other sizes than its scene".to_owned()));
+        }
+        self.light = Some((stored.time, stored.step));
+        Ok(())
+    }
+
+    /// Takes a state to go on from.
+    fn set(&mut self, saved: &Saved, summary: Summary) -> Result<()> {
+        self.simulation.restore(saved)?;
+        (self.summary, self.light) = (summary, None);
+        self.dt = self.summary.last.as_ref().map_or(0.0, |last| last.dt.into());
+        let until = self.scene.time.until;
+        self.finished = self.time() >= until * (1.0 - 1e-6);
+        self.simulation.set_target(if self.finished { NEVER } else { until })?;
+        self.warnings = expect::marks(&self.scene, &self.start, &self.summary);
+        Ok(())
+    }
+
+    /// Where a state is shown that cannot go on, goes to the last one before it that can.
+    fn whole(&mut self) -> Result<()> {
+        let Some((time, _)) = self.light else { return Ok(()) };
+        let kept = self.past.latest_whole(time).ok_or_else(|| {
+            Error::Usage("this state can only be looked at: the run left no checkpoint up to it".to_owned())
+        })?;
+        let (state, summary) = (kept.state(self.simulation.saved_bytes())?, kept.summary.clone());
+        if let Found::Whole(saved) = state { self.set(&saved, summary) } else { Ok(()) }
     }
 
     /// Times of the states to go back to \[s\].
@@ -182,6 +233,7 @@ impl Session {
     /// # Errors
     /// As [`Session::advance`].
     pub fn measure(&mut self, records: &mut Vec<StepRecord>) -> Result<Vec<(String, f64)>> {
+        self.whole()?;
         let before = records.len();
         let (finished, times) = self.simulation.advance_timed(records, Detail::Stages)?;
         self.note(&records[before..]);
@@ -234,6 +286,7 @@ impl Session {
     /// # Errors
     /// [`Error::Usage`] if something differs that cannot change.
     pub fn change(&mut self, to: Scene, records: &mut Vec<StepRecord>) -> Result<()> {
+        self.whole()?;
         let before = records.len();
         self.simulation.change(&self.scene, &to, records)?;
         self.summary.add(&records[before..]);
@@ -247,6 +300,7 @@ impl Session {
     /// # Errors
     /// [`Error::Usage`] if the click misses the domain or its gas.
     pub fn strike(&mut self, strike: &Strike, look: &Look, records: &mut Vec<StepRecord>) -> Result<Blast> {
+        self.whole()?;
         let [width, height] = look.settings.size.map(f64::from);
         let ray = self.renderer.ray(&look.settings, self.time(), [strike.at[0] * width, strike.at[1] * height]);
         let grid = self.simulation.state.grid;

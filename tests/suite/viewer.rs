@@ -112,6 +112,42 @@ fn a_run_on_the_disk_is_looked_at_and_goes_on() {
     assert!(Session::open_run(&gpu, &run, false).unwrap_err().to_string().contains("--checkpoint"));
 }
 
+/// States of frames are looked at; from there the scene goes on from the last checkpoint, or from its start.
+#[test]
+fn states_of_frames_are_shown_and_the_scene_goes_on_before_them() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("charge.toml");
+    std::fs::write(&file, SPACE).unwrap();
+    let run = folder.path().join("run");
+    let out = run.to_str().unwrap();
+    let kept = ["--export", "states", "--frames", "4", "--checkpoint", "off", "-q", "--no-expect", "--out", out];
+    crate::cli::succeeds(&[&["run", file.to_str().unwrap(), "--until", "0.2"][..], &kept].concat());
+    let mut session = Session::open_run(&gpu, &run, false).unwrap();
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+    assert!(near(session.time(), 0.2) && session.kept().len() == 6, "{:?}", session.kept());
+    let look = session.look();
+    assert!(near(session.rewind(0.1).unwrap(), 0.1) && session.step_count() > 0);
+    // the picture of the run to the byte
+    let drawn = session.draw(&look).unwrap();
+    let frame = std::fs::File::open(run.join("frames/0002.png")).unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(frame)).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    let channels = info.color_type.samples();
+    let same = drawn.frame.rgba.chunks_exact(4).zip(bytes.chunks_exact(channels)).all(|(a, b)| a[..3] == b[..3]);
+    assert!(same, "the picture of the run");
+    let mut records = Vec::new();
+    session.advance(1, &mut records).unwrap();
+    let (_, rows) = crate::cli::table(&run.join("diagnostics.csv"));
+    assert_eq!((f64::from(records[0].step), records[0].time), (rows[0][0], rows[0][1]), "from the start");
+    // what is left of a branch has no start to go back to
+    std::fs::remove_file(run.join("states/0000.npz")).unwrap();
+    let mut session = Session::open_run(&gpu, &run, false).unwrap();
+    let told = session.advance(1, &mut records).unwrap_err().to_string();
+    assert!(told.contains("left no checkpoint up to it"), "{told}");
+}
+
 /// Waits until the outbox has what a test waits for; everything that came before is added to `seen`.
 fn wait(worker: &Worker, seen: &mut Outbox, what: &str, done: impl Fn(&Outbox) -> bool) {
     let start = Instant::now();

@@ -14,6 +14,8 @@ use crate::state::MemoryPlan;
 
 /// A process that is killed leaves a report that is no older.
 const OLDEST: Duration = Duration::from_secs(10);
+/// Frames that follow each other faster share a report.
+const OFTEN: Duration = Duration::from_millis(500);
 
 /// A run before its first step: scene, device and memory are known, kernels are not compiled yet.
 pub(super) struct Setup<'a> {
@@ -59,9 +61,15 @@ impl Setup<'_> {
 impl Run<'_> {
     /// How far the run is, for whoever looks, and for whoever finds what a killed process left.
     pub(super) fn report_so_far(&mut self) -> Result<()> {
-        if self.reported.elapsed() < OLDEST {
-            return Ok(());
-        }
+        if self.reported.elapsed() < OLDEST { Ok(()) } else { self.report_now() }
+    }
+
+    /// The same behind a frame: of the first two, and of those that are not too close.
+    pub(super) fn report_frame(&mut self, index: u32) -> Result<()> {
+        if index > 1 && self.reported.elapsed() < OFTEN { Ok(()) } else { self.report_now() }
+    }
+
+    fn report_now(&mut self) -> Result<()> {
         self.reported = Instant::now();
         let written = Written { frames: self.frame.map_or(0, |last| last + 1), ..Written::default() };
         self.write_report((Status::Running, "running"), written, Verdict::default()).map(|_| ())
