@@ -21,7 +21,7 @@ pub fn bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     read(std::fs::File::open(path)?, most)
 }
 
-/// The same for text.
+/// As [`bytes`], for text.
 ///
 /// # Errors
 /// As [`bytes`]; [`io::ErrorKind::InvalidData`] with line and column of the first byte that is not UTF-8.

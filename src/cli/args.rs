@@ -204,7 +204,7 @@ pub struct FilmOptions {
 pub struct RenderOptions {
     /// Folder of a run that has states: `brisance run SCENE --export states`
     pub run: PathBuf,
-    /// Read mesh files outside of the folder of the run, too, where the run found them
+    /// Read files outside of the folder of the run, too: meshes where the run found them, and what links lead to
     #[arg(long)]
     pub allow_outside: bool,
     /// Take [render] and output.fields from another scene file, or from a shipped scene
@@ -288,7 +288,7 @@ pub struct SweepOptions {
 pub struct ConvertOptions {
     /// Folder of a run that has states (`brisance run SCENE --export states`) or checkpoints
     pub run: PathBuf,
-    /// Read mesh files of obstacles outside of the folder of the run, too, where the run found them: for the format mesh
+    /// Read files outside of the folder of the run, too: meshes of obstacles where the run found them, and what links lead to
     #[arg(long)]
     pub allow_outside: bool,
     /// Formats: vtk, vdb, usd, mesh, npz, and exr, which needs a device; separated by commas, may be repeated

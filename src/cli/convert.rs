@@ -1,6 +1,6 @@
 //! `convert`: a finished run for other programs, from its states, without simulating.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::json;
@@ -37,7 +37,7 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
         let text = "png and states are no formats to convert to; `brisance render DIR` draws png and png16";
         return Err(Error::Usage(format!("--to {}: {text}", options.to.join(","))));
     }
-    let Recorded { scene_hash, scene_file, particles, mut scene } = read_report(&options.run)?;
+    let Recorded { scene_hash, scene_file, particles, mut scene } = read_report(&options.run, options.allow_outside)?;
     if needs.obstacles && !scene.obstacles.is_empty() {
         let text = toml::to_string(&scene).map_err(|error| Error::Scene(format!("report.json: {error}")))?;
         scene = Scene::recorded(&text, (&options.run, &scene_file), &[], options.allow_outside)?;
@@ -73,9 +73,12 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
 
 /// The states to convert, with the numbers of their frames; where a run has none, its checkpoints.
 fn frames(options: &ConvertOptions, scene: &Scene) -> Result<Vec<(u32, PathBuf)>> {
+    let allowed = |path: &Path| if options.allow_outside { Ok(()) } else { export::stays_inside(&options.run, path) };
     let mut all = states::list(&options.run)?;
+    all.iter().try_for_each(|(_, path)| allowed(path))?;
     if all.is_empty() {
         for (_, path) in checkpoint::list(&options.run)? {
+            allowed(&path)?;
             let time = checkpoint::read_texts(&path)?.0.time;
             all.push(((time / scene.frame_interval()).round() as u32, path));
         }

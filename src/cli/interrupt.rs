@@ -98,7 +98,10 @@ fn signal(urgent: bool) {
                     "\nterminated: tables and report after this step, no frames that wait, no film; once more ends at once"
                 );
             }
-            false => tell!("\ninterrupted: stopping after this step; once more ends at once"),
+            false => {
+                video::hurry();
+                tell!("\ninterrupted: stopping after this step; once more ends at once");
+            }
         }
         return;
     }

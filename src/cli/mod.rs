@@ -3,18 +3,12 @@
 
 /// Prints a line on standard output. A reader that has gone away, as in `brisance list | head -1`, is no error of ours.
 macro_rules! say {
-    ($($text:tt)*) => {{
-        use std::io::Write as _;
-        let _ = writeln!(std::io::stdout(), $($text)*);
-    }};
+    ($($text:tt)*) => { $crate::cli::write_line(&mut std::io::stdout(), &format!($($text)*)) };
 }
 
 /// Prints a line on standard error. A terminal that has gone away never ends a run.
 macro_rules! tell {
-    ($($text:tt)*) => {{
-        use std::io::Write as _;
-        let _ = writeln!(std::io::stderr(), $($text)*);
-    }};
+    ($($text:tt)*) => { $crate::cli::write_line(&mut std::io::stderr(), &format!($($text)*)) };
 }
 
 mod args;
@@ -47,6 +41,7 @@ mod writer;
 
 pub use args::{Cli, Command};
 
+use std::io::Write;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -56,6 +51,20 @@ use serde_json::json;
 
 use crate::gpu::{Gpu, GpuOptions};
 use crate::{Error, Result};
+
+/// Writes a line, or nothing where nobody reads. What foreign files say may be in it, so characters that command a terminal are spelt.
+pub(crate) fn write_line(to: &mut impl Write, text: &str) {
+    let commands = |letter: char| letter.is_control() && !matches!(letter, '\n' | '\r' | '\t');
+    let mut line = String::with_capacity(text.len() + 1);
+    for letter in text.chars() {
+        match commands(letter) {
+            true => line.extend(letter.escape_default()),
+            false => line.push(letter),
+        }
+    }
+    line.push('\n');
+    let _ = to.write_all(line.as_bytes());
+}
 
 /// Exit code of a bug of ours.
 const INTERNAL: u8 = 1;
@@ -197,4 +206,16 @@ fn open_device(cli: &Cli) -> Result<Gpu> {
         tell!("warning: SOFTWARE DEVICE: {name} computes on the CPU; results are the same, only slower than on a GPU");
     }
     Ok(gpu)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_that_a_file_says_commands_the_terminal() {
+        let mut line = Vec::new();
+        write_line(&mut line, "`\u{1b}[31mred\u{7}\u{9b}` is no name:\n\tcafé");
+        assert_eq!(String::from_utf8(line).unwrap(), "`\\u{1b}[31mred\\u{7}\\u{9b}` is no name:\n\tcafé\n");
+    }
 }

@@ -12,10 +12,11 @@ use super::progress::clock;
 use super::run::{PICTURES, without_coarse};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device};
-use crate::export::states;
+use crate::export::{self, states};
 use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
 use crate::scene::{MOST_PARTICLES, Overlays, Scene, Shot};
+use crate::spelling::did_you_mean;
 use crate::state::Grid;
 use crate::{Error, Result, input};
 
@@ -56,7 +57,7 @@ pub(super) fn layers(options: &ConvertOptions, cli: &Cli) -> Result<()> {
 fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
-    let recorded = read_report(&options.run)?;
+    let recorded = read_report(&options.run, options.allow_outside)?;
     let (hash, particles) = (recorded.scene_hash.clone(), recorded.particles.min(MOST_PARTICLES));
     let scene = with_look(recorded, options)?;
     if scene.hash() != hash {
@@ -98,9 +99,12 @@ fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli)
 /// Reads the report of a run.
 ///
 /// # Errors
-/// [`Error::Usage`] if the folder is none of a run.
-pub(super) fn read_report(run: &Path) -> Result<Recorded> {
+/// [`Error::Usage`] if the folder is none of a run, or the report lies elsewhere and `outside` does not allow it.
+pub(super) fn read_report(run: &Path, outside: bool) -> Result<Recorded> {
     let path = run.join("report.json");
+    if !outside {
+        export::stays_inside(run, &path)?;
+    }
     let text = input::text(&path, input::MOST_REPORT).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => {
             Error::Usage(format!("{} is no folder of a run: it has no report.json", run.display()))
@@ -183,6 +187,9 @@ fn frames(options: &RenderOptions) -> Result<Vec<(u32, PathBuf)>> {
     if let Some(missing) = options.frame.iter().find(|number| !found(number)) {
         return Err(Error::Usage(format!("{run} has no state of frame {missing}; it has {} states", all.len())));
     }
+    if !options.allow_outside {
+        all.iter().try_for_each(|(_, path)| export::stays_inside(&options.run, path))?;
+    }
     Ok(all.into_iter().filter(|(index, _)| options.frame.is_empty() || options.frame.contains(index)).collect())
 }
 
@@ -191,7 +198,8 @@ fn files(options: &RenderOptions, folder: PathBuf) -> Result<Files> {
     for name in &options.export {
         if !PICTURES.contains(&name.as_str()) {
             let known = PICTURES.join(", ");
-            return Err(Error::Usage(format!("--export {name}: pictures are drawn again as one of: {known}")));
+            let like = did_you_mean(name, PICTURES);
+            return Err(Error::Usage(format!("--export {name}: pictures are drawn again as one of: {known}{like}")));
         }
         if !formats.contains(name) {
             formats.push(name.clone());

@@ -2,6 +2,7 @@
 
 use std::io::IsTerminal;
 use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -12,7 +13,7 @@ use super::interrupt;
 use super::open_device;
 use crate::export::atomic;
 use crate::gpu::{Gpu, GpuOptions};
-use crate::verify::{self, Case, Common, Head, Row, Suite, Verdict};
+use crate::verify::{self, Case, Common, Findings, Head, Row, Suite, Verdict};
 use crate::{Error, Result};
 
 /// Cases that run at a time, at most, on a GPU and on a processor.
@@ -21,7 +22,7 @@ const AT_A_TIME: [usize; 2] = [4, 16];
 #[cfg(unix)]
 const DRIVER_THREADS: &str = "LP_NUM_THREADS";
 
-/// Runs the suite and judges. What was found before an error or an interruption is written all the same.
+/// Runs the suite and judges. What was found before an error, and by the cases before an interruption, is written all the same.
 ///
 /// # Errors
 /// [`Error::Expectation`] if a gate does not hold, after everything was written; those of runs.
@@ -42,26 +43,28 @@ pub(super) fn verify(options: &VerifyOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
     let gpu = open_device(cli)?;
-    let _heard = interrupt::listen_between_steps();
+    // a signal ends at once, wherever a case is: what the others found is written first
+    let found = Arc::new(Mutex::new(Findings::default()));
+    let words = last_words(head(options, &gpu, 0.0), &found, &options.out);
+    interrupt::last_words(&options.out, Some(Box::new(words)));
     let bar = progress(cases.len());
-    let notify = |text: &str| {
-        match &bar {
-            Some(bar) => bar.set_message(text.to_owned()),
-            None => tell!("{:6.1} s  {text}", start.elapsed().as_secs_f64()),
-        }
-        if interrupt::wish() { Err(Error::Interrupted) } else { Ok(()) }
+    let notify = |text: &str| match &bar {
+        Some(bar) => bar.set_message(text.to_owned()),
+        None => tell!("{:6.1} s  {text}", start.elapsed().as_secs_f64()),
     };
-    let done = || bar.iter().for_each(|bar| bar.inc(1));
+    let done = |own: &Findings| {
+        found.lock().unwrap_or_else(PoisonError::into_inner).add(own.clone());
+        bar.iter().for_each(|bar| bar.inc(1));
+    };
     let devices = [std::slice::from_ref(&gpu), &more_devices(cli, &gpu)?].concat();
     let (findings, outcome) = verify::perform(&devices, &Common::new(suite, &notify), &cases, &done);
-    let (rows, plots, seconds) = (findings.rows, findings.plots, findings.seconds);
+    interrupt::last_words(&options.out, None);
     if let Some(bar) = &bar {
         bar.finish_and_clear();
     }
     let head = head(options, &gpu, start.elapsed().as_secs_f64());
-    let object = verify::json(&head, &rows, &seconds);
-    write(&options.out.join("report.html"), &verify::html(&head, &rows, &plots))?;
-    write(&options.out.join("verify.json"), &format!("{object:#}\n"))?;
+    let object = write_all(&options.out, &head, &findings)?;
+    let rows = findings.rows;
     if cli.json {
         say!("{object}");
     } else if options.markdown {
@@ -133,6 +136,25 @@ fn head(options: &VerifyOptions, gpu: &Gpu, seconds: f64) -> Head {
         software: gpu.is_software(),
         seconds,
     }
+}
+
+/// What is left to do when the process ends at once.
+fn last_words(head: Head, found: &Arc<Mutex<Findings>>, out: &Path) -> impl FnMut() + Send + use<> {
+    let (found, out, start) = (Arc::clone(found), out.to_owned(), Instant::now());
+    move || {
+        if let Some(findings) = found.try_lock().ok().filter(|findings| !findings.seconds.is_empty()) {
+            let head = Head { seconds: start.elapsed().as_secs_f64(), ..head.clone() };
+            let _ = write_all(&out, &head, &findings);
+        }
+    }
+}
+
+/// Writes the page and the table; returns the table.
+fn write_all(out: &Path, head: &Head, Findings { rows, plots, seconds, .. }: &Findings) -> Result<serde_json::Value> {
+    let object = verify::json(head, rows, seconds);
+    write(&out.join("report.html"), &verify::html(head, rows, plots))?;
+    write(&out.join("verify.json"), &format!("{object:#}\n"))?;
+    Ok(object)
 }
 
 fn write(path: &Path, text: &str) -> Result<()> {

@@ -15,6 +15,8 @@ pub(super) const ENCODER: &str = "ffmpeg";
 const QUEUE: usize = 2;
 /// An encoder that takes no picture for so long, or does not end within it, is given up.
 const PATIENCE: Duration = Duration::from_secs(20);
+/// The same once somebody waits for the end: the film can be made from the pictures.
+const HASTE: Duration = Duration::from_secs(2);
 /// An encoder that does not say its version within this time is none.
 const ANSWER: Duration = Duration::from_secs(5);
 /// Between two looks at a process.
@@ -29,13 +31,13 @@ pub(super) fn answers() -> bool {
     let quiet = || Stdio::null();
     let mut command = Command::new(ENCODER);
     let asked = alone(&mut command).arg("-version").stdin(quiet()).stdout(quiet()).stderr(quiet()).spawn();
-    asked.is_ok_and(|mut process| ended(&mut process, ANSWER) == Some(true))
+    asked.is_ok_and(|mut process| ended(&mut process, || ANSWER) == Some(true))
 }
 
 /// Waits for a process to end, and ends it after some time: whether it was content, if it ended by itself.
-fn ended(process: &mut Child, patience: Duration) -> Option<bool> {
+fn ended(process: &mut Child, patience: fn() -> Duration) -> Option<bool> {
     let start = Instant::now();
-    while start.elapsed() < patience {
+    while start.elapsed() < patience() {
         match process.try_wait() {
             Ok(Some(status)) => return Some(status.success()),
             Ok(None) => std::thread::sleep(PAUSE),
@@ -64,11 +66,22 @@ fn end_group(leader: u32) {
 
 /// Encoders at work.
 static AT_WORK: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+/// Whether somebody waits for the end.
+static HURRY: AtomicBool = AtomicBool::new(false);
 /// Whether none may work any more.
 static OVER: AtomicBool = AtomicBool::new(false);
 
 fn at_work() -> std::sync::MutexGuard<'static, Vec<u32>> {
     AT_WORK.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// From now on encoders have a moment to end.
+pub(super) fn hurry() {
+    HURRY.store(true, Ordering::SeqCst);
+}
+
+fn patience() -> Duration {
+    if HURRY.load(Ordering::SeqCst) { HASTE } else { PATIENCE }
 }
 
 /// Ends every encoder, and those to come: their films are lost.
@@ -118,9 +131,9 @@ impl Encoder {
                 Err(TrySendError::Disconnected(_)) => return Err("it takes no more pictures".to_owned()),
                 Err(TrySendError::Full(picture)) => picture,
             };
-            if start.elapsed() > PATIENCE {
+            if start.elapsed() > patience() {
                 end(&mut self.process);
-                return Err(format!("it took no picture for {} s", PATIENCE.as_secs()));
+                return Err(format!("it took no picture for {} s", patience().as_secs()));
             }
             std::thread::sleep(PAUSE);
         }
@@ -129,14 +142,14 @@ impl Encoder {
     /// Waits for the end; the error is what the encoder said, or that it did not end.
     pub(super) fn finish(mut self) -> Result<(), String> {
         self.pictures = None;
-        let end = ended(&mut self.process, PATIENCE);
+        let end = ended(&mut self.process, patience);
         // both end with the process
         self.feeding.take().map(JoinHandle::join);
         let said = self.said.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
         match end {
             Some(true) => Ok(()),
             Some(false) => Err(said.trim().to_owned()),
-            None => Err(format!("it did not end within {} s {said}", PATIENCE.as_secs()).trim().to_owned()),
+            None => Err(format!("it did not end within {} s {said}", patience().as_secs()).trim().to_owned()),
         }
     }
 }
@@ -213,7 +226,7 @@ mod tests {
     #[test]
     fn one_that_does_not_end_is_ended() {
         let mut process = alone(Command::new("sh").args(["-c", "sleep 1000; true"])).spawn().unwrap();
-        assert_eq!(ended(&mut process, Duration::from_millis(100)), None);
+        assert_eq!(ended(&mut process, || Duration::from_millis(100)), None);
         assert!(process.try_wait().unwrap().is_some());
     }
 }

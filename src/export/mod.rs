@@ -32,6 +32,21 @@ use crate::snapshot::Snapshot;
 use crate::spelling::did_you_mean;
 use crate::{Error, Result};
 
+/// Refuses a file that a link, or its path, leads out of a folder that somebody else may have made. A file that is not there passes.
+///
+/// # Errors
+/// [`Error::Usage`] with the file.
+pub fn stays_inside(folder: &Path, file: &Path) -> Result<()> {
+    match (file.canonicalize(), folder.canonicalize()) {
+        (Ok(real), Ok(folder)) if !real.starts_with(&folder) => {
+            let text =
+                "leads out of the folder of the run, and nothing outside of it is read; --allow-outside reads it";
+            Err(Error::Usage(format!("{} {text}", file.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// What files say about the scene that they come from.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Origin {

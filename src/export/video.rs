@@ -15,6 +15,11 @@ pub fn is_possible() -> bool {
     encoder::answers()
 }
 
+/// Gives encoders a moment only, from now on: somebody waits for the end.
+pub fn hurry() {
+    encoder::hurry();
+}
+
 /// Ends every encoder, and those to come, where there is no time to wait for films.
 pub fn end_all() {
     encoder::end_all();

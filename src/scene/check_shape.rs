@@ -168,7 +168,7 @@ pub(super) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
         if let Some(point) = outside_point(scene, body) {
             let message = format!("body `{}` reaches out of the domain, at {point:?} for example", body.name);
             let (low, high) = body.shape.bounds();
-            let hint = remedy(&scene.domain, low, high);
+            let hint = remedy(&scene.domain, place(&body.shape), low, high);
             let help =
                 format!("{}; {hint}move or shrink the body, or cut it with an intersection", extent(&scene.domain));
             findings.push(Finding::new(&path, message, help));
@@ -191,27 +191,46 @@ pub(super) fn extent(domain: &Domain) -> String {
     format!("the domain has {}", ranges.collect::<Vec<_>>().join(", "))
 }
 
-/// What would make a thing fit that other programs wrote: thousandths, or a quarter turn.
-fn remedy(domain: &Domain, low: [f64; 3], high: [f64; 3]) -> String {
+/// Where a mesh puts the origin of its file; that of the domain for other shapes.
+fn place(shape: &Shape) -> [f64; 3] {
+    if let Shape::Mesh(mesh) = shape { mesh.offset } else { [0.0; 3] }
+}
+
+/// What would make a thing fit that other programs wrote: thousandths, or a quarter turn, at its place or at another one.
+fn remedy(domain: &Domain, place: [f64; 3], low: [f64; 3], high: [f64; 3]) -> String {
     let axes = domain.axes().min(3);
     let inside = |low: [f64; 3], high: [f64; 3]| {
         (0..axes).all(|d| low[d] >= domain.origin[d] && high[d] <= domain.origin[d] + domain.size[d])
     };
-    let scaled = |factor: f64| inside(low.map(|x| x * factor), high.map(|x| x * factor));
-    let upright = ([low[0], -high[2], low[1]], [high[0], -low[2], high[1]]);
-    let lying = ([low[0], low[2], -high[1]], [high[0], high[2], -low[1]]);
-    if !low.iter().chain(&high).take(3 * 2).all(|x| x.is_finite()) {
-        String::new()
-    } else if scaled(1e-3) {
-        "it would fit with `scale = 0.001`, from millimetres; ".to_owned()
-    } else if scaled(1e3) {
-        "it would fit with `scale = 1000`, to millimetres; ".to_owned()
-    } else if inside(upright.0, upright.1) || inside(lying.0, lying.1) {
-        "it would fit after a quarter turn about x: `axis = [1, 0, 0]`, `degrees = 90` or -90, or `up` of a mesh; "
-            .to_owned()
-    } else {
-        String::new()
+    let fits = |low: [f64; 3], high: [f64; 3]| {
+        let seen = (0..axes).any(|d| high[d] - low[d] >= domain.spacing());
+        seen && (0..axes).all(|d| high[d] - low[d] <= domain.size[d])
+    };
+    let ends = [low, high].map(|end| [0, 1, 2].map(|d| end[d] - place[d]));
+    let scaled = |factor: f64| ends.map(|end| end.map(|x| x * factor));
+    let [from, to] = ends;
+    let upright = [[from[0], -to[2], from[1]], [to[0], -from[2], to[1]]];
+    let lying = [[from[0], from[2], -to[1]], [to[0], to[2], -from[1]]];
+    let turned = "after a quarter turn about x: `axis = [1, 0, 0]`, `degrees = 90` or -90, or `up` of a mesh";
+    let remedies = [
+        (scaled(1e-3), "with `scale = 0.001`, from millimetres"),
+        (scaled(1e3), "with `scale = 1000`, to millimetres"),
+        (upright, turned),
+        (lying, turned),
+    ];
+    if !low.iter().chain(&high).all(|x| x.is_finite()) {
+        return String::new();
     }
+    let there = |[low, high]: [[f64; 3]; 2]| {
+        let [low, high] = [low, high].map(|end| [0, 1, 2].map(|d| end[d] + place[d]));
+        fits(low, high) && inside(low, high)
+    };
+    let at_its_place = remedies.iter().find(|(ends, _)| there(*ends)).map(|(_, what)| format!("it would fit {what}; "));
+    let elsewhere = || {
+        let (_, what) = remedies.iter().find(|([low, high], _)| !fits(from, to) && fits(*low, *high))?;
+        Some(format!("it would fit {what}, at another place; "))
+    };
+    at_its_place.or_else(elsewhere).unwrap_or_default()
 }
 
 fn misses(scene: &Scene, path: &str, shape: &Shape, findings: &mut Vec<Finding>) -> bool {
@@ -222,7 +241,7 @@ fn misses(scene: &Scene, path: &str, shape: &Shape, findings: &mut Vec<Finding>)
     if outside {
         let corner = |v: [f64; 3]| v[..domain.axes()].to_vec();
         let message = format!("lies outside the domain, between {:?} and {:?}", corner(low), corner(high));
-        let hint = remedy(domain, low, high);
+        let hint = remedy(domain, place(shape), low, high);
         findings.push(Finding::new(
             path,
             message,

@@ -187,14 +187,16 @@ fn read(source: &mut Source, most_values: u64) -> std::result::Result<Scene, Vec
     }
     source.index(&root);
     check::numbers(&root, &mut findings);
-    let (words, unreadable) = vocabulary::findings(&mut root);
+    let mut root = Spanned::new(place, root);
+    let (words, mended) = vocabulary::findings(&mut root);
+    // keys that took the place of others are found where they stand
+    (!words.is_empty()).then(|| source.index(root.get_ref()));
     findings.extend(words);
-    match Scene::deserialize(Deserializer::from(Spanned::new(place, root))) {
+    match Scene::deserialize(Deserializer::from(root)) {
         Err(error) => {
             // what cannot be read was told with all others of its kind
-            if !unreadable {
-                findings.push(located(source, &error));
-            }
+            let own = Some(located(source, &error)).filter(|own| !mended.unreadable && mended.concerns(own));
+            findings.extend(own);
             Err(findings)
         }
         Ok(mut scene) => {
@@ -202,10 +204,8 @@ fn read(source: &mut Source, most_values: u64) -> std::result::Result<Scene, Vec
             let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
             let dimension = scene.domain.dimension;
             let shapes = scene.resolve_shapes(MeshFolder { folder, outside, dimension });
-            if shapes.is_empty() {
-                findings.extend(check::findings(&scene));
-            }
-            findings.extend(shapes);
+            let all = if shapes.is_empty() { check::findings(&scene) } else { shapes };
+            findings.extend(all.into_iter().filter(|finding| mended.concerns(finding)));
             if findings.is_empty() { Ok(scene) } else { Err(findings) }
         }
     }

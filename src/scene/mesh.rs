@@ -152,7 +152,8 @@ impl MeshFolder<'_> {
         }
         let refused = || {
             let help = "copy the file into the folder of the scene, or allow others with --allow-outside";
-            (format!("`{path}` lies outside of the folder of the scene"), help.to_owned())
+            let what = if Path::new(path).is_absolute() { "is no path from" } else { "lies outside of" };
+            (format!("`{path}` {what} the folder of the scene"), help.to_owned())
         };
         let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
         if !Path::new(path).components().all(inside) {

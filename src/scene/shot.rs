@@ -25,6 +25,7 @@ pub struct Shot {
 #[schemars(rename = "View")]
 pub struct ShotKeys {
     /// Fields shown, one picture each; those of `output.fields` when left out.
+    #[schemars(default)]
     fields: Vec<Field>,
     /// What the view changes.
     #[serde(flatten)]

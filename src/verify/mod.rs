@@ -138,15 +138,15 @@ pub fn select(suite: Suite, filter: &str) -> Vec<&'static Case> {
 }
 
 /// Runs cases, as many at a time as there are devices, and brings together what they found in the order of the cases. Small runs
-/// leave a device idle between their dispatches; two at a time fill it. `done` is called after each case.
+/// leave a device idle between their dispatches; two at a time fill it. `done` is called after each case, with what it found.
 ///
 /// # Errors
-/// Beside what was found: the first driver error, wrong scene or interruption. No case starts after it.
+/// Beside what was found: the first driver error or wrong scene. No case starts after it.
 pub fn perform(
     devices: &[Gpu],
     common: &Common<'_>,
     cases: &[&'static Case],
-    done: &(dyn Fn() + Sync),
+    done: &(dyn Fn(&Findings) + Sync),
 ) -> (Findings, Result<()>) {
     // the last cases run longest and start first
     let left = AtomicUsize::new(cases.len());
@@ -158,8 +158,8 @@ pub fn perform(
             if result.1.is_err() {
                 left.store(0, Ordering::Relaxed);
             }
+            done(&result.0);
             found.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
-            done();
         }
     };
     std::thread::scope(|scope| {

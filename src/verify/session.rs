@@ -130,8 +130,8 @@ pub struct Journey {
 pub struct Common<'a> {
     /// How much to run.
     pub suite: Suite,
-    /// Called before each run with its name; an error ends the verification.
-    pub notify: &'a (dyn Fn(&str) -> Result<()> + Sync),
+    /// Called before each run with its name.
+    pub notify: &'a (dyn Fn(&str) + Sync),
     /// Solutions of [`muscl`], by scene and cells.
     references: Mutex<BTreeMap<String, Arc<Profile>>>,
 }
@@ -139,13 +139,13 @@ pub struct Common<'a> {
 impl<'a> Common<'a> {
     /// Nothing computed yet.
     #[must_use]
-    pub fn new(suite: Suite, notify: &'a (dyn Fn(&str) -> Result<()> + Sync)) -> Self {
+    pub fn new(suite: Suite, notify: &'a (dyn Fn(&str) + Sync)) -> Self {
         Common { suite, notify, references: Mutex::default() }
     }
 }
 
 /// What cases found.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Findings {
     /// All lines.
     pub rows: Vec<Row>,
@@ -254,7 +254,7 @@ impl<'a> Session<'a> {
         }
         let size = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join("x");
         let label = format!("{} {} {size}", pair_name(pair), Integrator::of(&scene).name());
-        (self.common.notify)(&format!("{}: {label}", self.case))?;
+        (self.common.notify)(&format!("{}: {label}", self.case));
         Ok((scene, label))
     }
 
@@ -318,7 +318,7 @@ impl<'a> Session<'a> {
         if let Some(found) = references.get(&key) {
             return Ok(Arc::clone(found));
         }
-        (self.common.notify)(&format!("{}: MUSCL-HLLC reference {cells}", self.case))?;
+        (self.common.notify)(&format!("{}: MUSCL-HLLC reference {cells}", self.case));
         let profile = Arc::new(muscl::solve(&scene.with_resolution(cells)?));
         references.insert(key, Arc::clone(&profile));
         Ok(profile)

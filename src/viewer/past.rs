@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use crate::expect::{Budget, Summary};
-use crate::export::{checkpoint, container, states};
+use crate::export::{self, checkpoint, container, states};
 use crate::render::Stored;
 use crate::scene::Scene;
 use crate::simulation::{Host, Saved};
@@ -164,6 +164,9 @@ pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
         let hint = "`brisance run SCENE --export states`, or `--checkpoint 10min --keep 20`, leaves some";
         return Err(Error::Usage(format!("{} is a folder without states to look at; {hint}", run.display())));
     };
+    if !outside {
+        all().try_for_each(|path| export::stays_inside(run, path))?;
+    }
     let (head, texts) = container::read_texts(last)?;
     let text = texts.get(container::SCENE).map_or("", String::as_str);
     let scene = Scene::recorded(text, (run, &head.source.scene_file), &[], outside)?;

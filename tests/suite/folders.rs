@@ -234,6 +234,40 @@ fn a_second_signal_ends_at_once_with_the_encoder() {
     assert_eq!(report(&folder.path().join("run"))["status"], "stopped");
 }
 
+#[test]
+fn an_interruption_gives_the_encoder_a_moment() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
+    let start = Instant::now();
+    assert!(kill("-INT", &child.id().to_string()));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    // an encoder is waited for 20 s where nobody waits for the end
+    assert!(start.elapsed() < Duration::from_secs(15) && !lives(&encoder), "{:?}", start.elapsed());
+    assert_eq!(report(&folder.path().join("run"))["status"], "stopped");
+}
+
+#[test]
+fn a_verification_is_stopped_within_a_case_with_what_the_others_found() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let arguments = ["verify", "--full", "--filter", "sod", "--out", out];
+    let mut child = brisance(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let said = std::io::BufReader::new(child.stderr.take().unwrap());
+    // the name of a run is told before its kernels are compiled
+    let first = std::io::BufRead::lines(said).map_while(Result::ok).find(|line| line.contains("s  sod"));
+    assert!(first.is_some());
+    let start = Instant::now();
+    assert!(kill("-INT", &child.id().to_string()));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+}
+
 /// Waits for a condition, at most two minutes.
 fn wait_for(what: &str, mut condition: impl FnMut() -> bool) {
     let start = Instant::now();
@@ -302,6 +336,32 @@ fn a_film_that_nobody_encodes_is_told_by_the_exit_code() {
     let report = report(&target);
     assert_eq!((&report["status"], &report["frames"]), (&"finished".into(), &2.into()));
     assert!(report["outcome"].as_str().unwrap().starts_with("no film film.mp4: ffmpeg"), "{}", report["outcome"]);
+}
+
+/// Whoever sent the folder of a run may have put links into it.
+#[test]
+fn no_link_leads_out_of_a_foreign_run() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("run");
+    let out = target.to_str().unwrap();
+    succeeds(&[&SHORT[..], &[out, "--export", "states", "--set", "render.size=[64, 64]"]].concat());
+    let again = [vec!["render", out], vec!["convert", out, "--to", "npz"]];
+    for name in ["states/0001.npz", "states", "report.json"] {
+        let (inside, outside) = (target.join(name), folder.path().join("elsewhere"));
+        std::fs::rename(&inside, &outside).unwrap();
+        std::os::unix::fs::symlink(&outside, &inside).unwrap();
+        for arguments in &again {
+            let told = fails(2, arguments);
+            assert!(told.contains("leads out of the folder of the run") && told.contains("--allow-outside"), "{told}");
+            succeeds(&[&arguments[..], &["--allow-outside"]].concat());
+        }
+        std::fs::remove_file(&inside).unwrap();
+        std::fs::rename(&outside, &inside).unwrap();
+        again.iter().for_each(|arguments| drop(succeeds(arguments)));
+    }
 }
 
 #[test]

@@ -267,3 +267,41 @@ fn file_that_does_not_exist() {
     assert_eq!(error.exit_code(), 9);
     assert!(error.to_string().contains("/no/such.toml"));
 }
+
+/// What is misspelt, missing or of a wrong type hides nothing else, and what stands for it is never complained of.
+#[test]
+fn every_mistake_is_told_at_once() {
+    let text = BASE
+        .replace("dimension", "dimensoin")
+        .replace("density = 1.0, pressure", "density = -1.0, presure")
+        .replace("neo_hookean = { young_modulus = 100.0", "neo_hokean = { young_modulus = -100.0")
+        .replace("until = 1.0", "untill = 1.0\ncfl = \"x\"");
+    let more = "[[bodies]]\nname = \"a\"\ndensity = -2.0\nshape = { qqqq = { radius = 1.0 } }\n\
+                [[bodies]]\nname = \"b\"\nmaterial = \"ruber\"\ndensty = 1.0\n\
+                shape = { sphere = { center = [0.5, 0.5], radius = -0.1 } }\n[render]\nmode = 3\nsize = [0, 64]\n";
+    let wanted = [
+        "domain.dimensoin: unknown field",
+        "gas.ambient.density: -1",
+        "gas.ambient.presure: unknown field",
+        "materials.rubber: unknown variant `neo_hokean`; did you mean `neo_hookean`?",
+        "materials.rubber.neo_hookean.young_modulus: -100",
+        "time.untill: unknown field `untill`; did you mean `until`?",
+        "time.cfl: invalid type: string",
+        "bodies[0]: missing field `material`",
+        "bodies[0].density: -2",
+        "bodies[0].shape: unknown variant `qqqq`",
+        "bodies[1].material: unknown material `ruber`; did you mean `rubber`?",
+        "bodies[1].densty: unknown field",
+        "bodies[1].shape.sphere.radius: -0.1",
+        "render.mode: invalid type: integer",
+        "render.size: 0",
+    ];
+    let told = report(&format!("{text}{more}"), &[]);
+    for words in wanted {
+        assert!(told.contains(words), "no `{words}` in\n{told}");
+    }
+    assert!(told.ends_with(&format!("{} errors in this scene", wanted.len())), "{told}");
+    // where the domain is not known, nothing is said of what lies in it
+    let told = report(&format!("{}{more}", text.replace("size = [2.0, 1.0]\n", "")), &[]);
+    assert!(told.contains("missing field `size`") && !told.contains("radius: -0.1"), "{told}");
+}

@@ -206,9 +206,34 @@ fn files_that_are_damaged_or_elsewhere() {
     write("a.glb", b"glTF\x02\x00\x00\x00\xff\xff\xff\x7f");
     refused(&folder, "path = \"a.glb\"", &["cannot be read"]);
     refused(&folder, "path = \"../a.obj\"", &["lies outside", "--allow-outside"]);
-    refused(&folder, "path = \"/etc/passwd.obj\"", &["lies outside"]);
+    refused(&folder, "path = \"/etc/passwd.obj\"", &["is no path from the folder of the scene"]);
     refused(&folder, "path = \"missing.obj\"", &["missing.obj"]);
     refused(&folder, "path = \"a.step\"", &["no mesh file", ".glb"]);
+}
+
+/// Millimetres, and y as up, at the place where the body is to stand or elsewhere.
+#[test]
+fn a_body_that_does_not_fit_is_told_what_would_make_it_fit() {
+    let root = tempfile::tempdir().expect("a temporary folder");
+    let (positions, triangles) = ball(2);
+    let scaled = |by: [f64; 3]| {
+        let positions = positions.iter().map(|place| [0, 1, 2].map(|d| place[d] * by[d])).collect();
+        obj(&(positions, triangles.clone()))
+    };
+    std::fs::write(root.path().join("millimetres.obj"), scaled([400.0; 3])).expect("our own folder");
+    std::fs::write(root.path().join("lying.obj"), scaled([0.3, 1.3, 0.3])).expect("our own folder");
+    let tower = ["domain.cells=[8, 8, 32]", "domain.size=[0.25, 0.25, 1.0]"];
+    let turn = "it would fit after a quarter turn about x";
+    for (file, offset, overrides, words) in [
+        ("millimetres", "[0.5, 0.5, 0.5]", &[][..], ["with `scale = 0.001`, from millimetres; ", ""]),
+        ("millimetres", "[5.0, 0.5, 0.5]", &[], ["with `scale = 0.001`, from millimetres", ", at another place; "]),
+        ("lying", "[0.125, 0.125, 0.5]", &tower, [turn, "`up` of a mesh; "]),
+        ("lying", "[0.125, 0.125, 0.1]", &tower, [turn, "`up` of a mesh, at another place; "]),
+    ] {
+        let told = load(root.path(), &format!("path = \"{file}.obj\", offset = {offset}"), overrides);
+        let told = told.map(|_| ()).unwrap_err();
+        assert!(words.iter().all(|word| told.contains(word)), "{file} {offset}: {told}");
+    }
 }
 
 /// What a run wrote down names files; whoever sent its folder may have chosen them.
