@@ -48,7 +48,7 @@ impl<'a> SceneBuffers<'a> {
             conserved: state.gas.conserved.raw(),
             energy: state.gas.energy.raw(),
             owed: (state.gas.owed_flow.len() == state.grid.slots()).then(|| state.gas.owed_flow.raw()),
-            maps: (state.maps.len() > 0).then(|| state.maps.raw()),
+            maps: (!state.maps.is_empty()).then(|| state.maps.raw()),
             cells: state.interface.cells.raw(),
             particles: state.has_solids().then(|| ParticleBuffers {
                 count: particles.count,

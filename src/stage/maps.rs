@@ -20,7 +20,7 @@ impl Maps {
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>) -> Result<Option<Self>> {
         let Parts { gpu, state } = parts;
-        if state.maps.len() == 0 {
+        if state.maps.is_empty() {
             return Ok(None);
         }
         let bind = |entry: &str| state.bind(gpu, "maps.wgsl", entry, &[], &[]);

@@ -230,7 +230,7 @@ impl State {
                 }
             }
         }
-        if self.maps.len() > 0 {
+        if !self.maps.is_empty() {
             self.maps.write(gpu, 0, &gas::first_maps(&conserved, &energy, self.params.gamma));
         }
         self.gas.conserved.write(gpu, 0, &conserved);

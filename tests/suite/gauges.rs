@@ -98,9 +98,8 @@ fn a_free_body_gets_the_impulse_that_its_gauge_shows() {
     let particle = snapshot.particles.iter().find(|particle| particle.index as usize == nearest.unwrap()).unwrap();
     let point = records[records.len() - 1].points[0];
     assert_eq!((point.velocity, point.stress, point.damage), (particle.velocity, particle.stress, 0.0));
-    for axis in 0..2 {
-        let moved = f64::from(particle.position[axis]) - start[axis];
-        assert!((f64::from(point.displacement[axis]) - moved).abs() < 1e-6, "{point:?}");
+    for ((place, start), own) in particle.position.iter().zip(start).zip(point.displacement) {
+        assert!((f64::from(own) - (f64::from(*place) - start)).abs() < 1e-6, "{point:?}");
     }
     assert!(
         point.displacement[0] > 1e-3 && point.elastic_strain[0] != 0.0 && records.iter().all(|r| r.points.len() == 1)
