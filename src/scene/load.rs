@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
-use super::{Material, Scene, budget, check, variants, vocabulary};
+use super::{Material, Scene, budget, check, look, variants, vocabulary};
 use crate::material::{PRESETS, Units};
 use crate::{Error, Result, input};
 
@@ -191,6 +191,7 @@ fn read(source: &mut Source, most_values: u64) -> std::result::Result<Scene, Vec
     let (words, mended) = vocabulary::findings(&mut root);
     // keys that took the place of others are found where they stand
     (!words.is_empty()).then(|| source.index(root.get_ref()));
+    look::apply(root.get_mut());
     findings.extend(words);
     match Scene::deserialize(Deserializer::from(root)) {
         Err(error) => {

@@ -29,6 +29,7 @@ mod fracture;
 mod gauge;
 mod integrator;
 mod load;
+mod look;
 mod mesh;
 mod named;
 mod noise;
@@ -79,6 +80,7 @@ pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quanti
 pub use fracture::Breaking;
 pub use gauge::{Gauge, GaugePlace, Side};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
+pub use look::Look;
 pub use mesh::{Mesh, Up};
 pub use named::Named;
 pub use polyhedron::Part;

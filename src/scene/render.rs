@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::camera::{Camera, CameraPath};
+use super::look::Look;
 use super::shot::ShotKeys;
 
 /// A quantity of the gas that can be shown.
@@ -85,6 +86,8 @@ impl Field {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderSettings {
+    /// One word for many of the keys below, where they are left out.
+    pub look: Look,
     /// Width and height in pixels, 16 to 8192 each.
     pub size: [u32; 2],
     /// Where the eye is, in 3D; a view from the side and above when left out.
@@ -152,6 +155,7 @@ pub struct RenderSettings {
 impl Default for RenderSettings {
     fn default() -> Self {
         RenderSettings {
+            look: Look::default(),
             size: [1280, 720],
             camera: None,
             path: None,

@@ -105,6 +105,7 @@ impl Scene {
             Some(fields) => located(fields).map_err(|(key, message)| (format!("fields{key}"), message))?,
             None => self.output.fields.clone(),
         };
+        super::look::apply_to_view(&mut changes, self.domain.dimension);
         if changes.contains_key("views") {
             return Err(("views".to_owned(), "a view has no views of its own".to_owned()));
         }
