@@ -117,6 +117,10 @@ impl Kernel {
         let listed = overrides.iter().any(|&(name, value)| name == LISTED && value != 0.0);
         let name = if listed { format!("{entry} (listed)") } else { entry.to_owned() };
         gpu.check()?;
+        let missing = compiled.missing_overrides(entry, &overrides)?;
+        if !missing.is_empty() {
+            return Err(Error::Shader(format!("{label}: no value for override {}", missing.join(", "))));
+        }
         if let Some(folder) = &gpu.written {
             super::written::write(folder, compiled, entry, &overrides)?;
         }

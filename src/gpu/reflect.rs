@@ -68,6 +68,17 @@ impl Compiled {
         self.module.entry_points.iter().map(|point| point.name.as_str())
     }
 
+    /// Names of the overrides that an entry point reads, that need a value and have none among `given`.
+    ///
+    /// # Errors
+    /// [`Error::Shader`] for an unknown entry point.
+    pub fn missing_overrides(&self, entry: &str, given: &[(&str, f64)]) -> Result<Vec<&str>> {
+        let read = &self.overrides[self.position(entry)?];
+        let open = self.module.overrides.iter().filter(|(_, declared)| declared.init.is_none());
+        let names = open.filter_map(|(_, declared)| declared.name.as_deref());
+        Ok(names.filter(|name| read.contains(*name) && given.iter().all(|(known, _)| known != name)).collect())
+    }
+
     /// Whether the shader declares `override name`.
     #[must_use]
     pub fn has_override(&self, name: &str) -> bool {
