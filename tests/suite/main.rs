@@ -11,7 +11,6 @@ mod checkpoint;
 mod cli;
 mod cold;
 mod common;
-mod contacts;
 mod cut;
 mod determinism;
 mod export;
