@@ -186,7 +186,6 @@ impl Gas {
         Gas {
             gamma: super::default_gamma(),
             ambient,
-            atmosphere: super::Atmosphere::default(),
             regions: Vec::new(),
             waves: Vec::new(),
             vortices: Vec::new(),

@@ -34,7 +34,6 @@ mod loads;
 mod maps;
 mod materials;
 mod numerics;
-mod open_sides;
 mod pages;
 mod preconditioner;
 mod prose;
