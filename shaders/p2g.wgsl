@@ -1,5 +1,5 @@
 // p2g: what do the solids look like on the grid?
-// Gather form: each thread marches along the last axis, takes in the particles of one column of cells, and adds them to the nodes
+// Form by columns, for software devices: each thread marches along the last axis, takes in the particles of one column of cells, and adds them to the nodes
 // of that column and of those beside it. Columns are colored: of three next to each other along an axis only one is in a dispatch,
 // so no two threads share a node, and the colors follow one another in a fixed order: equal bits on every run.
 // Reads particles, order. Writes node (velocity, mass). On return the sums of mass and momentum are the particles'.
@@ -7,18 +7,8 @@
 #include "shared/index.wgsl"
 #include "shared/columns.wgsl"
 #include "shared/place.wgsl"
+#include "shared/transfer.wgsl"
 
-override WITH_FORCE: bool;      // elastic force instead of mass and momentum
-override WITH_DRIVER: bool;     // and the driver of fracture times the mass, in w
-
-@group(0) @binding(1) var<storage, read> position: array<vec4f>;
-@group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
-@group(0) @binding(3) var<storage, read> affine: array<vec4f>;
-@group(0) @binding(4) var<storage, read> stress: array<vec4f>;
-@group(0) @binding(5) var<storage, read> order: array<u32>;
-@group(0) @binding(6) var<storage, read> cell_start: array<u32>;
-@group(0) @binding(7) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(8) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(9) var<uniform> color: vec4u;                    // column, along x and y, that the color starts with
 
 // What a particle gives to the node at `offset`: the product of its weights times `constant`, and for each axis the product with

@@ -1,21 +1,11 @@
 // p2g: what do the solids look like on the grid?
-// Form for hardware: each thread takes one node and sums what the particles of the cells around it give, row after row. Cells that
+// Form by nodes, for hardware: each thread takes one node and sums what the particles of the cells around it give, row after row. Cells that
 // follow each other along x have their sorted particles next to each other. Sums have one order: equal bits on every run.
 // Same reads and writes as p2g.wgsl; velocity, mass and force come out in the same places. [Jiang et al. 2015; Cao et al. 2022, section 2.2]
 #include "shared/index.wgsl"
+#include "shared/transfer.wgsl"
 
 override WITH_MASS: bool;       // mass and momentum
-override WITH_FORCE: bool;      // elastic force
-override WITH_DRIVER: bool;     // and the driver of fracture times the mass, in w
-
-@group(0) @binding(1) var<storage, read> position: array<vec4f>;
-@group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
-@group(0) @binding(3) var<storage, read> affine: array<vec4f>;
-@group(0) @binding(4) var<storage, read> stress: array<vec4f>;
-@group(0) @binding(5) var<storage, read> order: array<u32>;
-@group(0) @binding(6) var<storage, read> cell_start: array<u32>;
-@group(0) @binding(7) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(8) var<storage, read_write> work: array<vec4f>;
 
 // What a node holds: momentum and mass, force and the mean driver times mass.
 struct Sum { momentum: vec4f, force: vec4f }

@@ -118,6 +118,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/system.wgsl",
     "shared/thin_walls.wgsl",
     "shared/thread.wgsl",
+    "shared/transfer.wgsl",
     "shared/trial.wgsl",
     "shared/view.wgsl",
     "shared/whole.wgsl",

@@ -124,11 +124,8 @@ fn states_are_converted_for_compositors() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("shell.toml");
-    write_shell(&scene);
-    let out = folder.path().join("run");
+    let out = states_of_a_shell(folder.path());
     let run = out.to_str().unwrap();
-    succeeds(&["run", scene.to_str().unwrap(), "--no-frames", "--export", "states", "--out", run]);
     succeeds(&["convert", run, "--to", "exr,npz", "--frame", "1"]);
     let image = exr::prelude::read_all_flat_layers_from_file(out.join("frames/0001.exr")).unwrap();
     let names: Vec<String> = image.layer_data[0].channel_data.list.iter().map(|own| own.name.to_string()).collect();
@@ -198,6 +195,15 @@ fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     found
 }
 
+/// The folder of a run of [`write_shell`] that left its states alone.
+fn states_of_a_shell(folder: &Path) -> PathBuf {
+    let (scene, out) = (folder.join("shell.toml"), folder.join("run"));
+    write_shell(&scene);
+    let [scene, run] = [&scene, &out].map(|path| path.to_str().unwrap());
+    succeeds(&["run", scene, "--no-frames", "--export", "states", "--out", run]);
+    out
+}
+
 /// A small shell in space with two views and a moving camera.
 fn write_shell(path: &Path) {
     let text = r#"
@@ -259,11 +265,8 @@ fn frames_drawn_again_have_another_look() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("shell.toml");
-    write_shell(&scene);
-    let out = folder.path().join("run");
+    let out = states_of_a_shell(folder.path());
     let run = out.to_str().unwrap();
-    succeeds(&["run", scene.to_str().unwrap(), "--no-frames", "--export", "states", "--out", run]);
     assert!(!out.join("frames").exists());
     let camera = "{ eye = [0.5, -3.0, 0.5], target = [0.5, 0.5, 0.5] }";
     let look = ["--camera", camera, "--size", "80x60", "--set", "render.colormap=inferno", "--field", "pressure"];
