@@ -75,6 +75,28 @@ pub(super) enum FractureGiven {
     Keys(FractureKeys),
 }
 
+/// The schema of `fracture` beside a law or a preset that knows no strength.
+pub(super) struct OwnFracture;
+
+impl JsonSchema for OwnFracture {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "OwnFracture".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let mut keys = FractureKeys::json_schema(generator).to_value();
+        for key in ["tensile_strength", "fracture_energy"] {
+            keys["properties"][key]["type"] = "number".into();
+        }
+        keys["required"] = serde_json::json!(["tensile_strength", "fracture_energy"]);
+        keys["description"] = "The numbers of `fracture`, where no preset knows them.".into();
+        let text = "`fracture = true` needs a preset that knows its strength; \
+                    give `fracture = { tensile_strength = ... [Pa], fracture_energy = ... [J m^-2] }`";
+        let off = serde_json::json!({ "type": "boolean", "const": false, "description": text });
+        schemars::json_schema!({ "description": "How it breaks.", "anyOf": [off, keys] })
+    }
+}
+
 /// How a material breaks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Fracture {

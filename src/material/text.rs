@@ -7,7 +7,7 @@ use serde::de::{self, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::fracture::{Fracture, FractureGiven};
+use super::fracture::{Fracture, FractureGiven, OwnFracture};
 use super::{Bound, KINDS, Kind, Material, PRESETS, Parameter, Units, kind_names};
 
 /// An entry of the table of a material.
@@ -106,16 +106,18 @@ impl schemars::JsonSchema for Material {
     }
 
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let fracture = serde_json::Value::from(generator.subschema_for::<FractureGiven>());
-        let entry = |name, summary, table| entry(name, summary, table, &fracture);
-        let kinds = KINDS.iter().map(|kind| entry(kind.name, kind.summary, kind_table(kind))).collect::<Vec<_>>();
+        let known = serde_json::Value::from(generator.subschema_for::<FractureGiven>());
+        let own = serde_json::Value::from(generator.subschema_for::<OwnFracture>());
+        let kinds = KINDS.iter().map(|kind| entry(kind.name, kind.summary, kind_table(kind), &own)).collect::<Vec<_>>();
         let presets = PRESETS.iter().filter_map(|preset| {
             let law = KINDS.iter().find(|kind| kind.name == preset.law)?;
             let mut table = kind_table(law);
             table["required"] = serde_json::json!([]);
             let text = "Units of the numbers: SI, or atmospheres and the density of air.";
-            table["properties"]["units"] = serde_json::json!({ "enum": ["si", "scaled"], "description": text });
-            Some(entry(preset.name, preset.summary, table))
+            table["properties"]["units"] =
+                serde_json::json!({ "type": "string", "enum": ["si", "scaled"], "description": text });
+            let fracture = if preset.fracture.is_some() { &known } else { &own };
+            Some(entry(preset.name, preset.summary, table, fracture))
         });
         let all = kinds.into_iter().chain(presets).collect::<Vec<_>>();
         schemars::json_schema!({ "description": "A material: one kind or preset with its parameters.", "oneOf": all })

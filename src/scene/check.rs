@@ -1,7 +1,5 @@
 //! Checks that types cannot express: limits, references, geometry. Every finding names key, value, limit and remedy.
 
-use std::collections::BTreeSet;
-
 use toml::de::{DeTable, DeValue};
 
 use super::source::{Finding, walk};
@@ -14,9 +12,6 @@ const FEWEST_CELLS: u32 = 3;
 const MOST_SLOTS: u64 = i32::MAX as u64;
 /// Edges of a cell may differ by this much, relative: what decimal numbers in a file lose.
 const CUBE_TOLERANCE: f64 = 1e-6;
-
-/// Bytes that titles and names have at most.
-const MOST_LETTERS: usize = 200;
 
 /// Keys that hold one number per axis.
 const VECTORS: [&str; 16] = [
@@ -72,21 +67,31 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     check.names();
     let before = check.findings.len();
     check.geometry();
+    let sound_shapes = check.findings.len() == before;
+    let too_large = budget::shapes(scene);
+    if !too_large.is_empty() {
+        // nothing may ask one of them for a distance
+        check.findings.extend(too_large);
+        return check.findings;
+    }
     check.gauges();
     check.time();
     check.numerics();
     check.render();
     check.expect();
-    if check.sound_domain && check.findings.is_empty() {
+    if check.sound_domain {
         check.ranges();
     }
     // what loops over cells comes last, and only where a count says that it ends
-    if check.sound_domain && check.findings.len() == before {
-        check.findings.extend(budget::findings(scene));
-        if check.findings.len() == before {
+    if check.sound_domain && sound_shapes {
+        let too_much = budget::findings(scene);
+        if too_much.is_empty() {
             check.patches_cover();
             check_shape::places(scene, &mut check.findings);
         }
+        check.findings.extend(too_much);
+    } else if check.sound_domain {
+        check_shape::strays(scene, &mut check.findings);
     }
     check.findings
 }
@@ -212,37 +217,6 @@ impl Check<'_> {
         }
         if !gas.noise_is_possible() {
             self.add("gas.noise", format!("{} is out of range", gas.noise), "give a share from 0 to 0.5");
-        }
-    }
-
-    fn names(&mut self) {
-        let scene = self.scene;
-        if scene.title.len() > MOST_LETTERS || scene.title.chars().any(char::is_control) {
-            let length = scene.title.len();
-            let long = length > MOST_LETTERS;
-            let message = if long { format!("{length} bytes") } else { "it holds control characters".to_owned() };
-            self.add("title", message, format!("give one line of at most {MOST_LETTERS} bytes; films carry it"));
-        }
-        let bodies = scene.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
-        let obstacles = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect::<Vec<_>>();
-        let probes = scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>();
-        let gauges = scene.gauges.iter().map(|gauge| gauge.name.as_str()).collect::<Vec<_>>();
-        for (list, names) in [("bodies", bodies), ("obstacles", obstacles), ("probes", probes), ("gauges", gauges)] {
-            let mut seen = BTreeSet::new();
-            for (index, name) in names.into_iter().enumerate() {
-                let plain = |c: char| !(c.is_control() || [',', '"'].contains(&c));
-                if name.is_empty() || name.starts_with('=') || name.len() > MOST_LETTERS || !name.chars().all(plain) {
-                    let help = "names head columns of tables: give short text without commas, quotes, line breaks or other control \
-                                characters, and no `=` in front";
-                    self.add(format!("{list}[{index}].name"), format!("`{name}` is no name"), help);
-                } else if !seen.insert(name) {
-                    self.add(
-                        format!("{list}[{index}].name"),
-                        format!("`{name}` is taken"),
-                        "give every entry its own name",
-                    );
-                }
-            }
         }
     }
 

@@ -1,4 +1,6 @@
-//! Checks of materials and bodies.
+//! Checks of materials and bodies, and of all names.
+
+use std::collections::BTreeSet;
 
 use super::check::Check;
 use super::{Body, Friction};
@@ -8,7 +10,41 @@ use crate::spelling::did_you_mean;
 /// Bodies that one scene may have.
 pub const MAX_BODIES: usize = 1024;
 
+/// Bytes that titles and names have at most.
+const MOST_LETTERS: usize = 200;
+
 impl Check<'_> {
+    pub(super) fn names(&mut self) {
+        let scene = self.scene;
+        if scene.title.len() > MOST_LETTERS || scene.title.chars().any(char::is_control) {
+            let length = scene.title.len();
+            let long = length > MOST_LETTERS;
+            let message = if long { format!("{length} bytes") } else { "it holds control characters".to_owned() };
+            self.add("title", message, format!("give one line of at most {MOST_LETTERS} bytes; films carry it"));
+        }
+        let bodies = scene.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
+        let obstacles = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect::<Vec<_>>();
+        let probes = scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>();
+        let gauges = scene.gauges.iter().map(|gauge| gauge.name.as_str()).collect::<Vec<_>>();
+        for (list, names) in [("bodies", bodies), ("obstacles", obstacles), ("probes", probes), ("gauges", gauges)] {
+            let mut seen = BTreeSet::new();
+            for (index, name) in names.into_iter().enumerate() {
+                let plain = |c: char| !(c.is_control() || [',', '"'].contains(&c));
+                if name.is_empty() || name.starts_with('=') || name.len() > MOST_LETTERS || !name.chars().all(plain) {
+                    let help = "names head columns of tables: give short text without commas, quotes, line breaks or other control \
+                                characters, and no `=` in front";
+                    self.add(format!("{list}[{index}].name"), format!("`{name}` is no name"), help);
+                } else if !seen.insert(name) {
+                    self.add(
+                        format!("{list}[{index}].name"),
+                        format!("`{name}` is taken"),
+                        "give every entry its own name",
+                    );
+                }
+            }
+        }
+    }
+
     pub(super) fn bodies(&mut self) {
         let scene = self.scene;
         for (name, material) in &scene.materials {

@@ -1,6 +1,7 @@
 //! Numbers that the device sees: it computes in single precision, and kernels square, multiply and divide.
 
 use super::check::Check;
+use super::source::Told;
 use super::{Boundary, GasState, Material};
 use crate::math::plain;
 
@@ -16,9 +17,20 @@ const MOST_PLAIN: f64 = 3.4e38;
 const GAMMA: [f64; 2] = [1.0001, 1000.0];
 
 impl Check<'_> {
-    /// Every number of the scene that kernels see, after it was found positive where it must be.
+    /// Every number of the scene that kernels see. Where something else is wrong with one, its range says nothing.
     pub(super) fn ranges(&mut self) {
-        let before = self.findings.len();
+        let before = std::mem::take(&mut self.findings);
+        self.all_ranges();
+        if self.findings.is_empty() {
+            self.products();
+        }
+        let mut own = std::mem::replace(&mut self.findings, before);
+        let told = Told::new(&self.findings);
+        own.retain(|finding| !told.below(&finding.path));
+        self.findings.extend(own);
+    }
+
+    fn all_ranges(&mut self) {
         let scene = self.scene;
         if !(GAMMA[0]..=GAMMA[1]).contains(&scene.gas.gamma) {
             let help = format!("give a number from {} to {}; air has 1.4", GAMMA[0], GAMMA[1]);
@@ -48,9 +60,6 @@ impl Check<'_> {
         self.seen("time.fixed_step", time.fixed_step.as_slice(), LEAST_PLAIN, MOST);
         self.seen("time.max_courant", &[time.max_courant], LEAST, MOST);
         self.seen("time.max_growth", &[time.max_growth], 1.0, MOST);
-        if self.findings.len() == before {
-            self.products();
-        }
     }
 
     /// Numbers that are 0, or lie in a range.

@@ -1,6 +1,7 @@
 //! Checks of `[render]` and its views.
 
 use super::check::Check;
+use super::source::Finding;
 use super::{Camera, CameraPath, Contours, Field, RenderSettings};
 
 /// Slices of a picture at most.
@@ -16,10 +17,16 @@ impl Check<'_> {
     pub(super) fn render(&mut self) {
         let before = self.findings.len();
         self.look("render", &self.scene.render);
-        // What a view takes over from the scene would be told again.
-        if self.findings.len() == before {
-            self.views();
-        }
+        let own = self.findings[before..].to_vec();
+        let views = self.findings.len();
+        self.views();
+        // what a view takes over from the scene is told once
+        let again = |finding: &Finding, other: &Finding| {
+            let key = other.path.strip_prefix("render").filter(|key| finding.path.ends_with(*key));
+            key.is_some() && finding.message == other.message
+        };
+        let found = self.findings.split_off(views);
+        self.findings.extend(found.into_iter().filter(|finding| !own.iter().any(|other| again(finding, other))));
     }
 
     fn views(&mut self) {

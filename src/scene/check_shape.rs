@@ -1,6 +1,6 @@
 //! Checks of shapes: sizes, and whether things lie in the domain.
 
-use super::source::Finding;
+use super::source::{Finding, Told};
 use super::{Body, Domain, Scene, Shape};
 
 /// Sample points per axis when looking for parts of a body outside the domain.
@@ -150,6 +150,20 @@ fn direction(path: &str, key: &str, vector: [f64; 3], findings: &mut Vec<Finding
             "give a vector that is not zero",
         ));
     }
+}
+
+/// What misses the domain among shapes without fault, where others have one.
+pub(super) fn strays(scene: &Scene, findings: &mut Vec<Finding>) {
+    let mut own = Vec::new();
+    let told = Told::new(findings);
+    if !told.below("shapes.") {
+        for (path, shape) in scene.placed_shapes().into_iter().filter(|(path, _)| path.ends_with(".shape")) {
+            if !told.below(&path) {
+                misses(scene, &path, shape, &mut own);
+            }
+        }
+    }
+    findings.extend(own);
 }
 
 /// Bodies, obstacles and regions that miss the domain, and bodies that reach out of it.

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
+use super::mended::Mended;
 use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
 use super::{Material, Scene, budget, check, look, variants, vocabulary};
@@ -152,7 +153,8 @@ fn least_multiple(a: u32, b: u32) -> u32 {
     a / greatest_divisor(a, b) * b
 }
 
-fn read(source: &mut Source, most_values: u64) -> std::result::Result<Scene, Vec<Finding>> {
+/// The scene of a text with overrides, or all that is wrong with it.
+pub(super) fn read(source: &mut Source, most_values: u64) -> std::result::Result<Scene, Vec<Finding>> {
     let text = source.text().to_owned();
     let (root, errors) = DeTable::parse_recoverable(&text);
     if !errors.is_empty() {
@@ -188,28 +190,54 @@ fn read(source: &mut Source, most_values: u64) -> std::result::Result<Scene, Vec
     source.index(&root);
     check::numbers(&root, &mut findings);
     let mut root = Spanned::new(place, root);
-    let (words, mended) = vocabulary::findings(&mut root);
+    let (words, mut mended) = vocabulary::findings(&mut root);
     // keys that took the place of others are found where they stand
     (!words.is_empty()).then(|| source.index(root.get_ref()));
     look::apply(root.get_mut());
     findings.extend(words);
-    match Scene::deserialize(Deserializer::from(root)) {
-        Err(error) => {
-            // what cannot be read was told with all others of its kind
-            let own = Some(located(source, &error)).filter(|own| !mended.unreadable && mended.concerns(own));
-            findings.extend(own);
-            Err(findings)
+    let Some(mut scene) = readable(source, root, &mut mended, &mut findings) else { return Err(findings) };
+    scene.resolve();
+    let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
+    let dimension = scene.domain.dimension;
+    let shapes = scene.resolve_shapes(MeshFolder { folder, outside, dimension });
+    let concerning =
+        |mended: &Mended, found: Vec<Finding>| found.into_iter().filter(|own| mended.concerns(own)).collect();
+    let shapes: Vec<Finding> = concerning(&mended, shapes);
+    // nothing is known of a shape without its surface
+    shapes.iter().for_each(|finding| mended.unknown(&finding.path));
+    findings.extend(shapes);
+    findings.extend(concerning(&mended, check::findings(&scene)));
+    if findings.is_empty() { Ok(scene) } else { Err(findings) }
+}
+
+/// Values that may be read again and again, for all that no reader takes.
+const MOST_READ: usize = 1_000_000;
+
+/// The scene of a document. What no reader takes is told and replaced, and the rest is read again.
+fn readable(
+    source: &Source,
+    mut root: Spanned<DeTable<'_>>,
+    mended: &mut Mended,
+    findings: &mut Vec<Finding>,
+) -> Option<Scene> {
+    let most = 1 + MOST_READ / (1 + source.value_count());
+    for _ in 0..most {
+        let error = match Scene::deserialize(Deserializer::from(root.clone())) {
+            Ok(scene) => return Some(scene),
+            Err(error) => error,
+        };
+        let own = located(source, &error);
+        let path = own.path.clone();
+        // the text alone has told some of it before
+        let told = findings.iter().any(|finding| finding.path == path && finding.span == own.span);
+        if !told && !mended.unreadable && mended.concerns(&own) {
+            findings.push(own);
         }
-        Ok(mut scene) => {
-            scene.resolve();
-            let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
-            let dimension = scene.domain.dimension;
-            let shapes = scene.resolve_shapes(MeshFolder { folder, outside, dimension });
-            let all = if shapes.is_empty() { check::findings(&scene) } else { shapes };
-            findings.extend(all.into_iter().filter(|finding| mended.concerns(finding)));
-            if findings.is_empty() { Ok(scene) } else { Err(findings) }
+        if !mended.replace(root.get_mut(), &path) {
+            break;
         }
     }
+    None
 }
 
 /// Key and value documents of all overrides.

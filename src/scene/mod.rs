@@ -28,6 +28,7 @@ mod gauge;
 mod integrator;
 mod load;
 mod look;
+mod mended;
 mod mesh;
 mod named;
 mod noise;

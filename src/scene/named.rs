@@ -146,7 +146,6 @@ impl Scene {
         for (path, shape) in self.placed_shapes().into_iter().chain(self.patch_shapes()) {
             library.resolve(&path, shape);
         }
-        library.findings.extend(super::budget::shapes(self));
         library.findings
     }
 }

@@ -1,6 +1,7 @@
 //! The text of a scene with its `--set` overrides: which key stands where, and how a finding is shown.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use codespan_reporting::diagnostic::{Diagnostic, Label};
@@ -42,6 +43,21 @@ impl Finding {
     fn clipped(&self) -> Self {
         let [path, message, help] = [&self.path, &self.message, &self.help].map(|text| clip(text));
         Finding { path, message, help, span: None }
+    }
+}
+
+/// The keys that something has been said of.
+pub(super) struct Told(BTreeSet<String>);
+
+impl Told {
+    /// Those of findings.
+    pub(super) fn new(findings: &[Finding]) -> Self {
+        Told(findings.iter().map(|finding| finding.path.clone()).collect())
+    }
+
+    /// Whether some key begins like this one.
+    pub(super) fn below(&self, path: &str) -> bool {
+        self.0.range(path.to_owned()..).next().is_some_and(|key| key.starts_with(path))
     }
 }
 
@@ -125,6 +141,11 @@ impl Source {
             self.places.push((entry.path.to_owned(), entry.place()));
             self.keys.extend(entry.key.map(|key| (entry.path.to_owned(), key)));
         });
+    }
+
+    /// How many keys and entries of lists there are.
+    pub(super) fn value_count(&self) -> usize {
+        self.places.len()
     }
 
     /// The innermost key whose place holds the given one.

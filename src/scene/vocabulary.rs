@@ -2,83 +2,46 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::OnceLock;
 
 use serde_json::Value;
 use toml::Spanned;
-use toml::de::{DeArray, DeTable, DeValue};
+use toml::de::{DeTable, DeValue};
 
-use super::Scene;
+use super::mended::{self, Mended, words_of, wrong_type};
 use super::source::Finding;
 use crate::spelling::{closest, did_you_mean};
-
-/// What stands in a scene that had to be mended before it could be read.
-#[derive(Debug, Default)]
-pub(super) struct Mended {
-    /// Paths whose values stand for something that is missing or cannot be read: findings about them mean nothing.
-    stand_ins: Vec<String>,
-    /// Whether something stays that cannot be read.
-    pub unreadable: bool,
-}
-
-impl Mended {
-    /// Whether a finding is about what the user wrote. Where a shape is not known, nor is what it leaves to others; where the domain is
-    /// not, nothing is.
-    pub(super) fn concerns(&self, finding: &Finding) -> bool {
-        let below = |path: &str, above: &str| {
-            path.strip_prefix(above).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-        };
-        let of_shapes = finding.path.ends_with(".shape") || finding.path.ends_with(".clamped");
-        !self.stand_ins.iter().any(|own| {
-            below(&finding.path, own) || below(own, "domain") || (of_shapes && own.contains("shape")) || own == "gas"
-        })
-    }
-}
 
 /// Reports words that the schema does not know, values of another type and keys that are missing. Unknown keys are taken out, or take the
 /// place of the missing key that was meant; likely words or anything readable stand for the others, so that the rest can be read.
 pub(super) fn findings(root: &mut Spanned<DeTable<'_>>) -> (Vec<Finding>, Mended) {
-    static SCHEMA: OnceLock<Value> = OnceLock::new();
-    let schema = SCHEMA.get_or_init(|| Scene::schema().to_value());
-    let mut words = Words { schema, findings: Vec::new(), mended: Mended::default() };
+    let mut words = Words { findings: Vec::new(), mended: Mended::default() };
     let place = root.span();
-    words.table("", root.get_mut(), schema, &place);
+    words.table("", root.get_mut(), mended::schema(), &place);
     words.findings.sort_by_key(|finding| finding.span.as_ref().map(|place| place.start));
     (words.findings, words.mended)
 }
 
 /// What to do about a key that is missing.
 const MISSING: &str = "docs/scenes lists every key; `brisance schema` prints the schema";
-/// Values inside each other that stand for one that is missing.
-const DEEPEST: u32 = 16;
 /// Findings for which it is looked what was meant: many more than are told, in whatever order they come.
 const MOST_LOOKED_AT: usize = 1000;
 
-struct Words<'s> {
-    schema: &'s Value,
+struct Words {
     findings: Vec<Finding>,
     mended: Mended,
 }
 
-impl<'s> Words<'s> {
-    /// A schema with its reference followed.
-    fn meant(&self, schema: &'s Value) -> &'s Value {
-        let name = schema["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/"));
-        name.map_or(schema, |name| &self.schema["$defs"][name])
-    }
-
-    fn value(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &'s Value) {
-        let schema = self.meant(schema);
+impl Words {
+    fn value(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &'static Value) {
+        let schema = mended::meant(schema);
         if let Some(choices) = schema["oneOf"].as_array() {
             return self.choice(path, value, schema, choices);
         }
         if let Some(choices) = schema["anyOf"].as_array() {
-            // one that may be left out is what it is; of others any may be meant
-            let own: Vec<&Value> = choices.iter().filter(|choice| choice["type"] != "null").collect();
-            if let [own] = own[..] {
-                self.value(path, value, own);
-            }
-            return;
+            return self.any(path, value, schema, choices);
+        }
+        if schema["enum"].is_array() {
+            return self.choice(path, value, schema, std::slice::from_ref(schema));
         }
         if let Some(wanted) = wrong_type(schema, value.get_ref()) {
             let message = format!("invalid type: {}, expected {wanted}", value.get_ref().type_str());
@@ -87,6 +50,11 @@ impl<'s> Words<'s> {
         }
         let place = value.span();
         match value.get_mut() {
+            DeValue::Boolean(given) if schema["const"].as_bool().is_some_and(|only| only != *given) => {
+                let message = format!("{given} cannot stand here");
+                self.add(path, Some(place), message, schema["description"].as_str().unwrap_or_default());
+                self.stand_in(path, value, schema);
+            }
             DeValue::Table(table) => self.table(path, table, schema, &place),
             DeValue::Array(array) => {
                 for (index, entry) in array.iter_mut().enumerate() {
@@ -97,7 +65,33 @@ impl<'s> Words<'s> {
         }
     }
 
-    fn table(&mut self, path: &str, table: &mut DeTable<'_>, schema: &'s Value, place: &Range<usize>) {
+    /// One of several types of value; one that may be left out is what it is.
+    fn any(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &'static Value, choices: &'static [Value]) {
+        let own = || choices.iter().filter(|choice| choice["type"] != "null");
+        let misfit = |choice: &&Value| match mended::meant(choice) {
+            plain if plain["oneOf"].is_array() || plain["enum"].is_array() => {
+                !matches!(value.get_ref(), DeValue::String(_) | DeValue::Table(_))
+            }
+            plain => wrong_type(plain, value.get_ref()).is_some(),
+        };
+        let fitting = own().find(|choice| !misfit(choice));
+        if let Some(meant) = fitting.or_else(|| own().next().filter(|_| own().count() == 1)) {
+            let before = self.findings.len();
+            self.value(path, value, meant);
+            let number = own().any(|other| other["type"] == "number");
+            for word in self.findings[before..].iter_mut().filter(|found| number && found.path == path) {
+                word.help.push_str(", or a number");
+            }
+            return;
+        }
+        let kind = |choice| mended::kind_name(mended::meant(choice)["type"].as_str().unwrap_or("word"));
+        let wanted: Vec<&str> = own().map(kind).collect();
+        let message = format!("invalid type: {}, expected {}", value.get_ref().type_str(), wanted.join(" or "));
+        self.add(path, Some(value.span()), message, "see docs/scenes for this key");
+        self.stand_in(path, value, schema);
+    }
+
+    fn table(&mut self, path: &str, table: &mut DeTable<'_>, schema: &'static Value, place: &Range<usize>) {
         let below = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
         let Some(known) = schema["properties"].as_object() else {
             for (key, value) in table.iter_mut() {
@@ -123,7 +117,7 @@ impl<'s> Words<'s> {
             self.add(&below(&key), Some(place.clone()), message, &there_are(names()));
             let value = table.remove(key.as_str());
             let Some(mut value) = value else { continue };
-            let fits = |name: &&str| wrong_type(self.meant(&known[*name]), value.get_ref()).is_none();
+            let fits = |name: &&str| wrong_type(mended::meant(&known[*name]), value.get_ref()).is_none();
             let meant = self.closest(&key, names().filter(|name| !table.contains_key(*name))).into_iter().find(fits);
             if let Some(meant) = meant {
                 missing.retain(|own| *own != meant);
@@ -140,7 +134,13 @@ impl<'s> Words<'s> {
     }
 
     /// One of several words, or a table with one of several keys.
-    fn choice(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &'s Value, choices: &'s [Value]) {
+    fn choice(
+        &mut self,
+        path: &str,
+        value: &mut Spanned<DeValue<'_>>,
+        schema: &'static Value,
+        choices: &'static [Value],
+    ) {
         let place = value.span();
         match value.get_mut() {
             DeValue::String(word) => {
@@ -161,10 +161,12 @@ impl<'s> Words<'s> {
                     self.stand_in(path, value, schema);
                 }
             }
-            other if choices.iter().any(|choice| wrong_type(self.meant(choice), other).is_none()) => {}
+            other if choices.iter().any(|choice| wrong_type(mended::meant(choice), other).is_none()) => {}
             other => {
                 let names = || choices.iter().flat_map(|choice| words_of(choice).into_iter().chain(keys_of(choice)));
-                let message = format!("invalid type: {}, expected a word or a table", other.type_str());
+                let or_table =
+                    if choices.iter().any(|choice| keys_of(choice).next().is_some()) { " or a table" } else { "" };
+                let message = format!("invalid type: {}, expected a word{or_table}", other.type_str());
                 self.add(path, Some(place), message, &there_are(names()));
                 self.stand_in(path, value, schema);
             }
@@ -172,23 +174,32 @@ impl<'s> Words<'s> {
     }
 
     /// A table whose key says which choice it is; whether it can be read.
-    fn keyed(&mut self, path: &str, table: &mut DeTable<'_>, choices: &'s [Value], place: &Range<usize>) -> bool {
+    fn keyed(&mut self, path: &str, table: &mut DeTable<'_>, choices: &'static [Value], place: &Range<usize>) -> bool {
         let own = |choice: &Value, key: &str| {
             choice["required"].as_array().is_some_and(|required| required.iter().any(|own| own == key))
         };
-        let mut named = choices.iter().filter(|choice| table.keys().any(|key| own(choice, key.get_ref())));
-        if let Some(choice) = named.next() {
-            // several are told by the reader
-            if named.next().is_none() {
-                self.table(path, table, choice, place);
+        let named = table.keys().filter(|key| choices.iter().any(|choice| own(choice, key.get_ref())));
+        let mut named: Vec<_> = named.map(|key| (key.span(), key.get_ref().to_string())).collect();
+        named.sort_by_key(|(at, _)| at.start);
+        if let [(_, first), more @ ..] = &named[..] {
+            for (at, key) in more {
+                let message = format!("`{first}` and `{key}`, of which one stands here");
+                self.add(path, Some(at.clone()), message, &format!("remove `{first}` or `{key}`"));
+                table.remove(key.as_str());
             }
+            let choice = choices.iter().find(|choice| own(choice, first));
+            choice.into_iter().for_each(|choice| self.table(path, table, choice, place));
             return true;
         }
         let known = |key: &str| choices.iter().any(|choice| choice["properties"].get(key).is_some());
         let unknown = table.keys().find(|key| !known(key.get_ref())).map(|key| (key.get_ref().to_string(), key.span()));
-        // so is a table without a key
-        let Some((key, at)) = unknown else { return true };
         let names = || choices.iter().flat_map(|choice| words_of(choice).into_iter().chain(keys_of(choice)));
+        let Some((key, at)) = unknown else {
+            let keys = choices.iter().flat_map(|choice| choice["required"].as_array()?.first()?.as_str());
+            let message = "no key says what it is".to_owned();
+            self.add(path, Some(place.clone()), message, &there_are(keys));
+            return false;
+        };
         let message = format!("unknown variant `{key}`{}", self.like(&key, names()));
         self.add(path, Some(at.clone()), message, &there_are(names()));
         let meant = |name: &str| choices.iter().find(|choice| own(choice, name));
@@ -200,50 +211,12 @@ impl<'s> Words<'s> {
     }
 
     /// Puts something readable in the place of a value.
-    fn stand_in(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &'s Value) {
-        match self.readable(schema, &value.span(), 0) {
-            Some(readable) if self.mended.stand_ins.len() < MOST_LOOKED_AT => {
-                *value = readable;
-                self.mended.stand_ins.push(path.to_owned());
-            }
-            _ => self.mended.unreadable = true,
+    fn stand_in(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &'static Value) {
+        if self.mended.stand_ins_count() < MOST_LOOKED_AT {
+            self.mended.stand_in(path, value, schema);
+        } else {
+            self.mended.unreadable = true;
         }
-    }
-
-    /// Any value that the schema allows.
-    fn readable(&self, schema: &'s Value, place: &Range<usize>, depth: u32) -> Option<Spanned<DeValue<'static>>> {
-        let schema = self.meant(schema);
-        if depth > DEEPEST {
-            return None;
-        }
-        let choices = ["oneOf", "anyOf"].iter().find_map(|key| schema[key].as_array());
-        if let Some(choices) = choices {
-            return choices.iter().find_map(|choice| self.readable(choice, place, depth + 1));
-        }
-        let value = match (words_of(schema).first(), schema["type"].as_str()?) {
-            (Some(word), _) => DeValue::String(Cow::Owned((*word).to_owned())),
-            (_, "string") => DeValue::String(Cow::Borrowed("unknown")),
-            (_, "boolean") => DeValue::Boolean(false),
-            (_, "number") => number("v = 1.0")?,
-            (_, "integer") => number("v = 1")?,
-            (_, "array") => {
-                let mut array = DeArray::new();
-                for _ in 0..schema["minItems"].as_u64().unwrap_or(1) {
-                    array.push(self.readable(&schema["items"], place, depth + 1)?);
-                }
-                DeValue::Array(array)
-            }
-            (_, "object") => {
-                let mut table = DeTable::new();
-                for key in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
-                    let value = self.readable(&schema["properties"][key], place, depth + 1)?;
-                    table.insert(Spanned::new(place.clone(), Cow::Owned(key.to_owned())), value);
-                }
-                DeValue::Table(table)
-            }
-            _ => return None,
-        };
-        Some(Spanned::new(place.clone(), value))
     }
 
     /// What may have been meant by a word.
@@ -261,19 +234,9 @@ impl<'s> Words<'s> {
     }
 }
 
-/// The words that one choice stands for.
-fn words_of(choice: &Value) -> Vec<&str> {
-    let own = choice["const"].as_str().into_iter();
-    own.chain(choice["enum"].as_array().into_iter().flatten().filter_map(Value::as_str)).collect()
-}
-
 /// The keys that one choice stands for.
 fn keys_of(choice: &Value) -> impl Iterator<Item = &str> {
     choice["properties"].as_object().into_iter().flat_map(|keys| keys.keys().map(String::as_str))
-}
-
-fn number(text: &'static str) -> Option<DeValue<'static>> {
-    DeTable::parse(text).ok()?.into_inner().remove("v").map(Spanned::into_inner)
 }
 
 fn there_are<'n>(names: impl Iterator<Item = &'n str>) -> String {
@@ -284,28 +247,4 @@ fn there_are<'n>(names: impl Iterator<Item = &'n str>) -> String {
         }
     }
     format!("there are {}", told.join(", "))
-}
-
-/// What the schema asks for, if the value is of another type.
-fn wrong_type(schema: &Value, value: &DeValue<'_>) -> Option<String> {
-    let kinds: Vec<&str> = match &schema["type"] {
-        Value::String(kind) => vec![kind],
-        Value::Array(kinds) => kinds.iter().filter_map(Value::as_str).collect(),
-        _ => return None,
-    };
-    let fits = |kind: &&str| match *kind {
-        "number" => matches!(value, DeValue::Float(_) | DeValue::Integer(_)),
-        "integer" => matches!(value, DeValue::Integer(_)),
-        "string" => matches!(value, DeValue::String(_)),
-        "boolean" => matches!(value, DeValue::Boolean(_)),
-        "array" => matches!(value, DeValue::Array(_)),
-        "object" => matches!(value, DeValue::Table(_)),
-        _ => false,
-    };
-    let named = match schema["format"].as_str() {
-        Some("double") => "f64",
-        Some("uint32") => "u32",
-        _ => kinds[0],
-    };
-    (!kinds.iter().any(fits)).then(|| named.to_owned())
 }

@@ -1,6 +1,8 @@
 //! Every kind of mistake is reported with its line, its key and what is allowed.
 
 use super::{BASE, parse, report};
+use crate::scene::load::read;
+use crate::scene::source::Source;
 
 /// The report must hold every one of the words.
 fn expect(text: &str, overrides: &[&str], words: &[&str]) {
@@ -124,7 +126,7 @@ fn bodies() {
     expect(&twice, &[], &["bodies[1].name", "`b` is taken"]);
     for (line, words) in [
         ("friction = -0.1", ["bodies[0].friction", "at least 0"]),
-        ("friction = \"glue\"", ["bodies[0].friction", "\"stick\" or a coefficient"]),
+        ("friction = \"glue\"", ["bodies[0].friction", "`stick`, or a number"]),
         ("velocity = [1, 0]\nmotion = { velocity = [1, 0] }", ["bodies[0].motion", "velocity of its own"]),
         ("motion = { spin = [1, 0, 0] }", ["bodies[0].motion.spin", "about z alone"]),
         ("motion = { table = [{ time = 1 }, { time = 1 }] }", ["bodies[0].motion.table", "in order of time"]),
@@ -140,7 +142,7 @@ fn bodies() {
 fn presets() {
     let scene = |rest: &str| with(&format!("[materials.hull]\nsteel = {{ {rest} }}\n"));
     expect(&scene("units = \"imperial\""), &[], &["si", "scaled"]);
-    expect(&scene("units = 3"), &[], &["`units`", "scaled"]);
+    expect(&scene("units = 3"), &[], &["steel.units", "scaled"]);
     expect(&scene("cohesion = 3"), &[], &["`cohesion`", "`yield_stress`"]);
     expect(&scene("yield_stress = -3"), &[], &["materials.hull.steel.yield_stress", "above 0"]);
     let body =
@@ -301,7 +303,60 @@ fn every_mistake_is_told_at_once() {
         assert!(told.contains(words), "no `{words}` in\n{told}");
     }
     assert!(told.ends_with(&format!("{} errors in this scene", wanted.len())), "{told}");
-    // where the domain is not known, nothing is said of what lies in it
-    let told = report(&format!("{}{more}", text.replace("size = [2.0, 1.0]\n", "")), &[]);
-    assert!(told.contains("missing field `size`") && !told.contains("radius: -0.1"), "{told}");
+    // where the domain is not known, nothing is said of what lies in it, but all of what is wrong by itself
+    let outside = "[[obstacles]]\nname = \"far\"\nshape = { sphere = { center = [9.0, 9.0], radius = 0.1 } }\n";
+    let told = report(&format!("{}{outside}", text.replace("size = [2.0, 1.0]\n", "")), &[]);
+    assert!(told.contains("missing field `size`") && !told.contains("obstacles[0]"), "{told}");
+    assert!(told.contains("gas.ambient.density: -1") && told.contains("young_modulus: -100"), "{told}");
+}
+
+/// Nor does what no schema, but only the reader of a value refuses, or what names a thing that is not there.
+#[test]
+fn what_its_reader_refuses_hides_no_other_mistake() {
+    let more = "[materials.broken]\nneo_hookean = { young_modulus = -1.0, poisson_ratio = 0.3 }\nfracture = {}\n\
+                [materials.strong]\nneo_hookean = { young_modulus = -2.0, poisson_ratio = 0.3 }\nfracture = true\n\
+                [materials.twice]\nneo_hookean = { young_modulus = -3.0, poisson_ratio = 0.3 }\nsteel = {}\n\
+                [materials.none]\nfracture = false\n\
+                [materials.scaled]\nsteel = { units = \"bar\", poisson_ratio = 0.7 }\n\
+                [[bodies]]\nname = \"a\"\nmaterial = \"rubber\"\ndensity = -4.0\nspin = [1.0, 2.0]\nparticles_per_cell = -1\n\
+                shape = { sphere = { center = [], radius = -0.1 }, box = { center = [1.0, 0.5], size = [0.1, 0.1] } }\n\
+                [[bodies]]\nname = \"b\"\nmaterial = \"rubber\"\ndensity = -5.0\nshape = { use = { name = \"no such\" } }\n\
+                [[bodies]]\nname = \"c\"\nmaterial = \"rubber\"\ndensity = -6.0\nshape = {}\n\
+                [render]\nsize = [64, -64]\n[render.views.top]\nexposure = -7.0\n[numerics]\ntolerance = -8.0\n\
+                [[obstacles]]\nname = \"far\"\nshape = { sphere = { center = [9.0, 9.0], radius = 0.1 } }\n";
+    let wanted = [
+        "materials.broken.neo_hookean.young_modulus: -1",
+        "materials.broken.fracture: missing field `tensile_strength`",
+        "materials.broken.fracture: missing field `fracture_energy`",
+        "materials.strong.neo_hookean.young_modulus: -2",
+        "materials.strong.fracture: true cannot stand here",
+        "materials.twice.neo_hookean.young_modulus: -3",
+        "materials.twice: `neo_hookean` and `steel`, of which one stands here",
+        "materials.none: no key says what it is",
+        "materials.scaled.steel.units: unknown variant `bar`",
+        "materials.scaled.steel.poisson_ratio: 0.7",
+        "bodies[0].density: -4",
+        "bodies[0].spin: expected a number (about z) or three numbers",
+        "bodies[0].particles_per_cell: invalid value: integer `-1`",
+        "bodies[0].shape: `sphere` and `box`, of which one stands here",
+        "bodies[0].shape.sphere.center: 0 entries in a scene of dimension 2",
+        "bodies[0].shape.sphere.radius: -0.1",
+        "bodies[1].density: -5",
+        "bodies[1].shape.use.name: no shape `no such`",
+        "bodies[2].density: -6",
+        "bodies[2].shape: no key says what it is",
+        "render.size[1]: invalid value: integer `-64`",
+        "render.views.top.exposure: -7",
+        "numerics.tolerance: -8",
+        "time.until: 1e-39 is out of the range",
+        "obstacles[0].shape: lies outside the domain",
+    ];
+    let text = format!("{}{more}", BASE.replace("until = 1.0", "until = 1e-39"));
+    let findings = read(&mut Source::new(&text, "test.toml", &[]), u64::MAX).unwrap_err();
+    let told: Vec<String> = findings.iter().map(|finding| format!("{}: {}", finding.path, finding.message)).collect();
+    let all = told.join("\n");
+    for words in wanted {
+        assert!(told.iter().any(|own| own.starts_with(words)), "no `{words}` in\n{all}");
+    }
+    assert_eq!(told.len(), wanted.len(), "{all}");
 }
