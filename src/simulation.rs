@@ -35,6 +35,8 @@ pub use saved::{Host, Saved, SavedArray};
 #[derive(Debug)]
 pub struct Simulation {
     gpu: Gpu,
+    /// What it started from.
+    scene: Scene,
     /// Everything the step reads and writes.
     pub state: State,
     time_step: TimeStep,
@@ -136,6 +138,7 @@ impl Simulation {
             pace: Pace::default(),
             least_step: LeastStep::new(scene.time.until),
             gpu: gpu.clone(),
+            scene: scene.clone(),
             state,
         };
         gpu.finish_kernels()?;

@@ -234,7 +234,17 @@ impl Gpu {
 
     /// Keeps a kernel's error for [`Gpu::check`].
     pub(super) fn note(&self, error: Error) {
-        lock(&self.faults).first.get_or_insert(Fault::Shader(error));
+        lock(&self.faults).first.get_or_insert(Fault::Shader(self.blamed(error)));
+    }
+
+    /// A shader that does not compile is a bug of ours, unless the user brought it.
+    pub(super) fn blamed(&self, error: Error) -> Error {
+        match error {
+            Error::Shader(text) if self.folder == Folder::Embedded => {
+                Error::Bug(text.split_whitespace().collect::<Vec<_>>().join(" "))
+            }
+            error => error,
+        }
     }
 
     /// Before work that takes a while.

@@ -74,8 +74,13 @@ impl Kernel {
     /// another core; [`Gpu::finish_kernels`] waits for it, and so does the first dispatch.
     ///
     /// # Errors
-    /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings; [`Error::Interrupted`].
+    /// [`Error::Shader`] for everything that is wrong with the source, the entry point or its bindings, [`Error::Bug`] if the source is
+    /// ours; [`Error::Interrupted`].
     pub fn new(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
+        Kernel::known_or_new(gpu, shader, entry, constants).map_err(|error| gpu.blamed(error))
+    }
+
+    fn known_or_new(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
         let (compiled, module) = compiled(gpu, shader, constants.source)?;
         let mut read = String::new();
         for (name, value) in constants.overrides {

@@ -69,7 +69,7 @@ impl Gpu {
     /// Waits until all kernels asked for so far are compiled, and tells [`super::GpuOptions::compiling`] how far it is.
     ///
     /// # Errors
-    /// [`Error::Shader`] for the first one that is refused; [`Error::Interrupted`].
+    /// [`Error::Shader`] for the first one that is refused, [`Error::Bug`] if it is one of ours; [`Error::Interrupted`].
     pub fn finish_kernels(&self) -> Result<()> {
         let queued = std::mem::take(&mut *lock(&self.queued));
         for (index, pipeline) in queued.iter().enumerate() {
@@ -77,7 +77,7 @@ impl Gpu {
             if let Some(tell) = self.compiling {
                 tell(index, queued.len());
             }
-            pipeline.get(&self.device)?;
+            pipeline.get(&self.device).map_err(|error| self.blamed(error))?;
         }
         if let (Some(tell), false) = (self.compiling, queued.is_empty()) {
             tell(queued.len(), queued.len());

@@ -6,6 +6,11 @@ use crate::math::plain;
 use crate::state::Control;
 use crate::state::constants::STAGES;
 
+/// What is usually wrong where nothing has moved yet.
+const FIRST: &str = "in the first step that is usually the start state";
+/// Cells whose start is looked at.
+const MOST_CELLS: usize = 100_000;
+
 impl Simulation {
     /// The fault of the run as an error.
     pub(super) fn fault(&self, control: &Control) -> Error {
@@ -26,33 +31,38 @@ impl Simulation {
         };
         let step = u64::from(control.step) + 1;
         let reason = match (step, name) {
-            (1, "g2p" | "coupled_solve" | "interface") | (2.., _) => reason.to_owned(),
-            _ => format!(
-                "density or pressure is not positive and finite; in the first step that is usually the start state: {}",
-                self.start_text()
-            ),
+            (1, "interface") | (2.., _) => reason.to_owned(),
+            (_, "g2p" | "coupled_solve") => format!("{reason}; {FIRST}: {}", self.start_text()),
+            _ => format!("density or pressure is not positive and finite; {FIRST}: {}", self.start_text_at(at)),
         };
         Error::Diverged { step, stage: name, place, reason }
     }
 
-    /// Ranges of the state as it is now: a step that failed leaves that of its start in most cells.
+    /// The gas that the scene starts with in a cell.
+    fn start_text_at(&self, slot: u32) -> String {
+        let grid = &self.state.grid;
+        let gas = self.scene.gas_at(grid.centre(grid.cell(slot)).map(f64::from));
+        let speed = gas.velocity.iter().map(|u| u * u).sum::<f64>().sqrt();
+        let [density, pressure, temperature, speed] =
+            [gas.density, gas.pressure, gas.pressure / gas.density, speed].map(plain);
+        format!("density {density}, pressure {pressure}, temperature p / rho {temperature}, speed {speed} there")
+    }
+
+    /// The same for all cells, or so many of them as are looked at in no time.
     fn start_text(&self) -> String {
-        let Ok(now) = self.snapshot() else { return "it cannot be read back".to_owned() };
-        let range = |values: &mut dyn Iterator<Item = f64>| {
-            let finite = values.filter(|value| value.is_finite());
-            let [low, high] =
-                finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
-            format!("{} to {}", plain(low), plain(high))
-        };
-        let gas = || {
-            now.density.iter().zip(&now.pressure).map(|(d, p)| (f64::from(*d), f64::from(*p))).filter(|(d, _)| *d > 0.0)
-        };
-        format!(
-            "density {}, pressure {}, temperature p / rho {}",
-            range(&mut gas().map(|(density, _)| density)),
-            range(&mut gas().map(|(_, pressure)| pressure)),
-            range(&mut gas().map(|(density, pressure)| pressure / density))
-        )
+        let grid = &self.state.grid;
+        let every = grid.cell_count().div_ceil(MOST_CELLS);
+        let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
+        for index in (0..grid.cell_count()).step_by(every) {
+            let [nx, ny] = [grid.cells[0] as usize, grid.cells[1] as usize];
+            let cell = [index % nx, index / nx % ny, index / (nx * ny)].map(|x| x as i32);
+            let gas = self.scene.gas_at(grid.centre(cell).map(f64::from));
+            for (range, value) in ranges.iter_mut().zip([gas.density, gas.pressure, gas.pressure / gas.density]) {
+                *range = [range[0].min(value), range[1].max(value)];
+            }
+        }
+        let [density, pressure, temperature] = ranges.map(|[low, high]| format!("{} to {}", plain(low), plain(high)));
+        format!("density {density}, pressure {pressure}, temperature p / rho {temperature} in all of the gas")
     }
 
     fn cell(&self, slot: u32) -> String {

@@ -154,6 +154,24 @@ fn a_refused_call_is_a_bug_of_ours_and_reported_once() {
     gpu.check().unwrap();
 }
 
+/// So is a shader of ours that the library refuses, by its text or only as a pipeline; one that the user brings is not.
+#[test]
+fn a_refused_shader_is_a_bug_of_whoever_wrote_it() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let blocks = |gpu: &Gpu, source: &str, items: f64| {
+        let overrides = [("SCAN_ITEMS", items)];
+        Kernel::new(gpu, "scan.wgsl", "scan_blocks", &Constants { overrides: &overrides, source })?;
+        gpu.finish_kernels()
+    };
+    for (source, items) in [("const oops: u32 = -1;", 4.0), ("", -1.0)] {
+        let error = blocks(&gpu, source, items).unwrap_err();
+        let text = error.to_string();
+        assert!(matches!(error, Error::Bug(_)) && text.lines().count() == 1 && text.contains("scan.wgsl"), "{text}");
+        let Some(own) = with_shaders(&[("own.wgsl", "")]) else { return };
+        assert!(matches!(blocks(&own, source, items), Err(Error::Shader(_))));
+    }
+}
+
 #[test]
 fn an_unknown_device_is_answered_with_the_list() {
     if gpu_or_skip().is_none() {
