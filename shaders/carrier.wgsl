@@ -1,7 +1,8 @@
 // carrier: which velocity carries the gas through its faces, so that what the solve calls free of divergence compresses nothing?
 // The solve sees a velocity averaged over the other axes; with the unaveraged one, motion that it cannot see would compress the
 // cells step after step. Reads gas, cells. Writes the carrier (node, in scenes without bodies) of GAS cells: per component the
-// velocity averaged with (1, 2, 1) / 4 along every other axis, and in w the sum of its differences across the faces.
+// velocity averaged with (1, 2, 1) / 4 along every other axis, and in w the sum of its differences across the faces. GHOST slots: by how
+// much the velocity of the face, as the last solve saw it, exceeds that of the cell before it.
 #include "shared/index.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
@@ -10,6 +11,7 @@
 #include "shared/interior.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/cut_carrier.wgsl"
+#include "shared/open_face.wgsl"
 #include "shared/still.wgsl"
 
 override SOURCE: u32;   // 0: the state now, 1: U1, 2: U*
@@ -20,6 +22,8 @@ override SOLVED: bool;  // the solve has moved air that was still
 @group(0) @binding(4) var<storage, read> work: array<vec4f>;
 @group(0) @binding(5) var<storage, read> extra: array<u32>;
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
+@group(0) @binding(7) var<storage, read> pressure: array<f32>;
+@group(0) @binding(8) var<storage, read> energy: array<f32>;    // second third: predicted pressure, of GHOST slots p0; last third: u0
 
 fn source(slot: u32) -> vec4f {
     if SOURCE == 1u { return in_space(work[slot]); }
@@ -80,32 +84,51 @@ fn interior_average(at: u32, n: u32) -> f32 {
 // Whether nothing moves near a slot. Clusters of cut cells reach further.
 fn stays(slot: u32) -> bool { return !CUT && !SOLVED && is_still(slot); }
 
-@compute @workgroup_size(WORKGROUP)
-fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
-    let word = cells[slot];
-    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
-    if stays(slot) {
-        node[slot] = vec4f(0.0);
-        return;
-    }
-    var sum = vec3f(0.0);
-    if !LISTED {
-        for (var n = 0u; n < DIM; n++) { sum[n] = interior_average(slot, n); }
-        node[slot] = vec4f(sum, 0.0);
-        return;
-    }
-    let c = cell_of(slot);
+// The same of any GAS cell.
+fn average(c: vec3i, slot: u32) -> vec3f {
     let own = velocity_of(source(slot));
+    var sum = vec3f(0.0);
     for (var k = 0u; k < block_size() / 2u; k++) {
         let offset = block_offset(k);
         let share = vec3f(across_share(offset, 0u), across_share(offset, 1u), across_share(offset, 2u)) * vec3f(reach());
         if all(share == vec3f(0.0)) { continue; }
         sum += share * (velocity_at(c, offset, own) + velocity_at(c, -offset, own));
     }
-    let middle = 1.0 / f32(1u << (DIM - 1u));
-    node[slot] = vec4f(middle * own * vec3f(reach()) + sum, 0.0);
+    return own * vec3f(reach()) / f32(1u << (DIM - 1u)) + sum;
+}
+
+// By how much what passed an open face in the last solve is faster than the carrier of the cell before it. The face lies half a cell
+// further: without this, gas there would be compressed by half of what the solve sees. 0 before the first solve, and where the
+// velocity is prescribed, as faster than sound.
+fn surplus_beyond(c: vec3i, slot: u32) -> vec4f {
+    let near = nearest_inside(c);
+    let away = c - near;
+    let face = OpenFace(energy[2u * params.slots + slot], energy[params.slots + slot]);
+    if dot(away, away) != 1 || kind_of(cells[slot_of(near)]) != GAS || face.reference <= 0.0 { return vec4f(0.0); }
+    let n = u32(away.y != 0) + 2u * u32(away.z != 0);
+    let y = admittance_of(opening_of(cells[slot]), face, conserved[slot_of(near)].x, energy[params.slots + slot_of(near)]);
+    let solved = face.velocity + f32(away[n]) * y * (last_face_pressure(near, n, away[n] > 0) - face.reference);
+    return select(vec4f(0.0), vec4f(solved - average(near, slot_of(near))[n]), vec4<bool>(along(n), false));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = listed_slot(thread_index(group, lane));
+    if slot >= params.slots { return; }
+    let word = cells[slot];
+    if LISTED && SOURCE == 0u && kind_of(word) == GHOST { node[slot] = surplus_beyond(cell_of(slot), slot); }
+    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
+    if stays(slot) {
+        node[slot] = vec4f(0.0);
+        return;
+    }
+    if LISTED {
+        node[slot] = vec4f(average(cell_of(slot), slot), 0.0);
+        return;
+    }
+    var sum = vec3f(0.0);
+    for (var n = 0u; n < DIM; n++) { sum[n] = interior_average(slot, n); }
+    node[slot] = vec4f(sum, 0.0);
 }
 
 // Mass-weighted carrier at the face between GAS cell c and its neighbour.
@@ -117,7 +140,7 @@ fn face_mean(c: vec3i, slot: u32, n: u32, up: bool) -> f32 {
     if kind != GAS {
         let opening = opening_of(cells[other]);
         if prescribes(opening) { return velocity_of(opening.flow)[n]; }
-        return node[slot][n];
+        return node[slot][n] + node[other][n];
     }
     if near_obstacle(cells[slot], cells[other]) { return cut_velocity(select(far, c, up), n); }
     let a = source(slot).x;

@@ -143,9 +143,12 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
         let velocity = face_velocity(n, select(far, slot, up), select(slot, far, up), select(there, here, up), select(here, there, up));
         return (p + carried_along(slot, far)) * velocity + shift_between(p, select(far, slot, up), select(slot, far, up), n);
     }
-    // Open: the velocity that the solve saw there.
+    // Open: the velocity that the solve saw, with which gas is carried there, too.
     let face = OpenFace(energy[2u * params.slots + far], energy[params.slots + far]);
-    let y = admittance_of(opening_of(cells[far]), face, here.x, energy[params.slots + slot]);
+    if CONSISTENT && face.reference > 0.0 { return p * (node[slot][n] + node[far][n]); }
+    var density = here.x;   // that of the solve: gas that followed a body has left since
+    if LATE_FLUX && has(cells[slot], NODE_SOLID) { density /= 1.0 - late_share_of(c); }
+    let y = admittance_of(opening_of(cells[far]), face, density, energy[params.slots + slot]);
     return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 

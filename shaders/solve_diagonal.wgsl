@@ -128,9 +128,9 @@ fn mixed_squares(v: vec3i, apart: bool, count: u32) -> Squares {
     let last = select(vec3i(-2), 2 * reach(), count > 0u);
     for (var k = -reach().z; k <= last.z; k++) {
         for (var j = -reach().y; j <= last.y; j++) {
-            let x = with_images(split_entries(0u, QUADRATIC), 0u, v.x);
-            let y = step_at(with_images(split_entries(1u, QUADRATIC), 1u, v.y), j);
-            let z = step_at(with_images(split_entries(2u, QUADRATIC), 2u, v.z), k);
+            let x = gas_entries_of_vertex(0u, QUADRATIC, v.x);
+            let y = step_at(gas_entries_of_vertex(1u, QUADRATIC, v.y), j);
+            let z = step_at(gas_entries_of_vertex(2u, QUADRATIC, v.z), k);
             let weights = weights_of(y, z);
             let own = plus(of_elements(x, gas, weights), of_faces(x, gas, sides, weights, y, z));
             let film = of_faces(x, gas, body, weights, y, z);

@@ -149,11 +149,11 @@ fn mean_of(entries: Split, u: vec4f) -> vec3f { return entries.mean_above.xyz * 
 
 // What a line of vertices does to a node through the elements of one kind: `u` acts on the elements and, at sides of the domain and
 // obstacles, on the faces of gas; `h` on the faces between gas and body.
-fn line_force(own: vec4u, body: vec4u, closed: vec4u, line: vec3i, u: vec4f, h: vec4f, solid: bool) -> vec3f {
+fn line_force(own: vec4u, body: vec4u, closed: vec4u, c: vec3i, line: vec3i, u: vec4f, h: vec4f, solid: bool) -> vec3f {
     let quadratic = solid || QUADRATIC;
-    let along_x = split_entries(0u, quadratic);
-    let y = step_at(split_entries(1u, quadratic), line.y);
-    let z = step_at(split_entries(2u, quadratic), line.z);
+    let along_x = entries_of_node(0u, quadratic, c.x);
+    let y = step_at(entries_of_node(1u, quadratic, c.y), line.y);
+    let z = step_at(entries_of_node(2u, quadratic, c.z), line.z);
     let weights = weights_of(y, z);
     let elements = columns_of(own);
     let shared_faces = faces_between(elements, columns_of(body), weights, y, z);
@@ -198,9 +198,9 @@ fn mixed_force(c: vec3i, count: u32) -> Forces {
             let line = vec3i(-1, y, z);
             let unknowns = unknowns_at(c + line);
             for (var turn = 0u; turn < u32(by_gas); turn++) {
-                forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), line, unknowns.gas, unknowns.h, false);
+                forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), c, line, unknowns.gas, unknowns.h, false);
             }
-            if SOLIDS { forces.solid += line_force(solid, gas, vec4u(0u), line, unknowns.solid, unknowns.h, true); }
+            if SOLIDS { forces.solid += line_force(solid, gas, vec4u(0u), c, line, unknowns.solid, unknowns.h, true); }
         }
     }
     return forces;

@@ -6,6 +6,7 @@
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/cut.wgsl"
+#include "shared/open_face.wgsl"
 #include "shared/control.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -18,21 +19,8 @@
 @group(0) @binding(6) var<storage, read_write> stiffness: array<f32>;
 @group(0) @binding(7) var<storage, read_write> residual: array<f32>;
 
-// Mean of the pressure that the last solve left at the face of a cell.
-fn last_face_pressure(near: vec3i, n: u32, up: bool) -> f32 {
-    let low = select(near, near + axis(n), up);
-    var sum = 0.0;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        if corner[n] == 1 { continue; }
-        let own = corner + select(vec3i(0), axis(n), up);
-        sum += face_shape(slot_of(near), n, up, own) * pressure[slot_of(low + corner)];
-    }
-    return sum;
-}
-
 // GHOST slots next to a gas cell keep what the pressure system is told about the face, in two thirds of the energy that they do
-// not use: p0 and u0; and in `fill` what a free outlet knows of itself.
+// not use: p0 and u0; and in `fill` what an outlet with a far pressure knows of itself.
 fn note_open_face(c: vec3i, slot: u32) {
     let near = nearest_inside(c);
     let away = c - near;
@@ -69,6 +57,11 @@ fn open_faces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 // Whether a vertex lies on a side of the domain.
 fn on_side(v: vec3i) -> bool { return any(((v == vec3i(0)) | (v == vec3i(params.cells))) & (reach() == vec3i(1))); }
 
+// From the middle of a face with normal n to one of its vertices, in cells.
+fn along_face(corner: vec3i, n: u32) -> vec3f {
+    return (vec3f(corner) - 0.5) * vec3f((reach() == vec3i(1)) & (axis(n) == vec3i(0)));
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = listed_slot(thread_index(group, lane));
@@ -90,7 +83,9 @@ fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             let face = OpenFace(energy[2u * params.slots + beyond], energy[params.slots + beyond]);
             let y = admittance_of(opening_of(cells[beyond]), face, conserved[here].x, energy[params.slots + here]);
             let share = aperture(here, n, up) * face_shape(here, n, up, corner);
-            flow += rounded(share * (select(-1.0, 1.0, up) * face.velocity + y * (pressure[slot] - face.reference)));
+            // the reference is that of the middle of the face
+            let weight = conserved[here].x * params.spacing * dot(params.gravity, along_face(corner, n));
+            flow += rounded(share * (select(-1.0, 1.0, up) * face.velocity + y * (pressure[slot] - (face.reference + weight))));
             admittance += share * y;
         }
     }

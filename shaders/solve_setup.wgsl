@@ -31,7 +31,7 @@ fn layer_densities(at: u32) -> vec3f {
     return vec3f(conserved[at].x, x + y, corners);
 }
 
-fn interior_mass(at: u32) -> f32 {
+fn mean_mass(at: u32) -> f32 {
     let middle = vec4f(layer_densities(at), 0.0);
     if DIM < 3u { return weighed(middle); }
     let z = params.stride.x * params.stride.y;
@@ -52,11 +52,17 @@ fn weighed(densities: vec4f) -> f32 {
 
 fn mass_share(node: i32) -> f32 { return mean_entry(QUADRATIC, node, false) + mean_entry(QUADRATIC, node, true); }
 
-// Density of a GAS cell, or of what it is the image of; 0 elsewhere.
-fn gas_density(c: vec3i) -> f32 {
-    let near = mirrored(c);
+// Density that a node sees in a GAS cell, or in what stands for it: `own`, that of its own cell, where the velocity is constant per cell.
+// With a mean, a thin cell beside a dense one would move like the dense one in the solve, and as itself after it. 0 elsewhere.
+fn gas_density(c: vec3i, own: f32) -> f32 {
+    let near = joined(mirrored(c));
     if !inside(near) || kind_of(cells[slot_of(near)]) != GAS { return 0.0; }
-    return conserved[slot_of(near)].x;
+    return select(conserved[slot_of(near)].x, own, own > 0.0);
+}
+
+fn interior_mass(at: u32) -> f32 {
+    if !QUADRATIC { return conserved[at].x; }
+    return mean_mass(at);
 }
 
 // Lumped mass of a gas node from the gas cells around it.
@@ -65,17 +71,18 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots || (!LISTED && !has(cells[slot], INTERIOR)) { return; }
     var mass = 0.0;
+    let c = cell_of(slot);
     if !LISTED { mass = interior_mass(slot); }
     else if beside_obstacle(cells[slot]) {
         if kind_of(cells[slot]) == GAS { mass = conserved[slot].x * cluster_share(slot); }
-    } else if has(cells[slot], NODE_GAS) && !is_image(cell_of(slot)) {
-        let c = cell_of(slot);
+    } else if has(cells[slot], NODE_GAS) && !is_image(c) && !is_joined(c) {
         var around = vec4f(0.0);    // pairs across the node by how many axes they lie off
+        let own = select(0.0, conserved[slot].x, !QUADRATIC && kind_of(cells[slot]) == GAS);
         for (var k = 0u; k < block_size() / 2u; k++) {
             let offset = block_offset(k);
-            around[dot(offset, offset)] += gas_density(c + offset) + gas_density(c - offset);
+            around[dot(offset, offset)] += gas_density(c + offset, own) + gas_density(c - offset, own);
         }
-        around.x = gas_density(c);
+        around.x = gas_density(c, own);
         mass = weighed(around);
     }
     let inverse = select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0);

@@ -34,10 +34,15 @@ fn inflow_speed(o: Opening, outward_velocity: f32) -> f32 {
 // Least speed of sound behind a wave into the far gas, over that of the far gas.
 const LEAST_SOUND = 0.1;
 
-// Speed of sound over the far one where a simple wave that runs outward has brought the far gas to velocity u: u_in + 2 c / (gamma - 1)
-// stays. [Liepmann and Roshko 1957, section 3.9]
-fn sound_from_afar(o: Opening, n: u32, outward: f32, u: f32) -> f32 {
-    let gain = outward * (u - o.flow[n + 1u] / o.flow.x) / sound_speed(o.flow.x, o.pressure);
+// The far gas as it is where gas of this entropy has its pressure: what leaves pushes gas of its own entropy before it.
+fn far_density(o: Opening, density: f32, pressure: f32) -> f32 {
+    return density * pow(o.pressure / pressure, 1.0 / params.gamma);
+}
+
+// Speed of sound over that at the far pressure where a simple wave that runs outward has brought gas of a density there to velocity u:
+// u_in + 2 c / (gamma - 1) stays. [Liepmann and Roshko 1957, section 3.9]
+fn sound_from_afar(o: Opening, n: u32, outward: f32, density: f32, u: f32) -> f32 {
+    let gain = outward * (u - o.flow[n + 1u] / o.flow.x) / sound_speed(density, o.pressure);
     return max(1.0 + 0.5 * (params.gamma - 1.0) * gain, LEAST_SOUND);
 }
 
@@ -50,9 +55,11 @@ fn gas_from_afar(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
     let u = here.flow[n + 1u] / here.flow.x;
     if outward * u >= 0.0 { return here; }
     if outward * u <= -sound_speed(here.flow.x, pressure_of(here)) { return Gas(o.flow, o.energy); }
-    let sound = sound_from_afar(o, n, outward, u);
+    let p = pressure_of(here);
+    let sound = sound_from_afar(o, n, outward, far_density(o, here.flow.x, p), u);
     let velocity = select(velocity_of(o.flow), vec3f(u), along(n));
-    return gas_from_primitive(o.flow.x * pow(sound, 2.0 / (params.gamma - 1.0)), velocity, pressure_from_afar(o, sound));
+    let p_beyond = pressure_from_afar(o, sound);
+    return gas_from_primitive(o.flow.x * pow(p_beyond / o.pressure, 1.0 / params.gamma), velocity, p_beyond);
 }
 
 // State beyond a face next to `here`, across axis n, outward = -1 or 1.
@@ -83,10 +90,9 @@ struct OpenFace {
     reference: f32,     // p0; below 0 where the velocity is prescribed
 }
 
-// What the pressure system is told about an open face of a cell with the advected state `here`. `known` is what a free outlet
-// knows of itself: velocity and pressure of the last step. Kept, they keep what would come in from far away as it was, along the
-// whole history of the outgoing wave, however strong; so nothing is sent back. They drift slowly towards the cell's, or the
-// pressure towards the far one. [Thompson 1987; Poinsot and Lele 1992]
+// What the pressure system is told about an open face of a cell with the advected state `here`. `known` is what an outlet with a far
+// pressure knows of itself: velocity and pressure of the last step. Kept, they keep what would come in from far away as it was; the
+// pressure drifts slowly towards the far one. [Thompson 1987; Poinsot and Lele 1992]
 fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32) -> OpenFace {
     let velocity = here.flow[n + 1u] / here.flow.x;
     let pressure = pressure_of(here);
@@ -104,14 +110,13 @@ fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32)
     if follows(o, RULE_FAR) {
         if mach >= 1.0 { return OpenFace(velocity, -1.0); }
         if mach <= -1.0 { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
-        return OpenFace(velocity, pressure_from_afar(o, sound_from_afar(o, n, outward, velocity)));
+        // without the kick of gravity, which the pressure that it is solved for balances
+        let u = velocity - dt * params.gravity[n];
+        return OpenFace(u, pressure_from_afar(o, sound_from_afar(o, n, outward, far_density(o, here.flow.x, pressure), u)));
     }
     if mach >= 1.0 { return OpenFace(velocity, -1.0); }
     let drift = min(1.0, o.share * max(1.0 - mach * mach, 0.0) * c * dt);
-    if follows(o, RULE_PRESSURE) {
-        return OpenFace(known.x + outward * drift * (known.y - o.pressure) / (here.flow.x * c), known.y);
-    }
-    return OpenFace(mix(known.x, velocity, drift), mix(known.y, pressure, drift));
+    return OpenFace(known.x + outward * drift * (known.y - o.pressure) / (here.flow.x * c), known.y);
 }
 
 // 1 / Z of an open face, from density and predicted pressure of its cell.
@@ -120,7 +125,8 @@ fn admittance_of(o: Opening, face: OpenFace, density: f32, predicted: f32) -> f3
     // That of the far gas behind the wave. Z of the cell would let out less where its pressure is too high.
     if follows(o, RULE_FAR) {
         let ratio = pow(face.reference / o.pressure, 0.5 + 0.5 / params.gamma);
-        return 1.0 / (o.flow.x * sound_speed(o.flow.x, o.pressure) * ratio);
+        let far = far_density(o, density, predicted);
+        return 1.0 / (far * sound_speed(far, o.pressure) * ratio);
     }
     let c = sound_speed(density, predicted);
     if follows(o, RULE_TOTAL) { return 1.0 / (density * max(abs(face.velocity), LEAST_INFLOW * c)); }

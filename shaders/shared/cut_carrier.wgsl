@@ -3,7 +3,7 @@
 // around it by the gas that they hold there: then every transfer becomes fluxes through the faces between these cells, and a cell is
 // compressed by its share of what the solve sees at its vertices, by nothing else. Where the nearest face is closed, the flux goes
 // through the next one. Where no obstacle is near, this is the mean with (1, 2, 1) / 4; along a flat wall, with the nearest gas beyond.
-// Needs the bindings cells, extra and openings, and a function flow_at(slot): density and momentum of the state that carries.
+// Needs the bindings cells, extra, node and openings, and a function flow_at(slot): density and momentum of the state that carries.
 
 // The six cells beside a face and its neighbours, by [row + 1][column]: columns along the normal, rows along the face.
 struct Beside {
@@ -81,10 +81,11 @@ fn side_transfer(low: vec3i, n: u32, level: u32, shares: vec2f) -> f32 {
         let beyond = c + select(-axis(t), axis(t), up);
         if inside(beyond) || !holds_gas(c) || kind_of(cells[slot_of(beyond)]) != GHOST { continue; }
         let opening = opening_of(cells[slot_of(beyond)]);
-        var flow = flow_at(slot_of(c));
-        if prescribes(opening) { flow = opening.flow; }
+        let flow = flow_at(slot_of(c));
+        var velocity = flow[t + 1u] / flow.x + node[slot_of(beyond)][t];
+        if prescribes(opening) { velocity = opening.flow[t + 1u] / opening.flow.x; }
         let corner = i32(1u - column) * axis(n) + i32(level) * axis(t);
-        inflow[column] = select(1.0, -1.0, up) * flow[t + 1u] / flow.x
+        inflow[column] = select(1.0, -1.0, up) * velocity
             * aperture(slot_of(c), t, up) * face_shape(slot_of(c), t, up, corner);
     }
     return inflow.x - shares.x * (inflow.x + inflow.y);

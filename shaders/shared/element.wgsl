@@ -68,13 +68,13 @@ fn wide_entries_of_node(a: u32, j: i32, solid: bool) -> AxisEntries {
 fn wide_entries_of_vertex(a: u32, v: i32, solid: bool) -> AxisEntries { return wide_entries(a, vec4i(v), solid); }
 
 // The same for B1B0, whose nodes rest on two vertices per axis only: means of the low and the high vertex of node j, and s where
-// their slopes are -s and s. Beyond a plane of symmetry no node is of its own: the one before it has its share.
+// their slopes are -s and s. Beyond a plane of symmetry, or a side that joins nodes, no node is of its own: the one before it has its share.
 fn narrow_entry(a: u32, j: i32) -> vec3f {
     if a >= DIM { return vec3f(1.0, 0.0, 0.0); }
     let n = i32(params.cells[a]);
     let own = f32(j >= 0 && j < n);
-    let low = mirrors(2u * a);
-    let high = mirrors(2u * a + 1u);
+    let low = mirrors(2u * a) | joins(2u * a);
+    let high = mirrors(2u * a + 1u) | joins(2u * a + 1u);
     return vec3f(0.375 * own + 0.125 * f32(j >= 1 - low && j <= n - high), 0.375 * own + 0.125 * f32(j >= low - 1 && j < n + high - 1), own);
 }
 

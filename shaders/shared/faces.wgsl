@@ -86,7 +86,7 @@ fn slot_beside(slot: u32, c: vec3i, n: u32, up: bool) -> u32 {
     return u32(i32(slot) + (place_along(n, c[n] + select(-1, 1, up)) - c[n]) * i32(step_of(n)));
 }
 
-// Carrier of the neighbour of a GAS slot inside the domain; beyond an outlet that of the nearest cell.
+// Carrier of the neighbour of a GAS slot inside the domain; beyond an outlet that of the face.
 fn carrier_beside(slot: u32, c: vec3i, n: u32, offset: i32, word: u32) -> vec4f {
     let place = place_along(n, c[n] + offset);
     let nearest = clamp(place, 0, i32(params.cells[n]) - 1);
@@ -96,6 +96,7 @@ fn carrier_beside(slot: u32, c: vec3i, n: u32, offset: i32, word: u32) -> vec4f 
     } else if place != nearest && kind_of(word) == GHOST {
         let opening = opening_of(word);
         if prescribes(opening) { return vec4f(velocity_of(opening.flow), 0.0); }
+        here += vec4f(node[slot_beside(slot, c, n, offset > 0)].xyz, 0.0);
     }
     return here;
 }

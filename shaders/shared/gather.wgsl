@@ -86,7 +86,7 @@ fn rows_of_faces(own: mat2x4f, other: mat2x4f, weights: Weights, y: Step, z: Ste
 // The transpose of line_force, over all lines of nodes: rows of the element's own pressure, and of h. The bounds of the loops depend on
 // `own` so that no driver unrolls them.
 fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, base: u32, quadratic: bool) -> vec2f {
-    let along_x = with_images(split_entries(0u, quadratic), 0u, v.x);
+    let along_x = gas_entries_of_vertex(0u, quadratic, v.x);
     let elements = columns_beside(own);
     let bodies = columns_beside(body);
     let sides = columns_beside(closed);
@@ -94,9 +94,9 @@ fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, base: u32, quadratic: 
     let first = select(vec3i(0), -reach(), quadratic);
     var rows = vec2f(0.0);
     for (var k = first.z; k <= last.z; k++) {
-        let z = step_at(with_images(split_entries(2u, quadratic), 2u, v.z), k);
+        let z = step_at(gas_entries_of_vertex(2u, quadratic, v.z), k);
         for (var j = first.y; j <= last.y; j++) {
-            let y = step_at(with_images(split_entries(1u, quadratic), 1u, v.y), j);
+            let y = step_at(gas_entries_of_vertex(1u, quadratic, v.y), j);
             for (var turn = 0u; turn < u32(touches(own, j, k)); turn++) {
                 let at = v - vec3i(0, j, k);
                 let b = velocity_at(base, at);

@@ -66,7 +66,20 @@ fn nearest_ring(c: vec3i) -> vec3i {
 // 1 where a side is a plane of symmetry.
 fn mirrors(side: u32) -> i32 { return i32((MIRRORED >> side) & 1u); }
 
-// What stands for a place beyond such sides; `gap` is that between the image of the first place and the first: 1 for cells, 0 for vertices.
+// 1 where a node beyond a side has the velocity of the cell before it, and so is no node of its own.
+fn joins(side: u32) -> i32 { return i32((JOINED >> side) & 1u); }
+
+// The cell whose velocity the node of a cell has.
+fn joined(c: vec3i) -> vec3i {
+    if JOINED == 0u { return c; }
+    let low = vec3i(joins(0u), joins(2u), joins(4u)) == vec3i(1);
+    let high = vec3i(joins(1u), joins(3u), joins(5u)) == vec3i(1);
+    let last = vec3i(params.cells) - vec3i(1);
+    return select(select(c, last, high & (c > last)), vec3i(0), low & (c < vec3i(0)));
+}
+fn is_joined(c: vec3i) -> bool { return JOINED != 0u && any(joined(c) != c); }
+
+// What stands for a place beyond planes of symmetry; `gap` is that between the image of the first place and the first: 1 for cells, 0 for vertices.
 fn before_sides(c: vec3i, gap: i32) -> vec3i {
     if MIRRORED == 0u { return c; }
     let low = vec3i(mirrors(0u), mirrors(2u), mirrors(4u)) == vec3i(1);

@@ -36,6 +36,31 @@ fn with_images(entries: Split, a: u32, v: i32) -> Split {
         own * folded(entries.slope_below, -images), own * folded(entries.slope_above, -images), own * folded(entries.face, -images));
 }
 
+// Entries that gas has at a vertex `v`, where what a node beyond a side that joins nodes had goes to the one before it.
+fn gas_entries_of_vertex(a: u32, quadratic: bool, v: i32) -> Split {
+    var entries = split_entries(a, quadratic);
+    if JOINED != 0u && !quadratic && a < DIM {
+        let low = entries.mean_above.z * f32(joins(2u * a) * i32(v == 0));
+        let high = entries.mean_below.y * f32(joins(2u * a + 1u) * i32(v == i32(params.cells[a])));
+        entries.mean_above += vec4f(0.0, low, -low, 0.0);
+        entries.mean_below += vec4f(0.0, -high, high, 0.0);
+    }
+    return with_images(entries, a, v);
+}
+
+// The same of the vertices of node `j`; what lies beyond a plane of symmetry is there as images.
+fn entries_of_node(a: u32, quadratic: bool, j: i32) -> Split {
+    var entries = split_entries(a, quadratic);
+    if JOINED != 0u && !quadratic && a < DIM {
+        let low = entries.mean_above.z * f32(joins(2u * a));
+        let high = entries.mean_below.y * f32(joins(2u * a + 1u));
+        let n = i32(params.cells[a]);
+        entries.mean_above += vec4f(0.0, low * f32(j == 0), -low * f32(j == -1), 0.0);
+        entries.mean_below += vec4f(0.0, -high * f32(j == n), high * f32(j == n - 1), 0.0);
+    }
+    return entries;
+}
+
 fn folded(entry: vec4f, images: vec2f) -> vec4f { return entry + vec4f(0.0, images.y * entry.x, images.x * entry.w, 0.0); }
 
 // The same of one k: below, above.

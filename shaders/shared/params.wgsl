@@ -21,6 +21,7 @@ override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's 
 override RULES_USED: u32;        // rules of open sides in the scene, as bits
 override PERIODIC: u32;          // axes whose ends meet, as bits
 override MIRRORED: u32;         // sides that are planes of symmetry: walls, as bits; gas only
+override JOINED: u32;           // open sides whose nodes go with the cells before them, as bits; B1B0 only
 override SLEEPS: bool;          // gas that nothing reaches in a step may be left out of it, see still.wgsl
 override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
 override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE

@@ -101,6 +101,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/matrix.wgsl",
     "shared/mixed.wgsl",
     "shared/motion.wgsl",
+    "shared/open_face.wgsl",
     "shared/opening.wgsl",
     "shared/params.wgsl",
     "shared/parting.wgsl",

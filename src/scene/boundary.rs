@@ -22,13 +22,13 @@ pub enum Boundary {
     TotalInlet(Reservoir),
     /// An inlet whose state follows a table of times.
     TimedInlet(TimedInlet),
-    /// Gas leaves; nothing comes back that has not been inside: neither a state nor a pressure is prescribed.
+    /// A far field whose gas is that which lies at the side at the start, face by face.
     Outlet,
     /// Gas leaves against a far pressure.
     PressureOutlet(PressureOutlet),
     /// Gas leaves; beyond the side the state is drawn towards a far one. [Kwatra et al. 2009; Cao et al. 2022, section 2.9]
     AttenuatedOutlet(AttenuatedOutlet),
-    /// Undisturbed gas of a fixed state beyond the side: gas may leave and enter, sound leaves.
+    /// Undisturbed gas of a fixed state far away: gas may leave and enter, sound leaves.
     FarField(GasState),
     /// A base rule and patches with rules of their own.
     Patched(Patched),

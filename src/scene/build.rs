@@ -186,6 +186,7 @@ impl Gas {
         Gas {
             gamma: super::default_gamma(),
             ambient,
+            atmosphere: super::Atmosphere::default(),
             regions: Vec::new(),
             waves: Vec::new(),
             vortices: Vec::new(),

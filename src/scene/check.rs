@@ -203,6 +203,7 @@ impl Check<'_> {
             self.state(&format!("gas.regions[{index}]"), &region.state);
         }
         self.planar("gravity", self.scene.gravity);
+        self.atmosphere();
         for (index, wave) in gas.waves.iter().enumerate() {
             self.planar(format!("gas.waves[{index}].vector"), wave.vector);
             self.planar(format!("gas.waves[{index}].velocity"), wave.velocity);

@@ -3,10 +3,12 @@
 use super::boundary::{AttenuatedOutlet, Inflow, InletRule, Patched, PressureOutlet, Reservoir, TimedInlet};
 use super::check::Check;
 use super::source::Finding;
-use super::{Boundaries, Boundary, check_shape};
+use super::{Boundaries, Boundary, MAX_REMEMBERED, check_shape};
 
 /// Cells that a periodic axis needs: the stencils must not meet themselves.
 const FEWEST_PERIODIC_CELLS: u32 = 4;
+/// Least share of the ambient pressure at the top of an atmosphere.
+const THINNEST: f64 = 1e-4;
 /// Rules of all sides together that let gas through.
 pub const MAX_OPENINGS: usize = 64;
 
@@ -35,6 +37,31 @@ impl Check<'_> {
         }
         if openings > MAX_OPENINGS {
             self.add("boundary", format!("{openings} open rules"), format!("give at most {MAX_OPENINGS}"));
+        }
+        self.remembered();
+    }
+
+    /// Ambient gas under gravity fills the domain.
+    pub(super) fn atmosphere(&mut self) {
+        let scene = self.scene;
+        let known = scene.gas.ambient.pressure > 0.0 && scene.gas.ambient.density > 0.0 && scene.gas.gamma > 1.0;
+        if known && scene.is_stratified() && scene.least_pressure_ratio() < THINNEST {
+            let ratio = scene.least_pressure_ratio();
+            let message = format!("gravity leaves {ratio:.1e} of the pressure of `ambient` at the top of the domain");
+            let help = format!(
+                "it must be at least {THINNEST:e}: a weaker gravity, a lower domain, or gas.atmosphere = \"uniform\""
+            );
+            self.add("gravity", message, help);
+        }
+    }
+
+    /// What outlets remember has room on the device.
+    fn remembered(&mut self) {
+        let domain = &self.scene.domain;
+        let sound = domain.cells.iter().all(|n| *n > 0) && domain.size[0] > 0.0;
+        if sound && self.scene.remembered().states.len() > MAX_REMEMBERED {
+            let message = format!("more than {MAX_REMEMBERED} different states lie at the outlets at the start");
+            self.add("boundary", message, "let fewer regions end there, or make the sides a \"far_field\"");
         }
     }
 

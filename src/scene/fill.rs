@@ -29,10 +29,10 @@ impl Scene {
         if !(gas.waves.is_empty() && gas.vortices.is_empty() && gas.radial_flows.is_empty()) {
             return self.each_cell(|center| self.mean_over(center, |point| self.gas_at(point).conserved(gamma)));
         }
-        let ambient = self.gas.ambient.conserved(gamma);
         let states = self.gas.regions.iter().map(|region| region.state.conserved(gamma)).collect::<Vec<_>>();
         let reach = self.cell_radius();
         self.each_cell(|center| {
+            let ambient = self.ambient_at(center).conserved(gamma);
             let mut state = ambient;
             let mut mixed = false;
             for (region, inside) in self.gas.regions.iter().zip(&states) {
@@ -108,11 +108,16 @@ impl Scene {
         (0..self.domain.cell_count()).into_par_iter().map(|cell| value(self.domain.cell_center(at(cell)))).collect()
     }
 
+    /// State of the regions at a point, without what is added to it; the ambient one at the height of another.
+    pub(super) fn still_gas(&self, point: [f64; 3], height: [f64; 3]) -> GasState {
+        let last = self.gas.regions.iter().rev().find(|region| region.shape.distance(point) < 0.0);
+        last.map_or_else(|| self.ambient_at(height), |region| region.state)
+    }
+
     /// Initial state at a point.
     #[must_use]
     pub fn gas_at(&self, point: [f64; 3]) -> GasState {
-        let last = self.gas.regions.iter().rev().find(|region| region.shape.distance(point) < 0.0);
-        let mut state = last.map_or(self.gas.ambient, |region| region.state);
+        let mut state = self.still_gas(point, point);
         for wave in &self.gas.waves {
             wave.add(&mut state, point);
         }

@@ -5,6 +5,8 @@
 //!
 //! Units are consistent and chosen by the scene: every field names its dimension in brackets, in kg, m, s for example.
 
+mod atmosphere;
+mod beyond;
 mod body;
 mod boundary;
 mod budget;
@@ -60,6 +62,8 @@ include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
 pub use crate::material::Material;
 use crate::riemann::ExactRiemann;
+pub use atmosphere::Atmosphere;
+pub use beyond::{MAX_REMEMBERED, Remembered};
 pub use body::{Body, Contact, Friction, Motion, MotionAt, Sampling};
 pub use boundary::{
     AttenuatedOutlet, Boundaries, Boundary, Inflow, InletRule, Patch, Patched, PressureOutlet, Reservoir, TimedInlet,
@@ -184,6 +188,9 @@ pub struct Gas {
     pub gamma: f64,
     /// State wherever no region says otherwise.
     pub ambient: GasState,
+    /// How it starts under gravity.
+    #[serde(default)]
+    pub atmosphere: Atmosphere,
     /// Regions with their own state; a later one covers an earlier one.
     #[serde(default)]
     pub regions: Vec<Region>,
@@ -283,12 +290,21 @@ impl Domain {
         center
     }
 
-    /// Centres of all faces of a side `[m]`.
-    pub fn side_faces(&self, side: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
+    /// The cells next to a side, x fastest.
+    pub fn cells_at(&self, side: usize) -> impl Iterator<Item = [u32; 3]> + '_ {
         let mut count = self.cells;
+        let far = if side.is_multiple_of(2) { 0 } else { count[side / 2] - 1 };
         count[side / 2] = 1;
         let [nx, ny, nz] = count;
-        (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| self.face_center(side, [x, y, z]))))
+        (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z]))).map(move |mut cell| {
+            cell[side / 2] = far;
+            cell
+        })
+    }
+
+    /// Centres of all faces of a side `[m]`.
+    pub fn side_faces(&self, side: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
+        self.cells_at(side).map(move |cell| self.face_center(side, cell))
     }
 }
 

@@ -14,7 +14,7 @@ pub const WALL: u32 = 2;
 pub const GHOST: u32 = 3;
 
 /// What a rule prescribes beyond a side; the position is the number on the device.
-pub const RULES: [&str; 7] = ["FIXED", "SUBSONIC", "TOTAL", "FREE", "PRESSURE", "ATTENUATED", "FAR"];
+pub const RULES: [&str; 6] = ["FIXED", "SUBSONIC", "TOTAL", "PRESSURE", "ATTENUATED", "FAR"];
 /// Lowest bit of the place of its rule in the word of a GHOST slot.
 pub const RULE_SHIFT: u32 = 16;
 

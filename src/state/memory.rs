@@ -91,7 +91,7 @@ impl MemoryPlan {
             plan.add("nodes", &[("sort scan", scan, 1)]);
         }
         plan.add("fixed", &[("openings", MAX_OPENINGS as u64, size_of::<Opening>() as u64)]);
-        plan.add("fixed", &[("knots", Openings::new(scene).knots.len() as u64, size_of::<Knot>() as u64)]);
+        plan.add("fixed", &[("knots", Openings::knots_of(scene), size_of::<Knot>() as u64)]);
         plan.add("fixed", &[("supports", MAX_BODIES as u64, size_of::<Support>() as u64)]);
         let motions = super::Supports::new(scene).motions.len() as u64;
         plan.add("fixed", &[("motions", motions, size_of::<super::MotionAt>() as u64)]);

@@ -3,13 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{Grid, constants};
-use crate::scene::{Boundary, GasState, InletRule, Scene, TimedState};
+use crate::scene::{Boundary, GasState, InletRule, MAX_REMEMBERED, Remembered, Scene, TimedState};
 
-/// Rules that the table has room for.
-pub use crate::scene::MAX_OPENINGS;
-
-/// How fast a free outlet forgets what came in from far away, in sound crossings of the domain \[1\].
-const FREE_DRIFT: f64 = 0.25;
+/// Rules that the table has room for: those of the scene, then the states that outlets remember.
+pub const MAX_OPENINGS: usize = crate::scene::MAX_OPENINGS + MAX_REMEMBERED;
 
 /// One rule. Mirror of `Opening` in `shaders/shared/opening.wgsl`.
 #[repr(C)]
@@ -56,8 +53,23 @@ pub struct Openings {
     pub table: Vec<Opening>,
     /// Tables of times, one after the other.
     pub knots: Vec<Knot>,
-    /// For each side and each of its rules, the place in the table; none for walls.
-    places: [Vec<Option<u32>>; 6],
+    /// Rules of the scene: the first of the table. The others are far fields of the states that outlets remember.
+    pub named: usize,
+    /// For each side and each of its rules, what lies beyond.
+    places: [Vec<Place>; 6],
+    /// What outlets remember.
+    remembered: Remembered,
+}
+
+/// Where the rule of a face stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// Nowhere: a wall.
+    Closed,
+    /// In the table.
+    Rule(u32),
+    /// Among the states that outlets remember.
+    Remembered,
 }
 
 impl Openings {
@@ -71,29 +83,33 @@ impl Openings {
                 openings.places[index].push(place);
             }
         }
+        openings.named = openings.table.len();
+        openings.remembered = scene.remembered();
+        let far = openings.remembered.states.iter().map(|state| of_state(scene, "FAR", state));
+        openings.table.extend(far.take(MAX_REMEMBERED));
         openings
     }
 
+    /// How many knots the tables of times of a scene have.
+    #[must_use]
+    pub fn knots_of(scene: &Scene) -> u64 {
+        let knots = |rule: &Boundary| if let Boundary::TimedInlet(inlet) = rule { inlet.table.len() } else { 0 };
+        scene.boundary.sides().into_iter().flat_map(Boundary::rules).map(knots).sum::<usize>() as u64
+    }
+
     /// Puts a rule into the table.
-    fn add(&mut self, scene: &Scene, rule: &Boundary, length: f64) -> Option<u32> {
-        let of_state = |name: &str, state: &GasState| {
-            let [density, x, y, z, energy] = state.conserved(scene.gas.gamma).map(|v| v as f32);
-            let flow = [density, x, y, z];
-            Opening { flow, energy, pressure: state.pressure as f32, rule: constants::rule(name), ..Opening::default() }
-        };
+    fn add(&mut self, scene: &Scene, rule: &Boundary, length: f64) -> Place {
+        let of_state = |name: &str, state: &GasState| of_state(scene, name, state);
         let still = |density: f64, pressure: f64| GasState { density, velocity: [0.0; 3], pressure };
         let mut opening = match rule {
-            Boundary::Wall | Boundary::Periodic | Boundary::Patched(_) => return None,
+            Boundary::Wall | Boundary::Periodic | Boundary::Patched(_) => return Place::Closed,
+            Boundary::Outlet => return Place::Remembered,
             Boundary::Inlet(state) => of_state("FIXED", state),
             Boundary::SubsonicInlet(inflow) => {
                 let state = GasState { density: inflow.density, velocity: inflow.velocity, pressure: 0.0 };
                 of_state("SUBSONIC", &state)
             }
             Boundary::TotalInlet(total) => of_state("TOTAL", &still(total.density, total.pressure)),
-            Boundary::Outlet => {
-                let share = (FREE_DRIFT / length) as f32;
-                Opening { rule: constants::rule("FREE"), share, ..Opening::default() }
-            }
             Boundary::PressureOutlet(outlet) => of_state("PRESSURE", &still(1.0, outlet.pressure)),
             Boundary::AttenuatedOutlet(outlet) => {
                 let (density, velocity, pressure) = (outlet.density, outlet.velocity, outlet.pressure);
@@ -122,7 +138,7 @@ impl Openings {
             _ => {}
         }
         self.table.push(opening);
-        Some(self.table.len() as u32 - 1)
+        Place::Rule(self.table.len() as u32 - 1)
     }
 
     /// Word of a slot outside of the domain: WALL behind any wall, else GHOST with the place of its rule. Behind two sides a
@@ -134,7 +150,14 @@ impl Openings {
         let places = behind.map(|axis| {
             let side = 2 * axis + usize::from(cell[axis] >= 0);
             let rule = scene.boundary.sides()[side].rule_at(scene.domain.face_center(side, inside));
-            self.places[side].get(rule).copied().flatten()
+            match self.places[side][rule] {
+                Place::Closed => None,
+                Place::Rule(place) => Some(place),
+                Place::Remembered => {
+                    let state = self.remembered.place(&scene.gas_beyond(side, inside));
+                    state.map(|place| (self.named + place) as u32)
+                }
+            }
         });
         let Some(places) = places.collect::<Option<Vec<u32>>>() else { return constants::WALL };
         let prescribed = |place: &&u32| self.table[**place as usize].rule <= constants::rule("SUBSONIC");
@@ -161,6 +184,12 @@ impl Openings {
         table.resize(MAX_OPENINGS, Opening::default());
         table
     }
+}
+
+fn of_state(scene: &Scene, name: &str, state: &GasState) -> Opening {
+    let [density, x, y, z, energy] = state.conserved(scene.gas.gamma).map(|v| v as f32);
+    let flow = [density, x, y, z];
+    Opening { flow, energy, pressure: state.pressure as f32, rule: constants::rule(name), ..Opening::default() }
 }
 
 fn knot(state: &TimedState) -> Knot {

@@ -243,6 +243,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
         ("MIRRORED", f64::from(if solids { 0 } else { whole_walls(scene) })),
+        ("JOINED", f64::from(if numerics.pair == Pair::B1b0 { joined_sides(scene) } else { 0 })),
         ("SLEEPS", flag(sleeps(scene, solids))),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
@@ -269,6 +270,15 @@ pub(super) fn sleeps(scene: &Scene, solids: bool) -> bool {
 fn whole_walls(scene: &Scene) -> u32 {
     let wall = |side: &Boundary| side.rules().iter().all(|rule| **rule == Boundary::Wall);
     scene.boundary.sides().iter().enumerate().map(|(index, side)| u32::from(wall(side)) << index).sum()
+}
+
+/// Sides beyond all of whose faces the gas has the velocity of that before them, as bits.
+fn joined_sides(scene: &Scene) -> u32 {
+    let joins = |rule: &&Boundary| {
+        matches!(rule, Boundary::Outlet | Boundary::FarField(_) | Boundary::PressureOutlet(_) | Boundary::TotalInlet(_))
+    };
+    let sides = scene.boundary.sides().into_iter().enumerate().take(2 * scene.domain.axes());
+    sides.map(|(index, side)| u32::from(side.rules().iter().all(joins)) << index).sum()
 }
 
 /// Sides whose base rule is a wall, as bits.

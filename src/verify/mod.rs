@@ -38,6 +38,7 @@ mod line_explosion;
 mod loaded_walls;
 pub mod muscl;
 pub mod muscl_plane;
+mod open_sides;
 mod panel;
 mod pistons;
 mod plane;
@@ -116,6 +117,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         plane_flows::CASES,
         buoyancy::CASES,
         quiet::CASES,
+        open_sides::CASES,
     ]);
     let by_file = gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten();
     let mut cases: Vec<&Case> = by_file.collect();

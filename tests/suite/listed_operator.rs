@@ -105,15 +105,15 @@ struct Entry {
     value: f64,
 }
 
-/// C without a grid of its own: every coefficient of every node, bodies' nodes behind those of the gas. Images beyond planes of symmetry
-/// have none.
+/// C without a grid of its own: every coefficient of every node, bodies' nodes behind those of the gas. Those that
+/// others stand for have none.
 fn entries(problem: &Problem, marks: &Marks) -> Vec<Entry> {
     let grid = &problem.grid;
     let mut entries = Vec::new();
     for kind in [GAS, SOLID] {
         for node in grid.all() {
             let touched = |c: [i32; 3]| marks.kinds[grid.slot(c)] == kind;
-            if kind == GAS && problem.mirrored(node) != node {
+            if kind == GAS && problem.node_of(node) != node {
                 continue;
             }
             if !interface::elements_of(problem, node).any(|(c, _)| touched(c)) {
@@ -136,10 +136,10 @@ fn entries(problem: &Problem, marks: &Marks) -> Vec<Entry> {
     entries
 }
 
-/// Slots of gas nodes that are images of others: without mass and velocity.
+/// Slots of gas nodes that others stand for: without mass and velocity.
 fn images(problem: &Problem) -> Vec<usize> {
     let all = problem.grid.all().into_iter();
-    all.filter(|node| problem.mirrored(*node) != *node).map(|node| problem.grid.slot(node)).collect()
+    all.filter(|node| problem.node_of(*node) != *node).map(|node| problem.grid.slot(node)).collect()
 }
 
 fn worst(found: &[f64], expected: &[f64]) -> f64 {

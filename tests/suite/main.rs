@@ -34,6 +34,7 @@ mod loads;
 mod maps;
 mod materials;
 mod numerics;
+mod open_sides;
 mod pages;
 mod preconditioner;
 mod prose;

@@ -14,10 +14,11 @@ use glam::DMat3;
 fn random_system(dimension: usize, pair: Pair, shared: Shared, seed: u64) -> System {
     let mut noise = Noise(seed);
     let cells = [12, 7, 5];
+    let still = Side::far((1.0, [0.0; 3], 1.0));
     let inlet = Side::Inlet { density: 1.0, velocity: [0.3, 0.0, 0.0], pressure: 1.0 };
     let mut problem = Problem::new(
         Grid::new(&cells[..dimension], [0.0; 3], 0.1),
-        [inlet, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Outlet],
+        [inlet, still, Side::Wall, Side::Wall, Side::Wall, still],
     );
     (problem.numerics.pair, problem.numerics.shared) = (pair, shared);
     problem.materials = vec![Material::new(50.0, 0.3, f64::INFINITY)];

@@ -191,7 +191,7 @@ fn exploding_shell_fine() {
 /// Cylinder on the floor lifted by a Mach 3 shock: its centre at t = 0.30.
 fn cylinder(n: i32, configure: impl Fn(&mut Problem)) -> (f64, f64, f64) {
     let behind = Side::Inlet { density: 5.4, velocity: [20.0 / 9.0, 0.0, 0.0], pressure: 31.0 / 3.0 };
-    let sides = [behind, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Wall];
+    let sides = [behind, Side::far((1.4, [0.0; 3], 1.0)), Side::Wall, Side::Wall, Side::Wall, Side::Wall];
     let mut problem = Problem::new(Grid::new(&[n, n / 5], [0.0; 3], 1.0 / f64::from(n)), sides);
     problem.materials = vec![Material::new(1e4, 0.3, f64::INFINITY)];
     problem.ambient = (1.4, 1.0);
@@ -221,7 +221,7 @@ fn cylinder_lift() {
 /// pressure, floor events.
 fn fragments(density: f64, configure: impl Fn(&mut Problem)) -> (f64, f64, f64, usize) {
     let behind = Side::Inlet { density: 5.4, velocity: [20.0 / 9.0, 0.0, 0.0], pressure: 31.0 / 3.0 };
-    let sides = [behind, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Wall];
+    let sides = [behind, Side::far((1.4, [0.0; 3], 1.0)), Side::Wall, Side::Wall, Side::Wall, Side::Wall];
     let mut problem = Problem::new(Grid::new(&[48, 48], [0.0; 3], 1.0 / 48.0), sides);
     problem.materials = vec![Material::new(1e4, 0.3, f64::INFINITY)];
     problem.ambient = (1.4, 1.0);

@@ -28,9 +28,13 @@ fn problem(grid: Grid, sides: [Side; 6]) -> Problem {
     problem
 }
 
-/// A tube of n cells on [0, 1] with open ends.
-fn tube(n: usize) -> Problem {
-    problem(Grid::new(&[n as i32], [0.0; 3], 1.0 / n as f64), [Side::Outlet; 6])
+/// A tube of n cells on [0, 1] between the gas of a case.
+fn tube(case: &Case, n: usize) -> Problem {
+    let [low, high] = [case.1, case.2].map(|[density, u, pressure]| Side::far((density, [u, 0.0, 0.0], pressure)));
+    problem(
+        Grid::new(&[n as i32], [0.0; 3], 1.0 / n as f64),
+        [low, high, Side::Wall, Side::Wall, Side::Wall, Side::Wall],
+    )
 }
 
 fn two_states(problem: &Problem, left: Primitive, right: Primitive) -> State {
@@ -52,7 +56,7 @@ fn error_of(case: &Case, problem: &Problem) -> (f64, Vec<Report>) {
 }
 
 fn run_case(case: &Case, n: usize, pair: Pair, predictor: bool) -> (f64, Vec<Report>) {
-    let mut problem = tube(n);
+    let mut problem = tube(case, n);
     problem.numerics.pair = pair;
     problem.numerics.predictor = predictor;
     problem.numerics.tolerance = 1e-6;
@@ -74,7 +78,7 @@ fn shock_tubes_of_the_device() {
     for (case, (name, expected)) in CASES.iter().zip(TUBES) {
         let cfl = Scene::shipped(&format!("gas/{name}.toml"), &[]).unwrap().time.cfl;
         let found = settings.map(|(pair, predictor, two_solves)| {
-            let mut problem = tube(400);
+            let mut problem = tube(case, 400);
             problem.numerics = Numerics {
                 pair,
                 predictor,
@@ -167,7 +171,7 @@ fn shock_tubes_with_two_solves() {
         let cfl = Scene::shipped(&format!("gas/{name}.toml"), &[]).unwrap().time.cfl;
         for pair in [Pair::B1b0, Pair::B2b1] {
             let error = |n: usize| {
-                let mut problem = tube(n);
+                let mut problem = tube(case, n);
                 problem.numerics = Numerics {
                     pair,
                     two_solves: true,
@@ -325,7 +329,7 @@ fn one_two_and_three_dimensions_agree() {
 fn forward_step() {
     let n = 40;
     let inflow = Side::Inlet { density: 1.4, velocity: [3.0, 0.0, 0.0], pressure: 1.0 };
-    let sides = [inflow, Side::Outlet, Side::Wall, Side::Wall, Side::Wall, Side::Wall];
+    let sides = [inflow, Side::far((1.4, [3.0, 0.0, 0.0], 1.0)), Side::Wall, Side::Wall, Side::Wall, Side::Wall];
     let mut problem = problem(Grid::new(&[3 * n, n], [0.0; 3], 1.0 / f64::from(n)), sides);
     problem.numerics.predictor = false;
     for c in problem.grid.interior() {

@@ -133,6 +133,9 @@ scenes! {
     double_mach_reflection: "validation/double_mach_reflection.toml", "domain.cells=[52, 16]", "expect.peak_density=[10.0, 33.0]";
     isentropic_vortex: "validation/isentropic_vortex.toml", "domain.cells=[32, 32]", "time.until=2.0";
     hydrostatic_column: "validation/hydrostatic_column.toml", "time.until=20.0";
+    still_air: "validation/still_air.toml", "time.until=2.0";
+    still_air_in_space: "validation/still_air.toml", "variant=space", "domain.cells=[8, 8, 8]", "time.until=1.0";
+    leaving_blast: "validation/leaving_blast.toml";
     hot_bubble: "validation/hot_bubble.toml", "domain.cells=[20, 40]", "time.until=20.0";
     kelvin_helmholtz: "gas/kelvin_helmholtz.toml", "domain.cells=[48, 48]", "time.until=0.5";
     mach_diamond_of_the_paper: "paper/fig18_mach_diamond_2d.toml", "domain.cells=[48, 48]", "time.until=0.5", "expect.probes=[]";

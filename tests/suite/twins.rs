@@ -2,7 +2,7 @@
 
 use brisance::gpu::{Buffer, Detail, Gpu, readback};
 use brisance::scene::{
-    Boundary, Coupling, Elasticity, Film, Ghost, Integrator, InterfacePressure, Pair, Scene, SolidUpdate,
+    Boundary, Coupling, Elasticity, Film, GasState, Ghost, Integrator, InterfacePressure, Pair, Scene, SolidUpdate,
 };
 use brisance::simulation::Simulation;
 use glam::{DMat3, DVec3};
@@ -27,7 +27,6 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
         Boundary::Inlet(state) => {
             Side::Inlet { density: state.density, velocity: state.velocity, pressure: state.pressure }
         }
-        Boundary::Outlet => Side::Outlet,
         Boundary::Periodic => Side::Periodic,
         Boundary::SubsonicInlet(flow) => Side::Subsonic { density: flow.density, velocity: flow.velocity },
         Boundary::TotalInlet(total) => Side::Total { density: total.density, pressure: total.pressure },
@@ -38,10 +37,12 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
             pressure: far.pressure,
             attenuation: far.attenuation,
         },
-        Boundary::FarField(far) => Side::Far { density: far.density, velocity: far.velocity, pressure: far.pressure },
+        Boundary::FarField(far) => far_side(far),
+        Boundary::Outlet => far_side(&scene.gas.ambient), // see `remember`
         Boundary::TimedInlet(_) | Boundary::Patched(_) => panic!("the twin has no tables and no patches"),
     });
     let mut problem = Problem::new(grid, sides);
+    remember(&mut problem, scene);
     for (c, wall) in problem.grid.interior().into_iter().zip(scene.obstacle_cells()) {
         let slot = problem.grid.slot(c);
         problem.obstacles[slot] = wall;
@@ -74,6 +75,23 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
     problem.numerics.two_solves = scene.solves() == 2;
     problem.numerics.fourth = scene.sound_of_fourth_order();
     problem
+}
+
+fn far_side(state: &GasState) -> Side {
+    Side::far((state.density, state.velocity, state.pressure))
+}
+
+/// What outlets remember, face by face; beyond the edges of the domain what lies across the first axis.
+fn remember(problem: &mut Problem, scene: &Scene) {
+    let grid = problem.grid.clone();
+    for c in grid.all() {
+        let inside: [u32; 3] = std::array::from_fn(|d| c[d].clamp(0, grid.cells[d] - 1) as u32);
+        let Some(axis) = (0..grid.dimension).find(|&d| c[d] != inside[d] as i32) else { continue };
+        let side = 2 * axis + usize::from(c[axis] >= 0);
+        if *scene.boundary.sides()[side] == Boundary::Outlet {
+            problem.beyond.insert(grid.slot(c), far_side(&scene.gas_beyond(side, inside)));
+        }
+    }
 }
 
 /// Floor of entropy under random gas, over that of the scene.

@@ -22,7 +22,7 @@ fn rule_behind(problem: &Problem, c: [i32; 3]) -> (Side, usize) {
     let rules: Vec<(Side, usize)> = (0..grid.dimension)
         .filter(|d| !grid.periodic[*d])
         .filter(outside)
-        .map(|d| (problem.sides[2 * d + usize::from(c[d] >= 0)], d))
+        .map(|d| (problem.side_at(2 * d + usize::from(c[d] >= 0), grid.slot(c)), d))
         .collect();
     let prescribed = rules.iter().find(|(rule, _)| matches!(rule, Side::Inlet { .. } | Side::Subsonic { .. }));
     *prescribed.unwrap_or(&rules[0])
@@ -52,7 +52,12 @@ fn reservoir_speed(density: f64, pressure: f64, outward: f64, gamma: f64) -> f64
     (-outward).clamp(0.0, (2.0 / (gamma + 1.0) * gamma * pressure / density).sqrt())
 }
 
-/// Density and pressure of far gas behind a simple wave that runs outward and changes its outward velocity.
+/// Density of gas where it has the far pressure.
+fn far_density(density: f64, pressure: f64, far: f64, gamma: f64) -> f64 {
+    density * (far / pressure).powf(1.0 / gamma)
+}
+
+/// Density and pressure of gas behind a simple wave that runs outward and changes its outward velocity.
 fn from_afar(density: f64, pressure: f64, gain: f64, gamma: f64) -> (f64, f64) {
     let sound = f64::max(1.0 + 0.5 * (gamma - 1.0) * gain / (gamma * pressure / density).sqrt(), 0.1);
     (density * sound.powf(2.0 / (gamma - 1.0)), pressure * sound.powf(2.0 * gamma / (gamma - 1.0)))
@@ -85,7 +90,10 @@ fn beyond(problem: &Problem, rule: Side, axis: usize, outward: f64, here: [f64; 
             if velocity <= -(gamma * (gamma - 1.0) * internal_energy(here) / here[0]).sqrt() {
                 return Gas::conserved_from_primitive(density, v, pressure, gamma);
             }
-            let (rho, p) = from_afar(density, pressure, velocity - outward * v[axis], gamma);
+            let now = (gamma - 1.0) * internal_energy(here);
+            let entering = far_density(here[0], now, pressure, gamma);
+            let (_, p) = from_afar(entering, pressure, velocity - outward * v[axis], gamma);
+            let rho = density * (p / pressure).powf(1.0 / gamma);
             v[axis] = outward * velocity;
             Gas::conserved_from_primitive(rho, v, p, gamma)
         }
@@ -127,11 +135,14 @@ pub(crate) fn carried_velocity(problem: &Problem, star: &Gas, axis: usize, upper
     }
 }
 
-/// What a free outlet knows of itself, by ring slot: velocity and pressure that the last step assumed, pressure that it found.
+/// What an outlet with a far pressure knows of itself, by ring slot: velocity and pressure that the last step assumed, pressure that it found.
 pub(crate) type Memory = HashMap<usize, [f64; 3]>;
 
 /// The open faces of a step, by ring slot.
 pub(crate) type OpenFaces = HashMap<usize, OpenFace>;
+
+/// Velocities by ring slot.
+pub(crate) type Surplus = HashMap<usize, f64>;
 
 /// Ring slot behind a face.
 pub(crate) fn behind(problem: &Problem, (cell, axis, upper): ([i32; 3], usize, bool)) -> usize {
@@ -177,7 +188,7 @@ fn open_face(
     let known = memory
         .get(&ring)
         .map_or([velocity, pressure], |[u, p, found]| [u + outward * (found - p) / (density * sound), *found]);
-    match problem.sides[2 * axis + usize::from(upper)] {
+    match problem.side_at(2 * axis + usize::from(upper), ring) {
         Side::Inlet { velocity, .. } | Side::Subsonic { velocity, .. } => prescribed(velocity[axis]),
         Side::Total { density: total, pressure } => {
             let speed = reservoir_speed(total, pressure, outward * velocity, gamma);
@@ -193,8 +204,12 @@ fn open_face(
         }
         Side::Far { velocity, .. } if mach <= -1.0 => prescribed(velocity[axis]),
         _ if mach >= 1.0 => prescribed(velocity),
-        Side::Far { density: far, velocity: u, pressure: p } => {
-            let (rho, reference) = from_afar(far, p, outward * (velocity - u[axis]), gamma);
+        Side::Far { velocity: u, pressure: p, .. } => {
+            // without the kick of gravity, which the pressure that it is solved for balances
+            let velocity = velocity - dt * problem.gravity[axis];
+            let gain = outward * (velocity - u[axis]);
+            let (_, reference) = from_afar(far_density(density, pressure, p, gamma), p, gain, gamma);
+            let rho = far_density(density, predicted[slot], p, gamma) * (reference / p).powf(1.0 / gamma);
             OpenFace { velocity, admittance: 1.0 / (gamma * reference * rho).sqrt(), reference }
         }
         Side::Pressure { pressure: far, relaxation } => OpenFace {
@@ -202,27 +217,40 @@ fn open_face(
             admittance: passing,
             reference: known[1],
         },
-        Side::Outlet | Side::Wall | Side::Periodic => OpenFace {
-            velocity: known[0] + drift(0.25) * (velocity - known[0]),
-            admittance: passing,
-            reference: known[1] + drift(0.25) * (pressure - known[1]),
-        },
+        Side::Wall | Side::Periodic => unreachable!("no open face"),
     }
 }
 
 /// What the next step knows of this one's faces.
 pub(crate) fn remember(problem: &Problem, cells: &[u32], faces: &OpenFaces, pressure: &[f64]) -> Memory {
-    let grid = &problem.grid;
-    let mean = |(cell, axis, upper): ([i32; 3], usize, bool)| {
-        let low = if upper { shift(cell, axis, 1) } else { cell };
-        let corners: Vec<_> = grid.offsets(0, 1).into_iter().filter(|k| k[axis] == 0).collect();
-        corners.iter().map(|k| pressure[grid.slot(add(low, *k))]).sum::<f64>() / corners.len() as f64
-    };
     let note = |place| {
         let ring = behind(problem, place);
-        (ring, [faces[&ring].velocity, faces[&ring].reference, mean(place)])
+        (ring, [faces[&ring].velocity, faces[&ring].reference, face_pressure(problem, place, pressure)])
     };
     open_faces(problem, cells).into_iter().map(note).collect()
+}
+
+/// Mean pressure of a face, from that of the vertices.
+fn face_pressure(problem: &Problem, (cell, axis, upper): ([i32; 3], usize, bool), pressure: &[f64]) -> f64 {
+    let grid = &problem.grid;
+    let low = if upper { shift(cell, axis, 1) } else { cell };
+    let corners: Vec<_> = grid.offsets(0, 1).into_iter().filter(|k| k[axis] == 0).collect();
+    corners.iter().map(|k| pressure[grid.slot(add(low, *k))]).sum::<f64>() / corners.len() as f64
+}
+
+/// By how much what passes open faces exceeds the `carried` velocities of the cells before them, where the pressure changes it.
+pub(crate) fn surplus(
+    problem: &Problem,
+    cells: &[u32],
+    (faces, pressure): (&OpenFaces, &[f64]),
+    carried: &[[f64; 3]],
+) -> Surplus {
+    let note = |place: ([i32; 3], usize, bool)| {
+        let solved = solved_velocity(problem, faces, place, face_pressure(problem, place, pressure));
+        (behind(problem, place), solved - carried[problem.grid.slot(place.0)][place.1])
+    };
+    let free = |place: &([i32; 3], usize, bool)| faces[&behind(problem, *place)].admittance > 0.0;
+    open_faces(problem, cells).into_iter().filter(free).map(note).collect()
 }
 
 /// Faces of gas cells towards GHOST cells: cell, axis, upper.

@@ -49,8 +49,8 @@ impl Carrier {
             Pair::B2b1 if problem.numerics.two_solves => 1.0 / 12.0,
             Pair::B2b1 => 0.23,
         };
-        let mut carrier =
-            Self { velocity: vec![[0.0; 3]; grid.slots()], divergence: vec![0.0; grid.slots()], given_back };
+        let (velocity, divergence) = (vec![[0.0; 3]; grid.slots()], vec![0.0; grid.slots()]);
+        let mut carrier = Self { velocity, divergence, given_back };
         let inside: Vec<_> = grid.interior().into_iter().filter(|c| cells[grid.slot(*c)] == GAS).collect();
         for c in &inside {
             for axis in 0..grid.dimension {
@@ -64,6 +64,10 @@ impl Carrier {
         for c in grid.all().into_iter().filter(|c| cells[grid.slot(*c)] == GHOST) {
             let nearest = boundary::nearest(problem, c);
             carrier.velocity[grid.slot(c)] = boundary::prescribed(problem, c).unwrap_or(carrier.velocity[nearest]);
+        }
+        for (cell, axis, upper) in boundary::open_faces(problem, cells) {
+            let ring = boundary::behind(problem, (cell, axis, upper));
+            carrier.velocity[ring][axis] += gas.surplus.get(&ring).copied().unwrap_or(0.0);
         }
         let mut divergence = vec![0.0; grid.slots()];
         for c in &inside {

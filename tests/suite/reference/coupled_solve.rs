@@ -98,7 +98,8 @@ fn local(offset: [i32; 3]) -> usize {
     ((offset[0] + 1) + 4 * ((offset[1] + 1) + 4 * (offset[2] + 1))) as usize
 }
 
-/// The same of a node and its images beyond planes of symmetry, whose velocity across them is opposite.
+/// The same of a node and its images beyond planes of symmetry, whose velocity across them is opposite, and nodes beyond open sides that
+/// go with it.
 pub(crate) fn block_with_images(
     problem: &Problem,
     cells: &[u32],
@@ -113,10 +114,10 @@ pub(crate) fn block_with_images(
     let mut sum = [[0.0; 64]; 2];
     for off in grid.offsets(-1, 1) {
         let image = add(node, off);
-        if problem.mirrored(image) != node {
+        if problem.node_of(image) != node {
             continue;
         }
-        let sign = if image[axis] == node[axis] { 1.0 } else { -1.0 };
+        let sign = if problem.mirrored(image)[axis] == image[axis] { 1.0 } else { -1.0 };
         let block = row_block(problem, cells, image, axis, kind);
         for corner in grid.offsets(-1, 2) {
             let from = subtract(add(node, corner), image);
@@ -143,7 +144,7 @@ fn rows(inputs: &Inputs) -> Vec<Row> {
         }
         for node in grid.all() {
             let slot = grid.slot(node);
-            if kind == GAS && problem.mirrored(node) != node {
+            if kind == GAS && problem.node_of(node) != node {
                 continue;
             }
             let touched = interface::elements_of(problem, node).any(|(c, _)| interface.cells[grid.slot(c)] == kind);
@@ -228,7 +229,12 @@ fn open_term(inputs: &Inputs, start: &[f64], compliance: &mut [f64]) -> Vec<f64>
         let normal = if upper { 1.0 } else { -1.0 };
         for corner in grid.offsets(0, 1).into_iter().filter(|k| (k[axis] == 1) == upper) {
             let index = unknown(inputs.interface, P, grid.slot(add(c, corner)));
-            open[index] += share * (normal * face.velocity + face.admittance * (start[index] - face.reference));
+            // the reference is that of the middle of the face
+            let along = (0..grid.dimension).filter(|d| *d != axis);
+            let way: f64 = along.map(|d| problem.gravity[d] * (f64::from(corner[d]) - 0.5)).sum();
+            let weight = inputs.intermediate.density[grid.slot(c)] * grid.spacing * way;
+            open[index] +=
+                share * (normal * face.velocity + face.admittance * (start[index] - face.reference - weight));
             compliance[index] += inputs.dt * share * face.admittance;
         }
     }

@@ -177,6 +177,11 @@ pub(crate) fn fluid_update(
     let (pressure, mut next) = push(problem, interface, star, solution, dt);
     let solid = working_velocity(problem, solution, &nodes.velocity);
     let mut work = pressure.clone();
+    next.surplus.clear();
+    if let Some(carrier) = Carrier::new(problem, &interface.cells, &next) {
+        let pressed = (&intermediate.open, solution.pressure[P].as_slice());
+        next.surplus = boundary::surplus(problem, &interface.cells, pressed, &carrier.velocity);
+    }
     let carrier = Carrier::new(problem, &interface.cells, &next);
     let gas = &next.clone();
     let (before, solid, carrier) = (&intermediate.predicted_pressure, &solid, carrier.as_ref());
@@ -205,7 +210,10 @@ pub(crate) fn fluid_update(
         for face in boundary::open_faces(problem, &interface.cells).into_iter().filter(|face| face.1 == axis) {
             let slot = grid.slot(if face.2 { face.0 } else { shift(face.0, axis, -1) });
             let p = pressure[axis][slot];
-            work[axis][slot] = p * boundary::solved_velocity(problem, &intermediate.open, face, p);
+            let ring = boundary::behind(problem, face);
+            let solved = boundary::solved_velocity(problem, &intermediate.open, face, p);
+            let carrier = carrier.filter(|_| intermediate.open[&ring].admittance > 0.0);
+            work[axis][slot] = p * carrier.map_or(solved, |carrier| carrier.velocity[ring][axis]);
         }
         for c in &gas_slots {
             let (below, above) = (grid.slot(shift(*c, axis, -1)), grid.slot(*c));

@@ -325,6 +325,7 @@ pub(crate) fn stage(
     let grid = &problem.grid;
     let (through, touched) = limited(problem, interface, [gas, start], dt, implicit);
     let mut next = start.clone();
+    next.surplus.clone_from(&gas.surplus);
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] == GAS {

@@ -4,10 +4,12 @@ use super::carrier::Carrier;
 use super::element;
 use super::grid::{add, shift};
 use super::interface::{self, Interface};
-use super::{GAS, GHOST, Gas, Problem, SOLID, boundary};
+use super::{GAS, GHOST, Gas, Pair, Problem, SOLID, boundary};
 
 /// What the solve needs from the advected gas.
 pub(crate) struct Intermediate {
+    /// Density of gas cells.
+    pub(crate) density: Vec<f64>,
     /// EOS pressure of gas cells.
     pub(crate) pressure: Vec<f64>,
     /// The same after the predictor.
@@ -124,7 +126,10 @@ pub(crate) fn intermediate(
         predicted_pressure[slot] = factor * pressure[slot];
         for off in grid.offsets(-1, 1) {
             let share = element::node_weight(grid, problem.numerics.pair, off) * grid.volume();
-            node_mass[grid.slot(problem.mirrored(add(c, off)))] += share * star.conserved[slot][0];
+            let node = grid.slot(problem.node_of(add(c, off)));
+            // a velocity that is constant per cell moves the gas of that cell
+            let own = problem.numerics.pair == Pair::B1b0 && interface.cells[node] == GAS;
+            node_mass[node] += share * star.conserved[if own { node } else { slot }][0];
         }
     }
     let mut vertex_pressure = vec![0.0; grid.slots()];
@@ -148,5 +153,6 @@ pub(crate) fn intermediate(
         velocities[grid.slot(node)] = node_velocity(problem, &interface.cells, star, node);
     }
     let open = boundary::faces(problem, &interface.cells, star, &predicted_pressure, memory, dt);
-    Intermediate { pressure, predicted_pressure, open, vertex_pressure, node_mass, node_velocity: velocities }
+    let density = star.conserved.iter().map(|u| u[0]).collect();
+    Intermediate { density, pressure, predicted_pressure, open, vertex_pressure, node_mass, node_velocity: velocities }
 }

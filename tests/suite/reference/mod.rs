@@ -24,6 +24,8 @@ pub(crate) mod step;
 pub(crate) mod time_step;
 pub(crate) mod two_spaces;
 
+use std::collections::HashMap;
+
 use glam::{DMat3, DVec3};
 use grid::Grid;
 
@@ -47,9 +49,7 @@ pub(crate) enum Side {
     Subsonic { density: f64, velocity: [f64; 3] },
     /// Total density and pressure.
     Total { density: f64, pressure: f64 },
-    /// Copies the last cell.
-    Outlet,
-    /// The same with a far pressure.
+    /// Sound leaves, and the pressure drifts to a far one.
     Pressure { pressure: f64, relaxation: f64 },
     /// A share of a far state beyond the side.
     Attenuated { density: f64, velocity: [f64; 3], pressure: f64, attenuation: f64 },
@@ -57,6 +57,13 @@ pub(crate) enum Side {
     Far { density: f64, velocity: [f64; 3], pressure: f64 },
     /// The other end of the axis.
     Periodic,
+}
+
+impl Side {
+    /// Undisturbed gas of density, velocity and pressure.
+    pub(crate) fn far((density, velocity, pressure): (f64, [f64; 3], f64)) -> Self {
+        Self::Far { density, velocity, pressure }
+    }
 }
 
 /// Velocity/pressure pair of the gas.
@@ -172,6 +179,8 @@ pub(crate) struct Problem {
     pub(crate) gamma: f64,
     /// x_min, x_max, y_min, ...
     pub(crate) sides: [Side; 6],
+    /// What lies beyond instead, by ring slot.
+    pub(crate) beyond: HashMap<usize, Side>,
     /// Static obstacles, by slot.
     pub(crate) obstacles: Vec<bool>,
     pub(crate) gravity: [f64; 3],
@@ -188,6 +197,11 @@ impl Problem {
     fn stress(&self, particle: &Particle, f: DMat3, q: f64) -> DMat3 {
         let material = &self.materials[particle.material];
         if self.numerics.shared_volume { material.law_stress(f) } else { material.stress(f, q) }
+    }
+
+    /// What lies beyond a side, behind one of its faces.
+    fn side_at(&self, side: usize, ring: usize) -> Side {
+        self.beyond.get(&ring).copied().unwrap_or(self.sides[side])
     }
 
     /// Is a side a plane of symmetry?
@@ -213,6 +227,21 @@ impl Problem {
         self.before_sides(cell, 1)
     }
 
+    /// The cell whose velocity the node of a cell has, as it is or mirrored: beyond open sides where nothing prescribes it, the one before.
+    pub(crate) fn node_of(&self, cell: [i32; 3]) -> [i32; 3] {
+        let mut own = self.mirrored(cell);
+        for (axis, own) in own.iter_mut().enumerate().take(self.grid.dimension) {
+            let last = self.grid.cells[axis] - 1;
+            let side = 2 * axis + usize::from(*own > last);
+            let beyond = *own < 0 || *own > last;
+            let free = matches!(self.sides[side], Side::Far { .. } | Side::Pressure { .. } | Side::Total { .. });
+            if beyond && free && self.numerics.pair == Pair::B1b0 {
+                *own = (*own).clamp(0, last);
+            }
+        }
+        own
+    }
+
     /// The same of a vertex.
     pub(crate) fn mirrored_vertex(&self, vertex: [i32; 3]) -> [i32; 3] {
         self.before_sides(vertex, 0)
@@ -226,6 +255,7 @@ impl Problem {
             grid,
             gamma: 1.4,
             sides,
+            beyond: HashMap::new(),
             obstacles,
             gravity: [0.0; 3],
             ambient: (1.0, 1.0),
@@ -241,6 +271,8 @@ impl Problem {
 pub(crate) struct Gas {
     pub(crate) conserved: Vec<[f64; 4]>,
     pub(crate) energy: Vec<f64>,
+    /// By how much what passed an open face in the last solve exceeds the carrier of the cell before it, by ring slot.
+    pub(crate) surplus: boundary::Surplus,
 }
 
 impl Gas {
@@ -308,7 +340,7 @@ pub(crate) struct State {
     pub(crate) ledger: Vec<[f64; 5]>,
     pub(crate) particles: Vec<Particle>,
     pub(crate) time: f64,
-    /// What free outlets know of themselves.
+    /// What outlets with a far pressure know of themselves.
     pub(crate) open: boundary::Memory,
     /// The step before, 0 before the first.
     pub(crate) previous_dt: f64,
@@ -322,8 +354,11 @@ impl State {
         particles: Vec<Particle>,
     ) -> Self {
         let grid = &problem.grid;
-        let mut cells_gas =
-            Gas { conserved: vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()], energy: vec![1.0; grid.slots()] };
+        let mut cells_gas = Gas {
+            conserved: vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()],
+            energy: vec![1.0; grid.slots()],
+            surplus: boundary::Surplus::new(),
+        };
         for c in grid.interior() {
             let (density, velocity, pressure) = gas(grid.centre(c));
             cells_gas.set(grid.slot(c), Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma));
