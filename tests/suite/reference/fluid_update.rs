@@ -161,6 +161,19 @@ fn push(problem: &Problem, interface: &Interface, star: &Gas, solution: &Solutio
     (pressure, next)
 }
 
+/// What carries the gas that the solve has moved, which notes by how much open faces are faster.
+fn carrier_of(
+    problem: &Problem,
+    cells: &[u32],
+    gas: &mut Gas,
+    solved: (&boundary::OpenFaces, &[f64]),
+) -> Option<Carrier> {
+    gas.surplus.clear();
+    let carrier = Carrier::new(problem, cells, gas)?;
+    gas.surplus = boundary::surplus(problem, cells, solved, &carrier.velocity);
+    Carrier::new(problem, cells, gas)
+}
+
 /// The stage: gas after the pressure step. `nodes` are the solid nodes that entered the solve. The new velocities of the faces carry the
 /// internal energy of `held`, too.
 pub(crate) fn fluid_update(
@@ -177,12 +190,7 @@ pub(crate) fn fluid_update(
     let (pressure, mut next) = push(problem, interface, star, solution, dt);
     let solid = working_velocity(problem, solution, &nodes.velocity);
     let mut work = pressure.clone();
-    next.surplus.clear();
-    if let Some(carrier) = Carrier::new(problem, &interface.cells, &next) {
-        let pressed = (&intermediate.open, solution.pressure[P].as_slice());
-        next.surplus = boundary::surplus(problem, &interface.cells, pressed, &carrier.velocity);
-    }
-    let carrier = Carrier::new(problem, &interface.cells, &next);
+    let carrier = carrier_of(problem, &interface.cells, &mut next, (&intermediate.open, &solution.pressure[P]));
     let gas = &next.clone();
     let (before, solid, carrier) = (&intermediate.predicted_pressure, &solid, carrier.as_ref());
     let parting = Parting { problem, interface, gas, pressure: before, solution, solid };
