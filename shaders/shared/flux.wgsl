@@ -31,23 +31,47 @@ fn unpacked(flux: vec4f, energy: f32) -> Gas {
     return Gas(flux, energy);
 }
 
+// Density, velocity and internal energy, and back.
+fn parts_of(gas: Gas) -> Gas { return Gas(vec4f(gas.flow.x, velocity_of(gas.flow)), internal_energy(gas)); }
+fn whole_of(parts: Gas) -> Gas {
+    let velocity = parts.flow.yzw;
+    return Gas(vec4f(parts.flow.x, parts.flow.x * velocity), parts.energy + 0.5 * parts.flow.x * dot(velocity, velocity));
+}
+
+// Both values of a state at a face.
+struct Values { low: Gas, high: Gas }
+
+fn values_at(even: f32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Values {
+    let flow = weno_from_both(even, packed(a), packed(b), packed(c), packed(d), packed(e), packed(f));
+    var energy = Sides(vec4f(0.0), vec4f(0.0));
+    if DIM == 3u {
+        energy = weno_from_both(even, vec4f(a.energy), vec4f(b.energy), vec4f(c.energy), vec4f(d.energy), vec4f(e.energy), vec4f(f.energy));
+    }
+    return Values(unpacked(flow.low, energy.low.x), unpacked(flow.high, energy.high.x));
+}
+
+fn sum_of(up: f32, low: Gas, down: f32, high: Gas) -> Gas {
+    return Gas(up * low.flow + down * high.flow, up * low.energy + down * high.energy);
+}
+
 // With one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`, at least upwind.
-// `held`: see heat_between.
+// Density, velocity and internal energy have weights of their own, so that a contact keeps its pressure; in shocks the conserved
+// variables have, which follow them better. `held`: see heat_between.
 fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     let spread = max(max(alpha, s.spread), abs(carried));
     let up = 0.5 * (carried + spread);
     let down = 0.5 * (carried - spread);
     var out: Fluxes;
-    let flow = weno_from_both(s.even, up, down, packed(s.a), packed(s.b), packed(s.c), packed(s.d), packed(s.e), packed(s.f));
-    var energy = 0.0;
-    if DIM == 3u {
-        energy = weno_from_both(s.even, up, down, vec4f(s.a.energy), vec4f(s.b.energy), vec4f(s.c.energy), vec4f(s.d.energy),
-            vec4f(s.e.energy), vec4f(s.f.energy)).x;
+    let parts = values_at(s.even, parts_of(s.a), parts_of(s.b), parts_of(s.c), parts_of(s.d), parts_of(s.e), parts_of(s.f));
+    out.high = sum_of(up, whole_of(parts.low), down, whole_of(parts.high));
+    if s.even < 1.0 {
+        let values = values_at(s.even, s.a, s.b, s.c, s.d, s.e, s.f);
+        let steep = sum_of(up, values.low, down, values.high);
+        out.high = Gas(mix(steep.flow, out.high.flow, s.even), mix(steep.energy, out.high.energy, s.even));
     }
-    out.high = unpacked(flow, energy);
     out.unit = unit_between(s.c, s.d);
     out.heat = held * carried;
-    if LIMITER { out.low = Gas(up * s.c.flow + down * s.d.flow, up * s.c.energy + down * s.d.energy); }
+    if LIMITER { out.low = sum_of(up, s.c, down, s.d); }
     return out;
 }
 

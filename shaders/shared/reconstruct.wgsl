@@ -96,9 +96,10 @@ fn weno(even: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f) -> vec4f {
     return c + step_to_face(even, unit, b - a, c - b, d - c, e - d);
 }
 
-// `up` times the value from the side of a, and `down` times that from the side of f.
-fn weno_from_both(even: f32, up: f32, down: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f, f: vec4f) -> vec4f {
+// What the values of six cells are at a face: from the side of a, and from that of f.
+struct Sides { low: vec4f, high: vec4f }
+
+fn weno_from_both(even: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f, f: vec4f) -> Sides {
     let unit = 1.0 / max(max(largest(b, c, d, e), max(abs(a), abs(f))), vec4f(1e-30));
-    return up * (c + step_to_face(even, unit, b - a, c - b, d - c, e - d))
-        + down * (d + step_to_face(even, unit, e - f, d - e, c - d, b - c));
+    return Sides(c + step_to_face(even, unit, b - a, c - b, d - c, e - d), d + step_to_face(even, unit, e - f, d - e, c - d, b - c));
 }

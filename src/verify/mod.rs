@@ -24,6 +24,7 @@ mod bow_shocks;
 mod buoyancy;
 mod clamped;
 mod cold;
+mod contacts;
 mod cylinders;
 mod document;
 mod drifting;
@@ -118,6 +119,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         buoyancy::CASES,
         quiet::CASES,
         open_sides::CASES,
+        contacts::CASES,
     ]);
     let by_file = gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten();
     let mut cases: Vec<&Case> = by_file.collect();

@@ -11,6 +11,7 @@ mod checkpoint;
 mod cli;
 mod cold;
 mod common;
+mod contacts;
 mod cut;
 mod determinism;
 mod export;

@@ -136,6 +136,7 @@ scenes! {
     still_air: "validation/still_air.toml", "time.until=2.0";
     still_air_in_space: "validation/still_air.toml", "variant=space", "domain.cells=[8, 8, 8]", "time.until=1.0";
     leaving_blast: "validation/leaving_blast.toml";
+    drifting_contact: "validation/drifting_contact.toml", "time.until=0.3";
     hot_bubble: "validation/hot_bubble.toml", "domain.cells=[20, 40]", "time.until=20.0";
     kelvin_helmholtz: "gas/kelvin_helmholtz.toml", "domain.cells=[48, 48]", "time.until=0.5";
     mach_diamond_of_the_paper: "paper/fig18_mach_diamond_2d.toml", "domain.cells=[48, 48]", "time.until=0.5", "expect.probes=[]";

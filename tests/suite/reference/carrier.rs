@@ -1,7 +1,7 @@
 //! The velocity that carries the gas through its faces: what the pressure solve sees of it. Gas only.
 
 use super::grid::{add, shift};
-use super::{GAS, GHOST, Gas, Pair, Problem, WALL, boundary};
+use super::{GAS, GHOST, Gas, Pair, Problem, WALL, boundary, internal_energy};
 
 /// Per cell: velocity averaged over the other axes, and the sum of its differences across the faces.
 pub(crate) struct Carrier {
@@ -116,4 +116,15 @@ impl Carrier {
         let neighbours = (0..grid.dimension).flat_map(|axis| [-1, 1].map(|by| grid.slot(shift(c, axis, by))));
         neighbours.filter(|n| cells[*n] == GAS).map(|n| self.divergence[n] - own).sum::<f64>()
     }
+}
+
+/// Density, velocity and internal energy of a state.
+pub(crate) fn parts_of(u: [f64; 5]) -> [f64; 5] {
+    [u[0], u[1] / u[0], u[2] / u[0], u[3] / u[0], internal_energy(u)]
+}
+
+/// The state of such parts.
+pub(crate) fn whole_of(p: [f64; 5]) -> [f64; 5] {
+    let kinetic = 0.5 * p[0] * (p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
+    [p[0], p[0] * p[1], p[0] * p[2], p[0] * p[3], p[4] + kinetic]
 }

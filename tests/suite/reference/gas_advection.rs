@@ -2,7 +2,7 @@
 //! TVD-RK2, positivity limiter.
 
 pub(crate) use super::boundary::fill_ghosts;
-use super::carrier::Carrier;
+use super::carrier::{Carrier, parts_of, whole_of};
 use super::grid::shift;
 use super::interface::Interface;
 use super::{GAS, GHOST, Gas, Pair, Problem, SOLID, Weno, internal_energy};
@@ -86,17 +86,24 @@ fn split_flux(weno: Weno, shock: Shock, stencil: &Stencil, axis: usize) -> ([f64
     (high, first)
 }
 
-/// The same with one velocity of the face: a value from each side of the state itself.
+/// The same with one velocity of the face: a value from each side of the state itself, which is made of density, velocity and internal
+/// energy but in shocks.
 fn carried_flux(weno: Weno, shock: Shock, stencil: &Stencil, carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
     let (mut high, mut first) = ([0.0; 5], [0.0; 5]);
     let spread = carried.abs().max(alpha).max(shock.spread);
     let (up, down) = (0.5 * (carried + spread), 0.5 * (carried - spread));
-    for k in 0..5 {
-        let row = stencil.map(|u| u[k]);
-        let mut reversed = row;
+    let sides = |stencil: &Stencil| {
+        let mut reversed = *stencil;
         reversed.reverse();
-        high[k] = up * reconstruct(weno, shock.even, row) + down * reconstruct(weno, shock.even, reversed);
-        first[k] = up * row[2] + down * row[3];
+        [*stencil, reversed].map(|cells| [0, 1, 2, 3, 4].map(|k| reconstruct(weno, shock.even, cells.map(|u| u[k]))))
+    };
+    let [low, far] = sides(&stencil.map(parts_of)).map(whole_of);
+    let [steep_low, steep_far] = sides(stencil);
+    for k in 0..5 {
+        let smooth = up * low[k] + down * far[k];
+        let steep = up * steep_low[k] + down * steep_far[k];
+        high[k] = steep + shock.even * (smooth - steep);
+        first[k] = up * stencil[2][k] + down * stencil[3][k];
     }
     (high, first)
 }
