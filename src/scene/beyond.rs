@@ -73,3 +73,17 @@ impl Scene {
         self.gas.regions.is_empty() && self.gas.radial_flows.is_empty() && !self.is_stratified()
     }
 }
+
+impl super::Domain {
+    /// The cells next to a side, x fastest.
+    pub fn cells_at(&self, side: usize) -> impl Iterator<Item = [u32; 3]> + '_ {
+        let mut count = self.cells;
+        let far = if side.is_multiple_of(2) { 0 } else { count[side / 2] - 1 };
+        count[side / 2] = 1;
+        let [nx, ny, nz] = count;
+        (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z]))).map(move |mut cell| {
+            cell[side / 2] = far;
+            cell
+        })
+    }
+}

@@ -290,18 +290,6 @@ impl Domain {
         center
     }
 
-    /// The cells next to a side, x fastest.
-    pub fn cells_at(&self, side: usize) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let mut count = self.cells;
-        let far = if side.is_multiple_of(2) { 0 } else { count[side / 2] - 1 };
-        count[side / 2] = 1;
-        let [nx, ny, nz] = count;
-        (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z]))).map(move |mut cell| {
-            cell[side / 2] = far;
-            cell
-        })
-    }
-
     /// Centres of all faces of a side `[m]`.
     pub fn side_faces(&self, side: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
         self.cells_at(side).map(move |cell| self.face_center(side, cell))
