@@ -232,7 +232,7 @@ fn the_books_of_covered_gas_drain_no_cell_under_a_heap() {
     let Some(gpu) = gpu_or_skip() else { return };
     // Sand that a blast shakes covers and uncovers cells all the time, many of them in pockets under it.
     let text = "title = \"t\"\ngravity = [0.0, -1.0]\n[time]\nuntil = 0.42\n[domain]\ndimension = 2\ncells = [64, 32]\nsize = [0.8, 0.4]\n\
-                [gas]\nambient = { density = 1.0, pressure = 1.0 }\n\
+                [gas]\natmosphere = \"uniform\"\nambient = { density = 1.0, pressure = 1.0 }\n\
                 regions = [{ shape = { sphere = { center = [0.1, 0.2], radius = 0.06 } }, density = 4.0, pressure = 25.0 }]\n\
                 [materials.sand]\ndrucker_prager = { young_modulus = 200.0, poisson_ratio = 0.25, friction_angle = 35.0 }\n\
                 [[bodies]]\nname = \"sand\"\nmaterial = \"sand\"\ndensity = 10.0\nfriction = 0.6\n\

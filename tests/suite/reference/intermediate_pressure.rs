@@ -126,9 +126,12 @@ pub(crate) fn intermediate(
         predicted_pressure[slot] = factor * pressure[slot];
         for off in grid.offsets(-1, 1) {
             let share = element::node_weight(grid, problem.numerics.pair, off) * grid.volume();
-            let node = grid.slot(problem.node_of(add(c, off)));
-            // a velocity that is constant per cell moves the gas of that cell
-            let own = problem.numerics.pair == Pair::B1b0 && interface.cells[node] == GAS;
+            let place = problem.node_of(add(c, off));
+            let node = grid.slot(place);
+            // a velocity that is constant per cell moves the gas of that cell; beside bodies a mean
+            let own = problem.numerics.pair == Pair::B1b0
+                && interface.cells[node] == GAS
+                && !interface::beside_body(problem, &interface.cells, place);
             node_mass[node] += share * star.conserved[if own { node } else { slot }][0];
         }
     }
