@@ -12,7 +12,7 @@ use crate::export::png;
 use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::render::Renderer;
-use crate::scene::{Breaking, Estimate, Overlap, Scene, ThinBody};
+use crate::scene::{Breaking, Estimate, Overlap, Scene, ThinBody, ThinObstacle};
 use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -38,7 +38,9 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
     let breaking = scene.breaking();
-    for warning in estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning)) {
+    let lost = scene.thin_obstacles();
+    let texts = estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning));
+    for warning in texts.chain(lost.iter().map(lost_text)) {
         tell!("warning: {warning}");
     }
     let duration = Duration::of(&scene, &plan, &estimate, cli);
@@ -51,7 +53,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "breaking": breaking,
+            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "thin_obstacles": lost, "breaking": breaking,
             "scene": scene });
         say!("{object}");
         return Ok(());
@@ -125,6 +127,17 @@ fn thin_text(thin: &ThinBody) -> String {
     format!(
         "`{body}` is {cells:.1} cells thick{part}: its weight and the gas on either side are right from 1 cell on, but below 2 cells \
          how it bends and breaks is not to be trusted; more cells help (--resolution), or a thicker body"
+    )
+}
+
+/// An obstacle that the grid does not hold as a whole for people.
+pub(super) fn lost_text(lost: &ThinObstacle) -> String {
+    let ThinObstacle { obstacle, cells, share } = lost;
+    let thick = if *cells < 0.05 { "less than 0.1".to_owned() } else { format!("{cells:.1}") };
+    format!(
+        "{:.0} % of obstacle `{obstacle}` lie in no cell, where it is {thick} cells thick: gas passes there; an obstacle of 1.5 cells \
+         has no holes; more cells help (--resolution), or a thicker obstacle",
+        100.0 * share
     )
 }
 

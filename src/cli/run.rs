@@ -9,7 +9,7 @@ mod reporting;
 use std::time::{Duration, Instant};
 
 use super::args::{Cli, RunOptions};
-use super::check::overlap_text;
+use super::check::{lost_text, overlap_text};
 use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
@@ -120,6 +120,9 @@ fn announce(scene: &Scene, plan: &MemoryPlan, gpu: &Gpu) {
     let cells = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join(" x ");
     for overlap in scene.overlaps() {
         tell!("warning: {}", overlap_text(&overlap));
+    }
+    for lost in scene.thin_obstacles() {
+        tell!("warning: {}", lost_text(&lost));
     }
     tell!("{}: {cells} cells, {} particles, on {}", scene.title, plan.particles, gpu.info.name);
 }

@@ -160,10 +160,7 @@ impl Distance {
         let place = |d: usize, k: u32| {
             if d < grid.dimension as usize { f64::from(grid.origin[d]) + f64::from(k) * step } else { 0.0 }
         };
-        let nearest = |point: [f64; 3]| {
-            let distances = scene.obstacles.iter().map(|obstacle| obstacle.shape.distance(point));
-            distances.fold(f64::INFINITY, f64::min) as f32
-        };
+        let nearest = |point: [f64; 3]| scene.obstacle_distance(point) as f32;
         let values: Vec<f32> = (0..ny * nz)
             .into_par_iter()
             .flat_map_iter(|row| {

@@ -12,6 +12,8 @@ const SNAP: f64 = 1e-3;
 const SMALL: f64 = 0.5;
 /// Axes along which the surface normal has at least this share of its largest component lead to the partner.
 const SLANTED: f64 = 0.5;
+/// A part from this size on is a whole cell.
+const WHOLE: f64 = 1.0 - 1e-9;
 /// Halvings that find the surface on an edge.
 const HALVINGS: u32 = 40;
 
@@ -45,6 +47,16 @@ impl Scene {
         able && self.numerics.obstacles != Obstacles::Cells
     }
 
+    /// Whether an obstacle fills the cell around a point, or a part of it.
+    pub(super) fn holds_obstacle(&self, point: [f64; 3]) -> bool {
+        let domain = &self.domain;
+        let place = |d: usize| ((point[d] - domain.origin[d]) / domain.spacing()).max(0.0) as u32;
+        let cell = std::array::from_fn(|d| place(d).min(domain.cells[d] - 1));
+        let cutter = Cutter { scene: self, walls: Vec::new(), parts: BTreeMap::new() };
+        let filled = || self.cut() && cutter.part_of(cell).volume < WHOLE;
+        self.obstacle_distance(domain.cell_center(cell)) < 0.0 || filled()
+    }
+
     /// What the obstacles leave of the cells; with whole cells the walls alone.
     #[must_use]
     pub fn cut_geometry(&self) -> CutGeometry {
@@ -53,13 +65,10 @@ impl Scene {
         }
         let mut cutter = Cutter { scene: self, walls: Vec::new(), parts: BTreeMap::new() };
         cutter.cut();
+        cutter.match_seams();
         cutter.close();
         let clusters = cutter.clusters();
         cutter.finish(&clusters)
-    }
-
-    fn obstacle_distance(&self, point: [f64; 3]) -> f64 {
-        self.obstacles.iter().map(|obstacle| obstacle.shape.distance(point)).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -82,8 +91,8 @@ impl Cutter<'_> {
             if middle.abs() < reach {
                 let part = self.part_of(cell);
                 // what is thinner than a cell may lie between its vertices
-                wall = part.volume <= 0.0 || (part.volume > 1.0 - 1e-9 && middle < 0.0);
-                if !wall && part.volume <= 1.0 - 1e-9 {
+                wall = part.volume <= 0.0 || (part.volume > WHOLE && middle < 0.0);
+                if !wall && part.volume <= WHOLE {
                     self.parts.insert(index, part);
                 }
             }
@@ -122,6 +131,31 @@ impl Cutter<'_> {
             std::array::from_fn(|d| corner(a)[d] + t * (corner(b)[d] - corner(a)[d]))
         };
         part(at_corner.map(|distance| distance > 0.0), crossing)
+    }
+
+    /// A face between the ends of a periodic axis is as open as its less open side, whatever shape ends there.
+    fn match_seams(&mut self) {
+        let axes = (0..self.scene.domain.axes()).filter(|&axis| self.scene.boundary.periodic(axis));
+        for (axis, index) in axes.flat_map(|axis| (0..self.walls.len()).map(move |index| (axis, index))) {
+            let Some(beyond) = self.neighbour(index, face_offset(2 * axis)).filter(|_| self.cell_at(index)[axis] == 0)
+            else {
+                continue;
+            };
+            let whole = || part([true; 8], |_, _| [0.0; 3]);
+            let of = |at: usize| self.parts.get(&at).copied().unwrap_or_else(whole);
+            let (mut low, mut high) = (of(beyond), of(index));
+            let apart = high.apertures[2 * axis] - low.apertures[2 * axis + 1];
+            if self.walls[index] || self.walls[beyond] || apart.abs() < 1e-12 {
+                continue;
+            }
+            if apart > 0.0 {
+                high.take_face(2 * axis, &low, 2 * axis + 1);
+                self.parts.insert(index, high);
+            } else {
+                low.take_face(2 * axis + 1, &high, 2 * axis);
+                self.parts.insert(beyond, low);
+            }
+        }
     }
 
     /// Faces towards cells without gas are closed; gas without an open face is none.

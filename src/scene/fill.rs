@@ -98,7 +98,7 @@ impl Scene {
     }
 
     pub(super) fn inside_obstacle(&self, point: [f64; 3]) -> bool {
-        self.obstacles.iter().any(|obstacle| obstacle.shape.distance(point) < 0.0)
+        self.obstacle_distance(point) < 0.0
     }
 
     /// One value per cell from its centre, x fastest.

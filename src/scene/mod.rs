@@ -34,6 +34,7 @@ mod mended;
 mod mesh;
 mod named;
 mod noise;
+mod obstacle;
 mod polyhedron;
 mod radial_flow;
 mod region;
@@ -91,7 +92,7 @@ pub use render::{
     Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice, Surface,
     ToneMap,
 };
-pub use sample::{Overlap, Seed, ThinBody};
+pub use sample::{Overlap, Seed, ThinBody, ThinObstacle};
 pub use settings::{Film, Numerics, Obstacles, Output, Pair, Preconditioner, Time, Transfer};
 pub use shape::Shape;
 pub use shipped::{STANDARD_INPUT, Shipped, scene_file, shipped, shipped_named, stem};

@@ -20,6 +20,14 @@ pub struct Part {
     pub middles: [Point; 6],
 }
 
+impl Part {
+    /// The opening of a face is that of another part's face.
+    pub(super) fn take_face(&mut self, face: usize, from: &Self, of: usize) {
+        self.apertures[face] = from.apertures[of];
+        self.middles[face] = from.middles[of];
+    }
+}
+
 /// Corner k of the cube: bit d says low or high along axis d.
 pub(super) fn corner(k: usize) -> Point {
     std::array::from_fn(|d| if k >> d & 1 == 1 { 0.5 } else { -0.5 })

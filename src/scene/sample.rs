@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::fill::lattice;
 use super::{Body, Material, Sampling, Scene, Shape};
-pub use thickness::ThinBody;
+pub use thickness::{ThinBody, ThinObstacle};
 
 /// Particles that leave their lattice point go this far at most along each axis, in units of the lattice's spacing. In 3D that is
 /// less than half a spacing, so that only particles of the outermost layer can leave the body.

@@ -61,7 +61,7 @@ impl Simulation {
         }
         self.coupled_solve.pcg.set_tolerance(&self.gpu, params.tolerance);
         state.params_buffer.write(&self.gpu, 0, &[state.params]);
-        state.openings.write(&self.gpu, 0, &openings.padded());
+        state.openings.write(&self.gpu, 0, openings.of_rules());
         state.knots.write(&self.gpu, 0, &openings.knots);
         self.gpu.check()
     }
@@ -111,7 +111,8 @@ fn check(from: &Scene, to: &Scene) -> Result<()> {
         ));
     }
     let (before, after) = (Openings::new(from), Openings::new(to));
-    let kinds = |openings: &Openings| openings.table.iter().map(|o| (o.rule, o.first, o.knots)).collect::<Vec<_>>();
+    let kinds =
+        |openings: &Openings| openings.of_rules().iter().map(|o| (o.rule, o.first, o.knots)).collect::<Vec<_>>();
     let sides = from.boundary.sides().into_iter().zip(to.boundary.sides());
     if kinds(&before) == kinds(&after) && sides.into_iter().all(|(a, b)| same_kind(a, b)) {
         return Ok(());

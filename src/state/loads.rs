@@ -85,7 +85,7 @@ pub(super) fn start(scene: &Scene, grid: &Grid, geometry: &CutGeometry) -> Vec<u
     }
     let nearest = |cell: [u32; 3]| {
         let center = scene.domain.cell_center(cell);
-        let distance = |k: &usize| scene.obstacles[*k].shape.distance(center);
+        let distance = |k: &usize| scene.distance_to_obstacle(*k, center);
         let nearest = (0..obstacles).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         ((bodies + nearest.unwrap_or(0) + 1) as u32) << 16
     };

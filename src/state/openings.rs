@@ -90,6 +90,12 @@ impl Openings {
         openings
     }
 
+    /// The part of the table that follows the rules of the scene. What outlets remember is of the start, and stays.
+    #[must_use]
+    pub fn of_rules(&self) -> &[Opening] {
+        &self.table[..self.named]
+    }
+
     /// How many knots the tables of times of a scene have.
     #[must_use]
     pub fn knots_of(scene: &Scene) -> u64 {

@@ -37,7 +37,7 @@ fn density_error(gpu: &Gpu, file: &str, overrides: &[&str]) -> f64 {
 /// Errors of the method in double precision, as `reference_tables::shock_tubes_of_the_device` finds them: B1B0 without and with the
 /// predictor, B2B1 without and with, both with two solves.
 pub(crate) const TUBES: [(&str, [f64; 6]); 6] = [
-    ("sod", [0.00455, 0.00293, 0.00459, 0.00319, 0.00104, 0.00220]),
+    ("sod", [0.00455, 0.00293, 0.00459, 0.00319, 0.00102, 0.00220]),
     ("lax", [0.00600, 0.00527, 0.00598, 0.00533, 0.00432, 0.00508]),
     ("strong_shock_tube", [0.00661, 0.00504, 0.00667, 0.00527, 0.00385, 0.00429]),
     ("mach3", [0.01056, 0.00832, 0.01109, 0.00935, 0.00355, 0.00538]),

@@ -11,7 +11,7 @@ use crate::common::gpu_or_skip;
 fn gas_under_gravity_rests_on_its_floor_at_every_step() {
     let Some(gpu) = gpu_or_skip() else { return };
     let text = "title = \"column\"\ngravity = [0.0, -0.01]\n[domain]\ndimension = 2\ncells = [6, 16]\nsize = [0.375, 1.0]\n\
-                [gas]\nambient = { density = 1.4, pressure = 1.0 }\n\
+                [gas]\natmosphere = \"uniform\"\nambient = { density = 1.4, pressure = 1.0 }\n\
                 waves = [{ vector = [0.0, 0.02], phase = 1.570796327, pressure = 0.7 }]\n\
                 [time]\nuntil = 30.0\nmax_courant = 5.0\n";
     let scene = Scene::parse(text, "column.toml", &[]).unwrap_or_else(|error| panic!("{error}"));

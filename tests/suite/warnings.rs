@@ -58,7 +58,7 @@ fn a_body_that_leaves_is_told_and_the_books_keep_what_it_took() {
 fn what_gravity_gives_to_the_gas_is_in_the_books() {
     let Some(gpu) = gpu_or_skip() else { return };
     let text = "title = \"sloshing\"\ngravity = [0.3, -0.5]\n[domain]\ndimension = 2\ncells = [16, 16]\nsize = [1.0, 1.0]\n\
-        [gas]\nambient = { density = 1.0, pressure = 1.0 }\n[time]\nuntil = 0.5\n";
+        [gas]\natmosphere = \"uniform\"\nambient = { density = 1.0, pressure = 1.0 }\n[time]\nuntil = 0.5\n";
     let scene = Scene::parse(text, "sloshing.toml", &[]).unwrap();
     let mut simulation = Simulation::new(&gpu, &scene).unwrap();
     let start = Budget::read(&simulation, &scene, 0.0).unwrap();

@@ -1,7 +1,12 @@
 //! How thick bodies are, in cells: those thinner than two hold gas apart and little more.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use super::super::distance::length;
-use super::{Scene, Shape};
+use super::super::{Domain, Obstacle};
+use super::{Scene, Shape, lattice};
 
 /// Cells across that bending and breaking need at least.
 const RESOLVED: f64 = 2.0;
@@ -9,6 +14,10 @@ const RESOLVED: f64 = 2.0;
 const POINTS: usize = 1000;
 /// A body with this part of its points in places that are too thin is thin.
 const SHARE: f64 = 0.25;
+/// An obstacle that loses this part of itself is told.
+const LOST: f64 = 0.01;
+/// Points per cell and axis that look for obstacles, in 1D, 2D and 3D.
+const FINE: [u32; 3] = [16, 8, 4];
 /// Relative error of a thickness.
 const EXACT: f64 = 0.01;
 /// Steps from a point to the deepest place near it, at most.
@@ -22,6 +31,17 @@ pub struct ThinBody {
     /// Median thickness of its thin part, in cells.
     pub cells: f64,
     /// Part of the body that is so thin.
+    pub share: f64,
+}
+
+/// An obstacle that the grid does not hold as a whole.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct ThinObstacle {
+    /// Name of the obstacle.
+    pub obstacle: String,
+    /// Median thickness of what is lost, in cells; 0 if it is thinner than the lattice that looks for it.
+    pub cells: f64,
+    /// Part of the obstacle that is lost.
     pub share: f64,
 }
 
@@ -41,6 +61,46 @@ impl Scene {
         thin.sort_by(f64::total_cmp);
         let share = thin.len() as f64 / across.len().max(1) as f64;
         (share >= SHARE).then(|| ThinBody { body: body.name.clone(), cells: thin[thin.len() / 2], share })
+    }
+
+    /// Obstacles parts of which are in no cell, so that gas passes them.
+    #[must_use]
+    pub fn thin_obstacles(&self) -> Vec<ThinObstacle> {
+        (0..self.obstacles.len()).into_par_iter().filter_map(|index| self.thin_obstacle(index)).collect()
+    }
+
+    fn thin_obstacle(&self, index: usize) -> Option<ThinObstacle> {
+        let Obstacle { name, shape } = &self.obstacles[index];
+        let points = self.points_inside(shape);
+        let looked_at: Vec<_> = points.iter().step_by(points.len().div_ceil(POINTS).max(1)).collect();
+        let across = looked_at.iter().map(|point| self.cells_across(shape, **point));
+        let is_lost =
+            |&(point, cells): &(&[f64; 3], f64)| cells < RESOLVED * (1.0 - EXACT) && !self.holds_obstacle(*point);
+        let mut lost: Vec<f64> =
+            looked_at.iter().copied().zip(across).filter(is_lost).map(|(_, cells)| cells).collect();
+        lost.sort_by(f64::total_cmp);
+        let share = if looked_at.is_empty() { 1.0 } else { lost.len() as f64 / looked_at.len() as f64 };
+        let cells = lost.get(lost.len() / 2).copied().unwrap_or(0.0);
+        (share >= LOST && self.domain.meets(shape.bounds())).then(|| ThinObstacle {
+            obstacle: name.clone(),
+            cells,
+            share,
+        })
+    }
+
+    /// Points of a fine lattice that lie in a shape.
+    fn points_inside(&self, shape: &Shape) -> Vec<[f64; 3]> {
+        let axes = self.domain.axes();
+        let offsets = lattice(axes, FINE[axes - 1]);
+        let of_row = |(range, row): (Range<u32>, [u32; 2])| {
+            let mut found = Vec::new();
+            self.cells_near(shape, range, row, &mut |center| {
+                let places = offsets.iter().map(|o| std::array::from_fn(|d| center[d] + o[d] * self.domain.spacing()));
+                found.extend(places.filter(|point| shape.distance(*point) < 0.0));
+            });
+            found
+        };
+        self.rows_near(shape).collect::<Vec<_>>().into_par_iter().flat_map_iter(of_row).collect()
     }
 
     /// Cells across a shape at a point inside, up to [`RESOLVED`]: twice the depth of the deepest place on the way away from the surface.
@@ -72,5 +132,12 @@ impl Scene {
             }
         }
         (2.0 * deepest).min(RESOLVED)
+    }
+}
+
+impl Domain {
+    /// Whether a box and the domain have a part in common.
+    fn meets(&self, (low, high): ([f64; 3], [f64; 3])) -> bool {
+        (0..self.axes()).all(|d| low[d] < self.origin[d] + self.size[d] && high[d] > self.origin[d])
     }
 }

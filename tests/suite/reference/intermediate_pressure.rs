@@ -96,6 +96,15 @@ fn node_velocity(problem: &Problem, cells: &[u32], star: &Gas, node: [i32; 3]) -
     [0.0; 3]
 }
 
+/// Density with which a gas cell counts in a node: of the node's own cell where the velocity is constant per cell, but beside bodies.
+fn seen_density(problem: &Problem, interface: &Interface, star: &Gas, node: [i32; 3], slot: usize) -> f64 {
+    let own = problem.grid.slot(node);
+    let alone = problem.numerics.pair == Pair::B1b0
+        && interface.cells[own] == GAS
+        && !interface::beside_body(problem, &interface.cells, node);
+    star.conserved[if alone { own } else { slot }][0]
+}
+
 /// The stage. The predictor sees what advection compressed, without the kick of gravity that `star` has. With two solves per step
 /// `carrying` is the gas that carried itself: its velocity compressed, and its pressure stands in for one that is lost.
 pub(crate) fn intermediate(
@@ -126,13 +135,8 @@ pub(crate) fn intermediate(
         predicted_pressure[slot] = factor * pressure[slot];
         for off in grid.offsets(-1, 1) {
             let share = element::node_weight(grid, problem.numerics.pair, off) * grid.volume();
-            let place = problem.node_of(add(c, off));
-            let node = grid.slot(place);
-            // a velocity that is constant per cell moves the gas of that cell; beside bodies a mean
-            let own = problem.numerics.pair == Pair::B1b0
-                && interface.cells[node] == GAS
-                && !interface::beside_body(problem, &interface.cells, place);
-            node_mass[node] += share * star.conserved[if own { node } else { slot }][0];
+            let node = problem.node_of(add(c, off));
+            node_mass[grid.slot(node)] += share * seen_density(problem, interface, star, node, slot);
         }
     }
     let mut vertex_pressure = vec![0.0; grid.slots()];
