@@ -331,7 +331,7 @@ fn material_indices_follow_sorted_names() {
     assert_eq!((parameters[0].kind, parameters[1].kind), (1, 0));
 }
 
-/// What lies between the centres of cells is in no cell, and is told with its share.
+/// What lies between centres and corners of cells is in no cell, and is told with its share.
 #[test]
 fn obstacles_thinner_than_a_cell_are_told() {
     // cells of 0.1
@@ -343,12 +343,12 @@ fn obstacles_thinner_than_a_cell_are_told() {
         scene.thin_obstacles().first().map(|found| (found.cells, found.share))
     };
     let wall = |x: f64, thickness: f64| format!("box = {{ center = [{x}, 0.5], size = [{thickness}, 1.0] }}");
-    let (cells, share) = lost(&wall(1.0, 0.04), "auto").unwrap();
-    assert!((cells - 0.4).abs() < 0.02 && share == 1.0, "between the centres: {cells} {share}");
+    let (cells, share) = lost(&wall(1.025, 0.04), "auto").unwrap();
+    assert!((cells - 0.4).abs() < 0.02 && share == 1.0, "between centres and corners: {cells} {share}");
     assert_eq!(lost(&wall(1.05, 0.04), "auto"), None, "over the centres");
     assert_eq!(lost(&wall(1.02, 0.15), "auto"), None, "thick enough");
-    let (_, share) = lost("sphere = { center = [1.0, 0.5], radius = 0.03 }", "auto").unwrap();
-    assert_eq!(share, 1.0, "a ball between the centres");
+    let (_, share) = lost("sphere = { center = [1.025, 0.525], radius = 0.02 }", "auto").unwrap();
+    assert_eq!(share, 1.0, "a ball between centre and corner");
     assert_eq!(lost("sphere = { center = [1.0, 0.5], radius = 0.3 }", "auto"), None);
     assert_eq!(lost("sphere = { center = [9.0, 0.5], radius = 0.03 }", "auto"), None, "beyond the domain");
     // along a slanted wall some cells hold it and some do not
