@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::super::Obstacle;
 use super::super::distance::length;
-use super::super::{Domain, Obstacle};
 use super::{Scene, Shape, lattice};
 
 /// Cells across that bending and breaking need at least.
@@ -56,7 +56,7 @@ impl Scene {
         let body = &self.bodies[index];
         let points: Vec<_> = self.seed_particles_of(index).map(|seed| seed.position).collect();
         let looked_at = points.iter().step_by(points.len().div_ceil(POINTS).max(1));
-        let across: Vec<f64> = looked_at.map(|point| self.cells_across(&body.shape, *point)).collect();
+        let across: Vec<f64> = looked_at.map(|point| self.middle_near(&body.shape, *point).1).collect();
         let mut thin: Vec<f64> = across.iter().copied().filter(|cells| *cells < RESOLVED * (1.0 - EXACT)).collect();
         thin.sort_by(f64::total_cmp);
         let share = thin.len() as f64 / across.len().max(1) as f64;
@@ -73,19 +73,15 @@ impl Scene {
         let Obstacle { name, shape } = &self.obstacles[index];
         let points = self.points_inside(shape);
         let looked_at: Vec<_> = points.iter().step_by(points.len().div_ceil(POINTS).max(1)).collect();
-        let across = looked_at.iter().map(|point| self.cells_across(shape, **point));
+        // beside what the cells hold a stair may leave points out: what counts is the middle between the surfaces
+        let middles = looked_at.iter().map(|point| self.middle_near(shape, **point));
         let is_lost =
-            |&(point, cells): &(&[f64; 3], f64)| cells < RESOLVED * (1.0 - EXACT) && !self.holds_obstacle(*point);
-        let mut lost: Vec<f64> =
-            looked_at.iter().copied().zip(across).filter(is_lost).map(|(_, cells)| cells).collect();
+            |(middle, cells): &([f64; 3], f64)| *cells < RESOLVED * (1.0 - EXACT) && !self.holds_obstacle(*middle);
+        let mut lost: Vec<f64> = middles.filter(is_lost).map(|(_, cells)| cells).collect();
         lost.sort_by(f64::total_cmp);
         let share = if looked_at.is_empty() { 1.0 } else { lost.len() as f64 / looked_at.len() as f64 };
         let cells = lost.get(lost.len() / 2).copied().unwrap_or(0.0);
-        (share >= LOST && self.domain.meets(shape.bounds())).then(|| ThinObstacle {
-            obstacle: name.clone(),
-            cells,
-            share,
-        })
+        (share >= LOST).then(|| ThinObstacle { obstacle: name.clone(), cells, share })
     }
 
     /// Points of a fine lattice that lie in a shape.
@@ -103,8 +99,9 @@ impl Scene {
         self.rows_near(shape).collect::<Vec<_>>().into_par_iter().flat_map_iter(of_row).collect()
     }
 
-    /// Cells across a shape at a point inside, up to [`RESOLVED`]: twice the depth of the deepest place on the way away from the surface.
-    fn cells_across(&self, shape: &Shape, mut point: [f64; 3]) -> f64 {
+    /// The deepest place on the way away from the surface, from a point inside, and twice its depth: the cells across the shape there, up
+    /// to [`RESOLVED`].
+    fn middle_near(&self, shape: &Shape, mut point: [f64; 3]) -> ([f64; 3], f64) {
         let spacing = self.domain.spacing();
         let depth_at = |point: [f64; 3]| -shape.distance(point) / spacing;
         let moved = |point: [f64; 3], d: usize, by: f64| {
@@ -131,13 +128,6 @@ impl Scene {
                 step *= 0.5;
             }
         }
-        (2.0 * deepest).min(RESOLVED)
-    }
-}
-
-impl Domain {
-    /// Whether a box and the domain have a part in common.
-    fn meets(&self, (low, high): ([f64; 3], [f64; 3])) -> bool {
-        (0..self.axes()).all(|d| low[d] < self.origin[d] + self.size[d] && high[d] > self.origin[d])
+        (point, (2.0 * deepest).min(RESOLVED))
     }
 }
