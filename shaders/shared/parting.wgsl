@@ -1,6 +1,7 @@
 // Where the velocities of two cells part, the pressure of their face works on both, and each pays for it in proportion to its own
 // pressure. The mean by mass, with which a face moves, would let a thin cell pay nearly all of a work whose pressure is the dense one's:
-// its entropy would fall. No cell pays more than its own pressure can; what a vertex asks beyond that is paid by all cells around it.
+// its entropy would fall. No cell pays more than its own pressure can; what a vertex asks beyond that is paid by all cells around it,
+// as far as they have it.
 // In gas alone shares are those by mass: by pressure, tubes would have errors 2 to 10 % larger.
 // Needs element, system, body_power and the bindings control, cells, extra, pressure, conserved, energy, node and work.
 
@@ -91,11 +92,20 @@ fn shares_at(v: vec3i, c: vec3i) -> bool {
     return false;
 }
 
+// Share of its internal energy that a gas cell gives at all of its vertices together, at most.
+const MOST_GIVEN = 0.5;
+
+// What a vertex gets of the gas around it at most, over the sum of the pressures of those who pay: were all vertices of a cell to ask as much,
+// it would give MOST_GIVEN. Without that bound cells would pay what they have not, and the energy floor would lend it.
+fn most_asked() -> f32 {
+    return MOST_GIVEN * params.spacing / (f32(corner_count()) * (params.gamma - 1.0) * control.dt);
+}
+
 // What a gas cell gets back for its own faces at a vertex, and what it pays there of the sum.
 fn heat_at_vertex(v: vec3i, c: vec3i, slot: u32) -> f32 {
     let asked = pressure[surplus_index(slot_of(v))];
     if asked == 0.0 || !shares_at(v, c) { return 0.0; }
-    return beyond_caps(v, c, slot) - asked * own_pressure(slot);
+    return min(most_asked() / asked, 1.0) * (beyond_caps(v, c, slot) - asked * own_pressure(slot));
 }
 
 // Opposite corners in pairs, so that mirror images keep their bits.

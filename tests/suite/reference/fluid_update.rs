@@ -193,7 +193,7 @@ pub(crate) fn fluid_update(
     let carrier = carrier_of(problem, &interface.cells, &mut next, (&intermediate.open, &solution.pressure[P]));
     let gas = &next.clone();
     let (before, solid, carrier) = (&intermediate.predicted_pressure, &solid, carrier.as_ref());
-    let parting = Parting { problem, interface, gas, pressure: before, solution, solid };
+    let parting = Parting { problem, interface, gas, pressure: before, solution, solid, dt };
     for axis in 0..grid.dimension {
         for low in grid.faces(axis).into_iter().filter(|low| touching(*low, axis)) {
             let slot = grid.slot(low);

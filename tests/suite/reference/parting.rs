@@ -15,6 +15,7 @@ pub(crate) struct Parting<'a> {
     pub(crate) pressure: &'a [f64],
     pub(crate) solution: &'a Solution,
     pub(crate) solid: &'a [[f64; 3]],
+    pub(crate) dt: f64,
 }
 
 impl Parting<'_> {
@@ -81,6 +82,12 @@ impl Parting<'_> {
         self.kind(c) == GAS && (0..self.problem.grid.dimension).any(beside)
     }
 
+    /// What a vertex may ask over the sum of the pressures around it: at all vertices of a cell together half of its internal energy.
+    fn most_asked(&self) -> f64 {
+        let vertices = f64::from(1 << self.problem.grid.dimension);
+        0.5 * self.problem.grid.spacing / (vertices * (self.problem.gamma - 1.0) * self.dt)
+    }
+
     /// Power that each cell gets back at its vertices less what it pays there in proportion to its pressure, per area of a face.
     pub(crate) fn heat_at_vertices(&self) -> Vec<f64> {
         let grid = &self.problem.grid;
@@ -93,8 +100,10 @@ impl Parting<'_> {
             let payers: Vec<_> = around.filter(|c| self.takes_part(v, *c)).collect();
             let asked: Vec<f64> = payers.iter().map(|c| self.beyond(v, *c)).collect();
             let all: f64 = payers.iter().map(|c| self.pressure[grid.slot(*c)]).sum();
+            let wanted: f64 = asked.iter().sum();
+            let share = if wanted > self.most_asked() * all { self.most_asked() * all / wanted } else { 1.0 };
             for (c, back) in payers.iter().zip(&asked) {
-                heat[grid.slot(*c)] += back - self.pressure[grid.slot(*c)] / all * asked.iter().sum::<f64>();
+                heat[grid.slot(*c)] += share * (back - self.pressure[grid.slot(*c)] / all * wanted);
             }
         }
         heat
