@@ -122,7 +122,7 @@ pub struct StepRecord {
     pub min_entropy: f32,
     /// Slot where it is.
     pub coldest_slot: u32,
-    /// Cells where the flux limiter acted.
+    /// Cells where the flux limiter acted, and vertices whose gas could not pay for all that they asked.
     pub limited: u32,
     /// Cells where the energy floor acted.
     pub floored: u32,

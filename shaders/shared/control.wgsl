@@ -11,7 +11,7 @@ struct Control {
     stage: u32,                 // solves of this step that are done
     step: u32,                  // finished steps since the start of the run
     fault: atomic<u32>,         // smallest stage << 27 | slot that met an impossible value; NO_FAULT if none
-    limited: atomic<u32>,       // cells where the flux limiter acted, this step
+    limited: atomic<u32>,       // cells where the flux limiter acted, and vertices that asked too much [shared/parting.wgsl], this step
     limited_before: u32,        // the same when the first advection stage ended
     floored: atomic<u32>,       // cells where the energy floor acted, this step
     cold: atomic<u32>,          // 1 if the energy floor may have to act deep inside the gas

@@ -26,7 +26,7 @@ pub struct Control {
     pub step: u32,
     /// Smallest stage << 27 | slot that met an impossible value.
     pub fault: u32,
-    /// Cells where the flux limiter acted, this step.
+    /// Cells where the flux limiter acted, and vertices whose gas could not pay for all that they asked, this step.
     pub limited: u32,
     /// The same when the first advection stage ended.
     pub limited_before: u32,

@@ -289,3 +289,23 @@ fn crumbs_by_nodes() {
         ],
     );
 }
+
+/// One hot cell beside a plate in thin gas, and a step so long that vertices ask more of it than it has: they get what there is.
+#[test]
+fn vertices_that_ask_more_than_the_gas_around_them_has() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let overrides = [
+        "domain={ dimension = 2, cells = [12, 12], size = [12.0, 12.0] }",
+        "gas.ambient.density=0.02",
+        "gas.regions=[{ shape = { box = { center = [7.5, 6.5], size = [1.0, 1.0] } }, density = 1.0, pressure = 1e6 }]",
+        "materials.rubber={ neo_hookean = { young_modulus = 2e4, poisson_ratio = 0.25 } }",
+        "bodies=[{ name = 'plate', material = 'rubber', density = 40.0, shape = { box = { center = [5.6, 6.5], size = [2.5, 5.0] } } }]",
+        "time.fixed_step=8e-4",
+    ];
+    let mut twins = Twins::new(gpu, BODY, &overrides, 0.1);
+    let (report, trace) = twins.step();
+    assert!(report.limited > 0, "no vertex asked too much");
+    twins.compare_pressure(&trace, 5e-5);
+    twins.compare_gas(5e-5);
+    twins.finish();
+}

@@ -51,7 +51,7 @@ pub(crate) fn two_solves(
         let solution =
             coupled_solve(&Inputs { problem, interface: faces, bins, intermediate: &intermediate, nodes, dt: a * dt });
         let (carried, pressed) = ((&kept, Some(&first), &intermediate), (&solution, nodes));
-        let mut gas = fluid_update::fluid_update(problem, faces, carried, pressed, a * dt);
+        let (mut gas, _) = fluid_update::fluid_update(problem, faces, carried, pressed, a * dt);
         *open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
         let mut floored = vec![[0.0; 5]; ledger.len()];
         let count = fluid_update::energy_floor(problem, &faces.cells, &star, &mut gas, &mut floored);

@@ -175,14 +175,14 @@ fn carrier_of(
 }
 
 /// The stage: gas after the pressure step. `nodes` are the solid nodes that entered the solve. The new velocities of the faces carry the
-/// internal energy of `held`, too.
+/// internal energy of `held`, too. Also how many vertices got less than they asked.
 pub(crate) fn fluid_update(
     problem: &Problem,
     interface: &Interface,
     (star, held, intermediate): (&Gas, Option<&Gas>, &Intermediate),
     (solution, nodes): (&Solution, &Nodes),
     dt: f64,
-) -> Gas {
+) -> (Gas, usize) {
     let grid = &problem.grid;
     let gas_slots: Vec<_> = grid.interior().into_iter().filter(|c| interface.cells[grid.slot(*c)] == GAS).collect();
     let kind = |c: [i32; 3]| interface.cells[grid.slot(c)];
@@ -228,10 +228,11 @@ pub(crate) fn fluid_update(
             next.energy[above] -= dt / grid.spacing * (work[axis][above] - work[axis][below]);
         }
     }
-    for (energy, heat) in next.energy.iter_mut().zip(parting.heat_at_vertices()) {
+    let (heats, limited) = parting.heat_at_vertices();
+    for (energy, heat) in next.energy.iter_mut().zip(heats) {
         *energy += dt / grid.spacing * heat;
     }
-    next
+    (next, limited)
 }
 
 /// Keeps the internal energy above a tenth of its value after advection and the entropy above the least; returns how many cells it touched.

@@ -88,12 +88,13 @@ impl Parting<'_> {
         0.5 * self.problem.grid.spacing / (vertices * (self.problem.gamma - 1.0) * self.dt)
     }
 
-    /// Power that each cell gets back at its vertices less what it pays there in proportion to its pressure, per area of a face.
-    pub(crate) fn heat_at_vertices(&self) -> Vec<f64> {
+    /// Power that each cell gets back at its vertices less what it pays there in proportion to its pressure, per area of a face; and how many
+    /// vertices get less than they ask.
+    pub(crate) fn heat_at_vertices(&self) -> (Vec<f64>, usize) {
         let grid = &self.problem.grid;
-        let mut heat = vec![0.0; grid.slots()];
+        let (mut heat, mut limited) = (vec![0.0; grid.slots()], 0);
         if self.problem.materials.is_empty() {
-            return heat;
+            return (heat, limited);
         }
         for v in grid.vertices() {
             let around = grid.offsets(0, 1).into_iter().map(|corner| subtract(v, corner));
@@ -101,11 +102,13 @@ impl Parting<'_> {
             let asked: Vec<f64> = payers.iter().map(|c| self.beyond(v, *c)).collect();
             let all: f64 = payers.iter().map(|c| self.pressure[grid.slot(*c)]).sum();
             let wanted: f64 = asked.iter().sum();
-            let share = if wanted > self.most_asked() * all { self.most_asked() * all / wanted } else { 1.0 };
+            let most = self.most_asked() * all;
+            limited += usize::from(wanted > most);
+            let share = if wanted > most { most / wanted } else { 1.0 };
             for (c, back) in payers.iter().zip(&asked) {
                 heat[grid.slot(*c)] += share * (back - self.pressure[grid.slot(*c)] / all * wanted);
             }
         }
-        heat
+        (heat, limited)
     }
 }

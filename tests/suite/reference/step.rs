@@ -79,7 +79,8 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let mut followed = star.clone();
     fluid_update::late_flux(problem, &faces, &mut followed, (&solution, &nodes), dt, &mut state.ledger);
     let (gas, pressed) = ((&followed, None, &intermediate), (&solution, &nodes));
-    state.gas = fluid_update::fluid_update(problem, &faces, gas, pressed, dt);
+    let (next, short) = fluid_update::fluid_update(problem, &faces, gas, pressed, dt);
+    state.gas = next;
     state.open = boundary::remember(problem, &faces.cells, &intermediate.open, &solution.pressure[0]);
     let touched = fluid_update::energy_floor(problem, &faces.cells, &star, &mut state.gas, &mut state.ledger);
 
@@ -91,7 +92,7 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     gas_advection::fill_ghosts(problem, &faces.cells, &mut state.gas);
     state.time += dt;
     let (iterations, converged) = (solution.iterations, solution.converged);
-    let report = Report { dt, iterations, converged, limited, floored: touched, substeps };
+    let report = Report { dt, iterations, converged, limited: limited + short, floored: touched, substeps };
     (report, Trace { solution, nodes, shared: faces.shared })
 }
 
