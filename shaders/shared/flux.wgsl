@@ -55,8 +55,8 @@ fn sum_of(up: f32, low: Gas, down: f32, high: Gas) -> Gas {
 }
 
 // With one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`, at least upwind.
-// Density, velocity and internal energy have weights of their own, so that a contact keeps its pressure; in shocks the conserved
-// variables have, which follow them better. `held`: see heat_between.
+// Density, velocity and internal energy have weights of their own, so that a contact keeps its pressure; in shocks, and where gas
+// parts, the conserved variables have, which follow them better. `held`: see heat_between.
 fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     let spread = max(max(alpha, s.spread), abs(carried));
     let up = 0.5 * (carried + spread);
@@ -64,10 +64,10 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     var out: Fluxes;
     let parts = values_at(s.even, parts_of(s.a), parts_of(s.b), parts_of(s.c), parts_of(s.d), parts_of(s.e), parts_of(s.f));
     out.high = sum_of(up, whole_of(parts.low), down, whole_of(parts.high));
-    if s.even < 1.0 {
+    if s.level < 1.0 {
         let values = values_at(s.even, s.a, s.b, s.c, s.d, s.e, s.f);
         let steep = sum_of(up, values.low, down, values.high);
-        out.high = Gas(mix(steep.flow, out.high.flow, s.even), mix(steep.energy, out.high.energy, s.even));
+        out.high = Gas(mix(steep.flow, out.high.flow, s.level), mix(steep.energy, out.high.energy, s.level));
     }
     out.unit = unit_between(s.c, s.d);
     out.heat = held * carried;

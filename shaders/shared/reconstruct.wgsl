@@ -16,16 +16,19 @@ const STEEP = 0.1;
 // that the gas does not cross along this axis would get none: waves would trail it. B2B1 with one velocity for the faces needs more [docs/notes/reconstruction.md].
 fn shock_spread() -> f32 { return select(0.6, 1.2, QUADRATIC && CONSISTENT); }
 
-// Cells a to f along an axis, the face between c and d, the share of the second form there, and the least speed of the dissipation.
-struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32, spread: f32 }
+// Cells a to f along an axis, the face between c and d, the share of the second form there, how even the velocity is (0 to 1), and the
+// least speed of the dissipation.
+struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32, level: f32, spread: f32 }
 
 // Of four cells, where others beyond them are no gas.
-fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d, e, e, 0.0, 0.0); }
+fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d, e, e, 0.0, 0.0, 0.0); }
 
 fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
     let sound = sound_between(c, d);
-    let share = steepness(n, sound, a, b, c, d, e, f);
-    return Stencil(a, b, c, d, e, f, 1.0 - share, min(shock_spread() * share * sound, most_spread()));
+    let share = steepness(n, 1.0, sound, a, b, c, d, e, f);
+    let parting = steepness(n, -1.0, sound, a, b, c, d, e, f);
+    let spread = min(shock_spread() * share * sound, most_spread());
+    return Stencil(a, b, c, d, e, f, 1.0 - share, (1.0 - share) * (1.0 - parting), spread);
 }
 
 // [s] over which the fluxes of the stage pass.
@@ -44,14 +47,15 @@ fn sound_between(c: Gas, d: Gas) -> f32 {
 
 fn velocity_along(n: u32, gas: Gas) -> f32 { return gas.flow[n + 1u] / gas.flow.x; }
 
-// How far a face with normal n is from even gas: 0 to 1, in a shock.
-fn steepness(n: u32, sound: f32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> f32 {
+// How far a face with normal n is from even gas: 0 to 1, in a shock with `sign` 1, where gas parts with -1.
+fn steepness(n: u32, sign: f32, sound: f32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> f32 {
     let ub = velocity_along(n, b);
     let uc = velocity_along(n, c);
     let ud = velocity_along(n, d);
     let ue = velocity_along(n, e);
-    let ends = max(velocity_along(n, a) - ub, ue - velocity_along(n, f));
-    let drop = max(max(max(ub - uc, uc - ud), max(ud - ue, ends)), 0.0) / (STEEP * sound);
+    let ends = sign * vec2f(velocity_along(n, a) - ub, ue - velocity_along(n, f));
+    let inner = sign * vec3f(ub - uc, uc - ud, ud - ue);
+    let drop = max(max(max(inner.x, inner.y), max(inner.z, max(ends.x, ends.y))), 0.0) / (STEEP * sound);
     return min(drop * drop, 1.0);
 }
 

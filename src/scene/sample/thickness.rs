@@ -71,7 +71,14 @@ impl Scene {
 
     fn thin_obstacle(&self, index: usize) -> Option<ThinObstacle> {
         let Obstacle { name, shape } = &self.obstacles[index];
-        let points = self.points_inside(shape);
+        let (deep, near) = self.cells_of(shape);
+        let stride = near.len().div_ceil(POINTS).max(1);
+        let offsets = lattice(self.domain.axes(), FINE[self.domain.axes() - 1]);
+        let points_in = |center: &[f64; 3]| {
+            let place = |o: &[f64; 3]| std::array::from_fn(|d| center[d] + o[d] * self.domain.spacing());
+            offsets.iter().map(place).filter(|point| shape.distance(*point) < 0.0).collect::<Vec<[f64; 3]>>()
+        };
+        let points: Vec<_> = near.par_iter().step_by(stride).flat_map_iter(points_in).collect();
         let looked_at: Vec<_> = points.iter().step_by(points.len().div_ceil(POINTS).max(1)).collect();
         // beside what the cells hold a stair may leave points out: what counts is the middle between the surfaces
         let middles = looked_at.iter().map(|point| self.middle_near(shape, **point));
@@ -79,24 +86,25 @@ impl Scene {
             |(middle, cells): &([f64; 3], f64)| *cells < RESOLVED * (1.0 - EXACT) && !self.holds_obstacle(*middle);
         let mut lost: Vec<f64> = middles.filter(is_lost).map(|(_, cells)| cells).collect();
         lost.sort_by(f64::total_cmp);
-        let share = if looked_at.is_empty() { 1.0 } else { lost.len() as f64 / looked_at.len() as f64 };
+        let (thin, whole) = (points.len() * stride, deep * offsets.len());
+        let of_thin = if thin == 0 { 1.0 } else { lost.len() as f64 / looked_at.len() as f64 };
+        let share = if whole == 0 { of_thin } else { of_thin * thin as f64 / (thin + whole) as f64 };
         let cells = lost.get(lost.len() / 2).copied().unwrap_or(0.0);
         (share >= LOST).then(|| ThinObstacle { obstacle: name.clone(), cells, share })
     }
 
-    /// Points of a fine lattice that lie in a shape.
-    fn points_inside(&self, shape: &Shape) -> Vec<[f64; 3]> {
-        let axes = self.domain.axes();
-        let offsets = lattice(axes, FINE[axes - 1]);
+    /// How many cells lie so deep in a shape that nothing in them is thin, and the centres of the others that it may touch.
+    fn cells_of(&self, shape: &Shape) -> (usize, Vec<[f64; 3]>) {
+        let thick = self.cell_radius() + 0.5 * RESOLVED * self.domain.spacing();
         let of_row = |(range, row): (Range<u32>, [u32; 2])| {
-            let mut found = Vec::new();
+            let (mut deep, mut near) = (0, Vec::new());
             self.cells_near(shape, range, row, &mut |center| {
-                let places = offsets.iter().map(|o| std::array::from_fn(|d| center[d] + o[d] * self.domain.spacing()));
-                found.extend(places.filter(|point| shape.distance(*point) < 0.0));
+                if shape.distance(center) < -thick { deep += 1 } else { near.push(center) }
             });
-            found
+            (deep, near)
         };
-        self.rows_near(shape).collect::<Vec<_>>().into_par_iter().flat_map_iter(of_row).collect()
+        let rows: Vec<_> = self.rows_near(shape).collect::<Vec<_>>().into_par_iter().map(of_row).collect();
+        (rows.iter().map(|(deep, _)| deep).sum(), rows.into_iter().flat_map(|(_, near)| near).collect())
     }
 
     /// The deepest place on the way away from the surface, from a point inside, and twice its depth: the cells across the shape there, up

@@ -16,15 +16,17 @@ const STEEP: f64 = 0.1;
 /// The six cells across a face, which lies between the third and fourth.
 type Stencil = [[f64; 5]; 6];
 
-/// What a face takes from the compression among its six cells: the share of the fifth-order form, and the least speed of the dissipation.
+/// What a face takes from its six cells: the share of the fifth-order form where they are not compressed, how even their velocity is, and
+/// the least speed of the dissipation.
 #[derive(Clone, Copy)]
 pub(crate) struct Shock {
     even: f64,
+    level: f64,
     spread: f64,
 }
 
 /// Next to anything but gas.
-const NARROW: Shock = Shock { even: 0.0, spread: 0.0 };
+const NARROW: Shock = Shock { even: 0.0, level: 0.0, spread: 0.0 };
 
 /// Least speed of the dissipation in a shock, over that of sound; and with B2B1 where faces have one velocity.
 const SHOCK_SPREAD: [f64; 2] = [0.6, 1.2];
@@ -35,11 +37,12 @@ fn shock(problem: &Problem, dt: f64, stencil: &Stencil, axis: usize) -> Shock {
     let least = SHOCK_SPREAD[usize::from(numerics.pair == Pair::B2b1 && numerics.consistent)];
     let most = problem.grid.spacing / (3.0 * dt);
     let speed = stencil.map(|u| u[1 + axis] / u[0]);
-    let drop = speed.windows(2).fold(0.0, |most, pair| f64::max(most, pair[0] - pair[1]));
+    let steepest = |sign: f64| speed.windows(2).fold(0.0, |most, pair| f64::max(most, sign * (pair[0] - pair[1])));
     let heat = 0.5 * (internal_energy(stencil[2]) / stencil[2][0] + internal_energy(stencil[3]) / stencil[3][0]);
     let sound = (gamma * (gamma - 1.0) * heat).sqrt();
-    let share = f64::min(1.0, (drop / (STEEP * sound)).powi(2));
-    Shock { even: 1.0 - share, spread: f64::min(least * share * sound, most) }
+    let [share, parting] = [1.0, -1.0].map(|sign| f64::min(1.0, (steepest(sign) / (STEEP * sound)).powi(2)));
+    let level = (1.0 - share) * (1.0 - parting);
+    Shock { even: 1.0 - share, level, spread: f64::min(least * share * sound, most) }
 }
 
 /// Value at the face between the third and fourth of six cells in a row, the first upwind; the last only tells how large values are. The
@@ -87,7 +90,7 @@ fn split_flux(weno: Weno, shock: Shock, stencil: &Stencil, axis: usize) -> ([f64
 }
 
 /// The same with one velocity of the face: a value from each side of the state itself, which is made of density, velocity and internal
-/// energy but in shocks.
+/// energy but in shocks and where gas parts.
 fn carried_flux(weno: Weno, shock: Shock, stencil: &Stencil, carried: f64, alpha: f64) -> ([f64; 5], [f64; 5]) {
     let (mut high, mut first) = ([0.0; 5], [0.0; 5]);
     let spread = carried.abs().max(alpha).max(shock.spread);
@@ -102,7 +105,7 @@ fn carried_flux(weno: Weno, shock: Shock, stencil: &Stencil, carried: f64, alpha
     for k in 0..5 {
         let smooth = up * low[k] + down * far[k];
         let steep = up * steep_low[k] + down * steep_far[k];
-        high[k] = steep + shock.even * (smooth - steep);
+        high[k] = steep + shock.level * (smooth - steep);
         first[k] = up * stencil[2][k] + down * stencil[3][k];
     }
     (high, first)
