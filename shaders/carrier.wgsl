@@ -11,7 +11,7 @@
 #include "shared/interior.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/cut_carrier.wgsl"
-#include "shared/open_face.wgsl"
+#include "shared/open_part.wgsl"
 #include "shared/still.wgsl"
 
 override SOURCE: u32;   // 0: the state now, 1: U1, 2: U*
@@ -107,7 +107,7 @@ fn surplus_beyond(c: vec3i, slot: u32) -> vec4f {
     if dot(away, away) != 1 || kind_of(cells[slot_of(near)]) != GAS || face.reference <= 0.0 { return vec4f(0.0); }
     let n = u32(away.y != 0) + 2u * u32(away.z != 0);
     let y = admittance_of(opening_of(cells[slot]), face, conserved[slot_of(near)].x, energy[params.slots + slot_of(near)]);
-    let solved = face.velocity + f32(away[n]) * y * (last_face_pressure(near, n, away[n] > 0) - face.reference);
+    let solved = face.velocity + f32(away[n]) * y * (open_part_pressure(near, n, away[n] > 0) - face.reference);
     return select(vec4f(0.0), vec4f(solved - average(near, slot_of(near))[n]), vec4<bool>(along(n), false));
 }
 

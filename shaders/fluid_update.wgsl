@@ -14,6 +14,7 @@
 #include "shared/carrier.wgsl"
 #include "shared/cut_system.wgsl"
 #include "shared/cut_carrier.wgsl"
+#include "shared/open_part.wgsl"
 #include "shared/face_pressure.wgsl"
 #include "shared/body_power.wgsl"
 #include "shared/late_flux.wgsl"

@@ -13,6 +13,7 @@
 #include "shared/system.wgsl"
 #include "shared/interior.wgsl"
 #include "shared/cut_system.wgsl"
+#include "shared/open_part.wgsl"
 #include "shared/face_pressure.wgsl"
 #include "shared/body_power.wgsl"
 

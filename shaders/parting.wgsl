@@ -9,6 +9,7 @@
 #include "shared/system.wgsl"
 #include "shared/interior.wgsl"
 #include "shared/cut.wgsl"
+#include "shared/open_part.wgsl"
 #include "shared/face_pressure.wgsl"
 #include "shared/body_power.wgsl"
 #include "shared/parting.wgsl"

@@ -6,7 +6,7 @@
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/cut.wgsl"
-#include "shared/open_face.wgsl"
+#include "shared/open_part.wgsl"
 #include "shared/control.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -38,7 +38,7 @@ fn note_open_face(c: vec3i, slot: u32) {
     let last = fill[slot];
     var known = vec2f(here.flow[n + 1u] / here.flow.x, p);
     if last.y > 0.0 {
-        known.y = last_face_pressure(near, n, away[n] > 0);
+        known.y = open_part_pressure(near, n, away[n] > 0);
         known.x = last.x + outward * (known.y - last.y) / (here.flow.x * sound_speed(here.flow.x, p));
     }
     let face = open_face(opening, n, outward, here, known, control.dt);

@@ -53,16 +53,18 @@ fn weighed(densities: vec4f) -> f32 {
 fn mass_share(node: i32) -> f32 { return mean_entry(QUADRATIC, node, false) + mean_entry(QUADRATIC, node, true); }
 
 // Density that a node sees in a GAS cell, or in what stands for it: `own`, that of its own cell, where the velocity is constant per cell.
-// With a mean, a thin cell beside a dense one would move like the dense one in the solve, and as itself after it. Beside a body the mean
-// stays: there a cell may be so thin that its own mass would let the body's pressure throw it. 0 elsewhere.
+// With a mean, a thin cell beside a dense one would move like the dense one in the solve, and as itself after it. In scenes with bodies the
+// mean stays: beside a body a cell may be so thin that its own mass would let the body's pressure throw it. 0 elsewhere.
 fn gas_density(c: vec3i, own: f32) -> f32 {
     let near = joined(mirrored(c));
     if !inside(near) || kind_of(cells[slot_of(near)]) != GAS { return 0.0; }
     return select(conserved[slot_of(near)].x, own, own > 0.0);
 }
 
+fn own_mass() -> bool { return !QUADRATIC && !SOLIDS; }
+
 fn interior_mass(at: u32) -> f32 {
-    if !QUADRATIC { return conserved[at].x; }
+    if own_mass() { return conserved[at].x; }
     return mean_mass(at);
 }
 
@@ -78,7 +80,7 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
         if kind_of(cells[slot]) == GAS { mass = conserved[slot].x * cluster_share(slot); }
     } else if has(cells[slot], NODE_GAS) && !is_image(c) && !is_joined(c) {
         var around = vec4f(0.0);    // pairs across the node by how many axes they lie off
-        let own = select(0.0, conserved[slot].x, !QUADRATIC && kind_of(cells[slot]) == GAS && !has(cells[slot], NODE_SOLID));
+        let own = select(0.0, conserved[slot].x, own_mass() && kind_of(cells[slot]) == GAS);
         for (var k = 0u; k < block_size() / 2u; k++) {
             let offset = block_offset(k);
             around[dot(offset, offset)] += gas_density(c + offset, own) + gas_density(c - offset, own);

@@ -1,5 +1,5 @@
 // Mean pressures of the faces of gas cells: what the gas update takes as the force there.
-// Needs system, interior, cut_system and the bindings cells, extra and pressure.
+// Needs system, interior, cut_system, open_part and the bindings cells, extra and pressure.
 
 // Slots of the vertices of a face across axis n whose low corner is `low`; along an inactive axis each is met twice.
 fn face_vertices(low: vec3i, n: u32) -> vec4u {
@@ -13,25 +13,13 @@ fn interface_indices(at: vec4u) -> vec4u {
     return vec4u(interface_index(at.x), interface_index(at.y), interface_index(at.z), interface_index(at.w));
 }
 
-// Mean pressure of the open part of a face of cell c next to an obstacle.
-fn cut_face_pressure(c: vec3i, low: vec3i, n: u32, up: bool) -> f32 {
-    var sum = 0.0;
-    for (var k = 0u; k < corner_count(); k++) {
-        let corner = corner_offset(k);
-        if corner[n] == 1 { continue; }
-        let own = corner + select(vec3i(0), axis(n), up);
-        sum += face_shape(slot_of(c), n, up, own) * pressure[slot_of(low + corner)];
-    }
-    return sum;
-}
-
 // Pressure of the face of GAS cell c across axis n: mean of its vertices; for B2B1 inside the gas the finite-element mean,
 // p * (1,4,1)/6 along the axis and (1,11,11,1)/24 across, without which short waves grow for c dt > 2 dx.
 fn face_pressure(c: vec3i, n: u32, up: bool, beyond: u32) -> f32 {
     let low = select(c, c + axis(n), up);
     let between_gas = beyond == GAS || is_image(select(c - axis(n), c + axis(n), up));
     if QUADRATIC && between_gas && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
-    if CUT { return cut_face_pressure(c, low, n, up); }
+    if CUT { return open_part_pressure(c, n, up); }
     var at = face_vertices(low, n);
     for (var turn = 0u; turn < u32(SOLIDS && beyond == SOLID); turn++) { at = interface_indices(at); }
     return mean2(mean2(pressure[at.x], pressure[at.y]), mean2(pressure[at.z], pressure[at.w]));

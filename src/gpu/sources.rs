@@ -101,7 +101,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/matrix.wgsl",
     "shared/mixed.wgsl",
     "shared/motion.wgsl",
-    "shared/open_face.wgsl",
+    "shared/open_part.wgsl",
     "shared/opening.wgsl",
     "shared/params.wgsl",
     "shared/parting.wgsl",

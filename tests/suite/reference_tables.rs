@@ -93,7 +93,7 @@ fn shock_tubes_of_the_device() {
         });
         println!("{name}: {found:.5?}");
         for (found, expected) in found.iter().zip(expected) {
-            if (found / expected - 1.0).abs() >= 0.04 {
+            if (found / expected - 1.0).abs() >= 0.01 {
                 failures.push(format!("{name}: {found}, expected {expected}"));
             }
         }

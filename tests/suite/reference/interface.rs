@@ -130,12 +130,6 @@ pub(crate) fn touches(problem: &Problem, cells: &[u32], vertex: [i32; 3], kind: 
     around(problem, vertex).any(|c| problem.grid.contains(c) && cells[problem.grid.slot(c)] == kind)
 }
 
-/// Does the 3^d block around a cell hold a cell of a body?
-pub(crate) fn beside_body(problem: &Problem, cells: &[u32], cell: [i32; 3]) -> bool {
-    let grid = &problem.grid;
-    grid.offsets(-1, 1).into_iter().map(|o| add(cell, o)).any(|c| grid.contains(c) && cells[grid.slot(c)] == SOLID)
-}
-
 /// Interface faces and vertices for given kinds.
 pub(crate) fn interface(problem: &Problem, cells: Vec<u32>, bins: &Bins, nodes: &Nodes) -> Interface {
     let grid = &problem.grid;

@@ -96,12 +96,10 @@ fn node_velocity(problem: &Problem, cells: &[u32], star: &Gas, node: [i32; 3]) -
     [0.0; 3]
 }
 
-/// Density with which a gas cell counts in a node: of the node's own cell where the velocity is constant per cell, but beside bodies.
+/// Density with which a gas cell counts in a node: of the node's own cell where the velocity is constant per cell, in gas alone.
 fn seen_density(problem: &Problem, interface: &Interface, star: &Gas, node: [i32; 3], slot: usize) -> f64 {
     let own = problem.grid.slot(node);
-    let alone = problem.numerics.pair == Pair::B1b0
-        && interface.cells[own] == GAS
-        && !interface::beside_body(problem, &interface.cells, node);
+    let alone = problem.numerics.pair == Pair::B1b0 && problem.materials.is_empty() && interface.cells[own] == GAS;
     star.conserved[if alone { own } else { slot }][0]
 }
 
