@@ -51,7 +51,7 @@ fn entry(scene: &Shipped) -> Entry {
     let cells = table.get("domain").and_then(|domain| domain.get("cells")).and_then(toml::Value::as_array);
     let cells: Vec<String> = cells.into_iter().flatten().map(toml::Value::to_string).collect();
     let variants = table.get("variants").and_then(toml::Value::as_table);
-    let comment = scene.text.lines().take_while(|line| line.starts_with('#'));
+    let comment = scene.text.lines().take_while(|line| line.starts_with('#')).filter(|line| !line.starts_with("#:"));
     let lines = comment.map(|line| line.trim_start_matches('#').trim());
     let about = lines.take_while(|line| !line.starts_with("Reference")).collect::<Vec<_>>().join(" ").trim().to_owned();
     Entry {
@@ -188,6 +188,7 @@ mod tests {
         assert!(gallery.entries.len() > 20);
         for entry in &gallery.entries {
             assert!(!entry.title.is_empty() && !entry.about.is_empty(), "{entry:?}");
+            assert!(!entry.about.contains(":schema"), "{entry:?}");
             assert!(entry.size.starts_with(['1', '2', '3']), "{entry:?}");
             entry.request(false, None).load().unwrap();
         }
