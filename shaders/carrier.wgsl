@@ -4,6 +4,7 @@
 // velocity averaged with (1, 2, 1) / 4 along every other axis, and in w the sum of its differences across the faces. GHOST slots: by how
 // much the velocity of the face, as the last solve saw it, exceeds that of the cell before it.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -23,11 +24,11 @@ override SOLVED: bool;  // the solve has moved air that was still
 @group(0) @binding(5) var<storage, read> extra: array<u32>;
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
 @group(0) @binding(7) var<storage, read> pressure: array<f32>;
-@group(0) @binding(8) var<storage, read> energy: array<f32>;    // second third: predicted pressure, of GHOST slots p0; last third: u0
+@group(0) @binding(8) var<storage, read> energy: array<f32>;
 
 fn source(slot: u32) -> vec4f {
-    if SOURCE == 1u { return in_space(work[slot]); }
-    if SOURCE == 2u { return in_space(work[params.slots + slot]); }
+    if SOURCE == 1u { return in_space(work[part(STAGE_FLOW, slot)]); }
+    if SOURCE == 2u { return in_space(work[part(ADVECTED_FLOW, slot)]); }
     return in_space(conserved[slot]);
 }
 
@@ -103,10 +104,10 @@ fn average(c: vec3i, slot: u32) -> vec3f {
 fn surplus_beyond(c: vec3i, slot: u32) -> vec4f {
     let near = nearest_inside(c);
     let away = c - near;
-    let face = OpenFace(energy[2u * params.slots + slot], energy[params.slots + slot]);
+    let face = OpenFace(energy[part(OPEN_VELOCITY, slot)], energy[part(OPEN_PRESSURE, slot)]);
     if dot(away, away) != 1 || kind_of(cells[slot_of(near)]) != GAS || face.reference <= 0.0 { return vec4f(0.0); }
     let n = u32(away.y != 0) + 2u * u32(away.z != 0);
-    let y = admittance_of(opening_of(cells[slot]), face, conserved[slot_of(near)].x, energy[params.slots + slot_of(near)]);
+    let y = admittance_of(opening_of(cells[slot]), face, conserved[slot_of(near)].x, energy[part(PREDICTED_PRESSURE, slot_of(near))]);
     let solved = face.velocity + f32(away[n]) * y * (open_part_pressure(near, n, away[n] > 0) - face.reference);
     return select(vec4f(0.0), vec4f(solved - average(near, slot_of(near))[n]), vec4<bool>(along(n), false));
 }

@@ -2,6 +2,7 @@
 //   vol0 (lambda tr(G) + mu (G + G^T)), G = grad x,
 // which elastic_strain leaves for p2g to carry to the nodes; elastic_operator puts the sum together. elastic_add takes the solution.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/place.wgsl"
@@ -13,7 +14,7 @@
 @group(0) @binding(2) var<storage, read> position: array<vec4f>;
 @group(0) @binding(3) var<storage, read> direction: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> change: array<vec4f>;
-@group(0) @binding(5) var<storage, read> work: array<vec4f>;            // second half: force of the stress change
+@group(0) @binding(5) var<storage, read> work: array<vec4f>;            // force of the stress change
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
 @group(0) @binding(7) var<storage, read> inverse_diagonal: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> product: array<vec4f>;
@@ -45,7 +46,7 @@ fn elastic_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
     var sum = 0.0;
     for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         let x = direction[slot].xyz;
-        let y = node[slot].w * x - control.dt * control.dt * work[params.slots + slot].xyz;
+        let y = node[slot].w * x - control.dt * control.dt * work[part(ELASTIC_FORCE, slot)].xyz;
         // Components that are no unknowns have no diagonal.
         let own = select(y, vec3f(0.0), inverse_diagonal[slot].xyz == vec3f(0.0));
         product[slot] = vec4f(own, 0.0);

@@ -8,6 +8,7 @@
 // Reads the elastic force of the present stress, the forces of X*, node. Writes node: what enters the solve, then the velocity of the
 // particles again; elastic: see below.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/grid_wall.wgsl"
@@ -15,11 +16,8 @@
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
-// Second half: elastic force at the start of the step [N], M^-1 C X* before the solve [m s^-2], M^-1 C X after it.
 @group(0) @binding(3) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> node: array<vec4f>;
-// Elastic force, then the reaction e, then the acceleration to spread and the mass that it was for, or the kicked velocity of an implicit step.
-// Second half: velocity of the particles, then the velocity that lighter nodes pass on in a sub-step.
 @group(0) @binding(5) var<storage, read_write> elastic: array<vec4f>;
 @group(0) @binding(6) var<storage, read> inertia: array<f32>;
 
@@ -54,8 +52,8 @@ fn velocity_with_around(slot: u32) -> vec4f {
 fn reaction_start(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
-    elastic[slot] = vec4f(work[params.slots + slot].xyz, 0.0);
-    elastic[params.slots + slot] = velocity_with_around(slot);
+    elastic[part(NODE_FORCE, slot)] = vec4f(work[part(ELASTIC_FORCE, slot)].xyz, 0.0);
+    elastic[part(START_VELOCITY, slot)] = velocity_with_around(slot);
 }
 
 // Nodes of bodies with next to no mass of their own. What has all of its mass, or is driven, stays as it is.
@@ -63,13 +61,13 @@ fn reaction_start(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
 fn reaction_fill(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots || !has(cells[slot], NODE_SOLID) { return; }
-    node[slot] = elastic[params.slots + slot];
+    node[slot] = elastic[part(START_VELOCITY, slot)];
 }
 
 // Velocity of the particles at a node of the ring, and its mass.
 fn start_of(c: vec3i) -> vec4f {
     if !in_ring(c) { return vec4f(0.0); }
-    return elastic[params.slots + slot_of(c)];
+    return elastic[part(START_VELOCITY, slot_of(c))];
 }
 
 // (V . grad) V: central differences, one-sided at the edge of a body. A lighter node counts by its mass: what has none has no velocity.
@@ -87,10 +85,10 @@ fn carried_away(c: vec3i, own: vec4f) -> vec3f {
 
 // Reaction of a free node of a body, before walls. What a node has less than the inertia of the solve bears nothing.
 fn reaction_of(slot: u32, here: vec3f) -> vec3f {
-    let force = elastic[slot].xyz;
+    let force = elastic[part(NODE_FORCE, slot)].xyz;
     if SHARED_VOLUME { return force / inertia[slot]; }
-    let start = elastic[params.slots + slot];
-    let load = (here - start.xyz) / control.dt - work[params.slots + slot].xyz;
+    let start = elastic[part(START_VELOCITY, slot)];
+    let load = (here - start.xyz) / control.dt - work[part(SOLID_NODE, slot)].xyz;
     let size = dot(load, load);
     if size == 0.0 { return vec3f(0.0); }
     let seen = (force - start.w * carried_away(cell_of(slot), start)) / inertia[slot];
@@ -104,13 +102,13 @@ fn reaction_before(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     if slot >= params.slots { return; }
     let here = node[slot];
     if !is_free(slot) || !(SHARED_VOLUME || has(cells[slot], NODE_SOLID)) || control.dt <= 0.0 {
-        elastic[slot] = vec4f(0.0);
+        elastic[part(REACTION, slot)] = vec4f(0.0);
         return;
     }
     let v = here.xyz + control.dt * reaction_of(slot, here.xyz);
     // What a wall stops is borne by the wall.
     let stopped = select(velocity_at_wall(cell_of(slot), v), v, SHARED_VOLUME);
-    elastic[slot] = vec4f((stopped - here.xyz) / control.dt, 0.0);
+    elastic[part(REACTION, slot)] = vec4f((stopped - here.xyz) / control.dt, 0.0);
     node[slot] = vec4f(stopped, here.w);
 }
 
@@ -119,9 +117,9 @@ fn reaction_before(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
 fn reaction_aside(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots || !has(cells[slot], NODE_SOLID) || node[slot].w <= 0.0 { return; }
-    let e = elastic[slot].xyz;
+    let e = elastic[part(REACTION, slot)].xyz;
     node[slot] = vec4f(node[slot].xyz - control.dt * e, node[slot].w);
-    work[params.slots + slot] -= vec4f(e, 0.0);
+    work[part(SOLID_NODE, slot)] -= vec4f(e, 0.0);
 }
 
 // After the kick of the solve: what is not elastic of the acceleration, and the velocity of the particles. Explicit sub-steps start from
@@ -130,20 +128,20 @@ fn reaction_aside(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
 fn reaction_after(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
-    let start = elastic[params.slots + slot];
+    let start = elastic[part(START_VELOCITY, slot)];
     let here = node[slot];
-    elastic[params.slots + slot] = vec4f(0.0);
+    elastic[part(PASSED_ON, slot)] = vec4f(0.0);
     if !is_free(slot) || control.dt <= 0.0 {
-        elastic[slot] = vec4f(select(vec3f(0.0), here.xyz, IMPLICIT), 0.0);
+        elastic[part(select(TO_SPREAD, KICKED_VELOCITY, IMPLICIT), slot)] = vec4f(select(vec3f(0.0), here.xyz, IMPLICIT), 0.0);
         return;
     }
-    let e = elastic[slot].xyz;
+    let e = elastic[part(REACTION, slot)].xyz;
     if IMPLICIT {
-        elastic[slot] = vec4f(here.xyz - control.dt * e, 0.0);
+        elastic[part(KICKED_VELOCITY, slot)] = vec4f(here.xyz - control.dt * e, 0.0);
         node[slot] = vec4f(start.xyz, here.w);
         return;
     }
-    elastic[slot] = vec4f((here.xyz - start.xyz) / control.dt - e, here.w);
+    elastic[part(TO_SPREAD, slot)] = vec4f((here.xyz - start.xyz) / control.dt - e, here.w);
     node[slot] = vec4f(start.xyz, here.w);
 }
 
@@ -153,7 +151,7 @@ fn reaction_after(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
 fn reaction_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
-    let push = elastic[slot];
+    let push = elastic[part(TO_SPREAD, slot)];
     let left = push.w - MOST_SPREAD * select(0.0, node[slot].w, is_free(slot));
     let c = cell_of(slot);
     var around = 0.0;
@@ -162,5 +160,5 @@ fn reaction_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         if in_ring(near) && is_free(slot_of(near)) { around += node[slot_of(near)].w; }
     }
     let share = select(0.0, left / around, around > 0.0);
-    elastic[params.slots + slot] = vec4f(share * substep_time() * push.xyz, 0.0);
+    elastic[part(PASSED_ON, slot)] = vec4f(share * substep_time() * push.xyz, 0.0);
 }

@@ -4,6 +4,7 @@
 // (elastic_operator.wgsl). tau is symmetric and grad w that of the start: angular momentum is kept. [Gast et al. 2015; Klar et al. 2016]
 // Reads particles and nodes after the kick, V^. Writes node velocity. On return walls hold, and r is below the tolerance.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/grid_wall.wgsl"
@@ -18,8 +19,8 @@
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> elastic: array<vec4f>;           // V^; w: components that a wall stopped, as bits
-@group(0) @binding(5) var<storage, read> work: array<vec4f>;                    // second half: f(V)
+@group(0) @binding(4) var<storage, read_write> elastic: array<vec4f>;
+@group(0) @binding(5) var<storage, read> work: array<vec4f>;                    // f(V)
 @group(0) @binding(6) var<storage, read_write> residual: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> product: array<vec4f>;
 @group(0) @binding(8) var<storage, read> ghost: array<f32>;                    // vertex change of the ghost pressure in this step
@@ -143,7 +144,7 @@ fn elastic_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
 
 // r of a node as it moves now.
 fn imbalance(slot: u32) -> vec3f {
-    return node[slot].w * (elastic[slot].xyz - node[slot].xyz) + control.dt * work[params.slots + slot].xyz;
+    return node[slot].w * (elastic[part(KICKED_VELOCITY, slot)].xyz - node[slot].xyz) + control.dt * work[part(ELASTIC_FORCE, slot)].xyz;
 }
 
 // Right-hand side. Components that a wall stops are no unknowns: they have no diagonal, and what the wall bears stays in `residual`.
@@ -160,18 +161,18 @@ fn elastic_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
         r = imbalance(slot);
         inverse_entry = inverse_diagonal[slot].xyz;
         var held = held_at_wall(cell_of(slot), here.xyz + r * inverse_entry);
-        let kept = (vec3u(u32(elastic[slot].w)) & vec3u(1u, 2u, 4u)) != vec3u(0u);
+        let kept = (vec3u(u32(elastic[part(KICKED_VELOCITY, slot)].w)) & vec3u(1u, 2u, 4u)) != vec3u(0u);
         if control.rounds >= STICKY_ROUND { held = held | kept; }
         // Nothing follows the last round: what it stopped would leave an imbalance that belongs to other velocities.
         if control.rounds + 1u >= MAX_ROUNDS { held = held & (here.xyz == vec3f(0.0)); }
-        elastic[slot].w = f32(dot(select(vec3u(0u), vec3u(1u, 2u, 4u), held), vec3u(1u)));
+        elastic[part(KICKED_VELOCITY, slot)].w = f32(dot(select(vec3u(0u), vec3u(1u, 2u, 4u), held), vec3u(1u)));
         if any(held & (here.xyz != vec3f(0.0))) {
             node[slot] = vec4f(select(here.xyz, vec3f(0.0), held), here.w);
             atomicAdd(&control.newly_held, 1u);
         }
         inverse_entry = select(inverse_entry, vec3f(0.0), held);
         let creep = CREEP * params.spacing / control.dt;
-        scale = here.w * (abs(elastic[slot].xyz) + vec3f(creep)) + control.dt * abs(work[params.slots + slot].xyz);
+        scale = here.w * (abs(elastic[part(KICKED_VELOCITY, slot)].xyz) + vec3f(creep)) + control.dt * abs(work[part(ELASTIC_FORCE, slot)].xyz);
     }
     residual[slot] = vec4f(r, 0.0);
     product[slot] = vec4f(scale, 0.0);
@@ -191,7 +192,7 @@ fn elastic_finish(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
         let push = select(vec3f(0.0), reaction, held_at_wall(c, here.xyz + reaction));
         let v = velocity_at_wall(c, here.xyz + push);
         node[slot] = vec4f(v, here.w);
-        given += given_to(here.w, v - here.xyz - reaction, elastic[slot].xyz, v);
+        given += given_to(here.w, v - here.xyz - reaction, elastic[part(KICKED_VELOCITY, slot)].xyz, v);
     }
     add_given(group_index(group), lane, given, false);
 }

@@ -2,12 +2,12 @@
 // Reads pressure, cells, nodes. Writes gas. On return momentum and energy are final; each face gives one cell what it takes
 // from the other, so their sums are conserved. WALL and GHOST slots collect the impulse and work that leaves through them.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/control.wgsl"
-#include "shared/ars.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
 #include "shared/interior.wgsl"
@@ -28,7 +28,7 @@
 @group(0) @binding(5) var<storage, read_write> conserved: array<vec4f>;
 @group(0) @binding(6) var<storage, read_write> energy: array<f32>;
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
-@group(0) @binding(8) var<storage, read> work: array<vec4f>;    // second half: M^-1 (G Q + H h) of solid nodes
+@group(0) @binding(8) var<storage, read> work: array<vec4f>;
 
 // Loss of momentum of a cluster next to an obstacle: the pressure gradient over its gas.
 fn cut_impulse(slot: u32) -> vec3f {
@@ -62,7 +62,7 @@ fn face_velocity(n: u32, low: u32, high: u32, a: vec4f, b: vec4f) -> f32 {
 // With two solves the new face velocity also carries the internal energy that was there at the start of the step [shared/ars.wgsl].
 fn carried_along(low: u32, high: u32) -> f32 {
     if !ARS { return 0.0; }
-    return 0.5 * (energy[ARS_HEAT * params.slots + low] + energy[ARS_HEAT * params.slots + high]);
+    return 0.5 * (energy[part(START_HEAT, low)] + energy[part(START_HEAT, high)]);
 }
 
 fn interior_heat(slot: u32, here: vec4f) -> f32 {
@@ -145,11 +145,11 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
         return (p + carried_along(slot, far)) * velocity + shift_between(p, select(far, slot, up), select(slot, far, up), n);
     }
     // Open: the velocity that the solve saw, with which gas is carried there, too.
-    let face = OpenFace(energy[2u * params.slots + far], energy[params.slots + far]);
+    let face = OpenFace(energy[part(OPEN_VELOCITY, far)], energy[part(OPEN_PRESSURE, far)]);
     if CONSISTENT && face.reference > 0.0 { return p * (node[slot][n] + node[far][n]); }
     var density = here.x;   // that of the solve: gas that followed a body has left since
     if LATE_FLUX && has(cells[slot], NODE_SOLID) { density /= 1.0 - late_share_of(c); }
-    let y = admittance_of(opening_of(cells[far]), face, density, energy[params.slots + slot]);
+    let y = admittance_of(opening_of(cells[far]), face, density, energy[part(PREDICTED_PRESSURE, slot)]);
     return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 
@@ -186,7 +186,7 @@ fn least_predicted() -> f32 { return select(0.98, 0.5, ARS); }
 // Whether the floor may have to act on a cell deep inside the gas: never false where it would, for the pressure of the predictor tells
 // nearly what internal energy there was before.
 fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
-    let before = energy[params.slots + slot] / (least_predicted() * (params.gamma - 1.0));
+    let before = energy[part(PREDICTED_PRESSURE, slot)] / (least_predicted() * (params.gamma - 1.0));
     return is_unsound(flow.x, total) || total - kinetic_energy(flow) < least_energy(flow.x, total, before);
 }
 

@@ -5,6 +5,7 @@
 // Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -25,14 +26,14 @@ override STAGE: u32;    // of the Runge-Kutta scheme: 0, 1, and with ARS 2
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;      // U1, U*; with ARS also U0 and K
-@group(0) @binding(5) var<storage, read_write> energy: array<f32>;      // now, U1, U*; with ARS also U0, K, heat of U0, what the next solve starts from
+@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 
 fn source(slot: u32) -> Gas {
-    if STAGE == select(1u, 2u, ARS) { return Gas(in_space(work[slot]), energy[params.slots + slot]); }
+    if STAGE == select(1u, 2u, ARS) { return Gas(in_space(work[part(STAGE_FLOW, slot)]), energy[part(STAGE_ENERGY, slot)]); }
     return Gas(in_space(conserved[slot]), energy[slot]);
 }
 
@@ -136,29 +137,29 @@ fn start_of(slot: u32, here: Gas) -> Gas {
     if !ARS || STAGE == 0u { return here; }
     // Density is never the solve's: it starts from that of U0 to the last bit.
     let factor = select(ARS_MIDDLE, ARS_RETURNED, STAGE == 2u);
-    let gained = in_space(conserved[slot]) - in_space(work[ARS_KEPT.x * params.slots + slot]);
-    return Gas(in_space(work[ARS_START.x * params.slots + slot]) + factor * gained,
-        energy[ARS_START.y * params.slots + slot] + factor * (energy[slot] - energy[ARS_KEPT.y * params.slots + slot]));
+    let gained = in_space(conserved[slot]) - in_space(work[part(KEPT_FLOW, slot)]);
+    return Gas(in_space(work[part(START_FLOW, slot)]) + factor * gained,
+        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]));
 }
 
 fn write_result(slot: u32, before: Gas, all: Change) {
     let change = all.high;
     if ARS && STAGE != 1u {
-        work[params.slots + slot] = before.flow + change.flow;
-        energy[2u * params.slots + slot] = before.energy + change.energy;
-        energy[ARS_COLD * params.slots + slot] = before.energy + change.energy - all.heat;
+        work[part(ADVECTED_FLOW, slot)] = before.flow + change.flow;
+        energy[part(ADVECTED_ENERGY, slot)] = before.energy + change.energy;
+        energy[part(COLD_ENERGY, slot)] = before.energy + change.energy - all.heat;
         if STAGE == 2u { return; }
-        work[ARS_START.x * params.slots + slot] = before.flow;
-        work[ARS_KEPT.x * params.slots + slot] = before.flow + change.flow;
-        energy[ARS_START.y * params.slots + slot] = before.energy;
-        energy[ARS_KEPT.y * params.slots + slot] = before.energy + change.energy - all.heat;
-        energy[ARS_HEAT * params.slots + slot] = internal_energy(before);
+        work[part(START_FLOW, slot)] = before.flow;
+        work[part(KEPT_FLOW, slot)] = before.flow + change.flow;
+        energy[part(START_ENERGY, slot)] = before.energy;
+        energy[part(KEPT_ENERGY, slot)] = before.energy + change.energy - all.heat;
+        energy[part(START_HEAT, slot)] = internal_energy(before);
     } else if !ARS && STAGE == 1u {
-        work[params.slots + slot] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
-        energy[2u * params.slots + slot] = 0.5 * (energy[slot] + before.energy + change.energy);
+        work[part(ADVECTED_FLOW, slot)] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
+        energy[part(ADVECTED_ENERGY, slot)] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
-        work[slot] = before.flow + change.flow;
-        energy[params.slots + slot] = before.energy + change.energy;
+        work[part(STAGE_FLOW, slot)] = before.flow + change.flow;
+        energy[part(STAGE_ENERGY, slot)] = before.energy + change.energy;
     }
 }
 

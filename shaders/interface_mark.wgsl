@@ -1,6 +1,7 @@
 // interface, second half: kinds, blocked fractions and flags of every slot from the solid volume of the cells, then the list
 // of vertices that keep gas, interface and ghost pressure apart, then the list of slots that are not INTERIOR.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/thin_walls.wgsl"
@@ -96,7 +97,7 @@ fn interface_flags(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let c = cell_of(slot);
-    if slot == 0u { atomicStore(&extra[2u * params.slots + 1u], 0u); }
+    if slot == 0u { atomicStore(&extra[part(LENGTHS, LENGTH_FRONTIER)], 0u); }
     if is_alias(c) { return; }
     var flags = 0u;
     var around = 0u;
@@ -235,12 +236,12 @@ fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     if edge[slot] == 1u {
         let first = place[last] + wanted[last];
         let at = select(first + edge_place[slot] - place[slot], place[slot], wanted[slot] == 1u);
-        atomicStore(&extra[params.slots + at], slot);
+        atomicStore(&extra[part(LISTED_SLOTS, at)], slot);
     }
     if interior { cells[slot] = (cells[slot] & 0xffffu) | INTERIOR | reach_of(slot); }
     if interior && !QUADRATIC && on_frontier(slot) {
-        let at = atomicAdd(&extra[2u * params.slots + 1u], 1u);
-        atomicStore(&extra[2u * params.slots - 1u - at], slot);
+        let at = atomicAdd(&extra[part(LENGTHS, LENGTH_FRONTIER)], 1u);
+        atomicStore(&extra[part(LENGTHS, 0u) - 1u - at], slot);
     }
-    if slot == last { atomicStore(&extra[2u * params.slots], edge_place[slot] + edge[slot]); }
+    if slot == last { atomicStore(&extra[part(LENGTHS, LENGTH_LISTED)], edge_place[slot] + edge[slot]); }
 }

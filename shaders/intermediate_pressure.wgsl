@@ -3,25 +3,25 @@
 // predictor, the vertex pressures X* and the vertex stiffness S^-1. On return every gas cell has positive density and
 // pressure, or the step is flagged. [Cao et al. 2022, eqs. 9, 17, 22, 24]
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
 #include "shared/cut.wgsl"
 #include "shared/control.wgsl"
-#include "shared/ars.wgsl"
 #include "shared/carrier.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read_write> conserved: array<vec4f>;
-@group(0) @binding(4) var<storage, read> work: array<vec4f>;        // second half: U*
-@group(0) @binding(5) var<storage, read_write> energy: array<f32>;  // thirds: now, pressure of the predictor, U*
+@group(0) @binding(4) var<storage, read> work: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;
 @group(0) @binding(6) var<storage, read_write> fill: array<vec2f>;  // y of gas cells: 1 / (gamma p*)
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 
-fn advected(slot: u32) -> Gas { return Gas(in_space(work[params.slots + slot]), energy[2u * params.slots + slot]); }
+fn advected(slot: u32) -> Gas { return Gas(in_space(work[part(ADVECTED_FLOW, slot)]), energy[part(ADVECTED_ENERGY, slot)]); }
 
 // Velocity beyond a face: the neighbour's, or what the boundary prescribes.
 fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
@@ -93,8 +93,8 @@ fn plain_divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
             }
             continue;
         }
-        let low = work[params.slots + slot - step_of(n)];
-        let high = work[params.slots + slot + step_of(n)];
+        let low = work[part(ADVECTED_FLOW, slot - step_of(n))];
+        let high = work[part(ADVECTED_FLOW, slot + step_of(n))];
         sum += (here.flow[n + 1u] + high[n + 1u]) / (here.flow.x + high.x)
             - (low[n + 1u] + here.flow[n + 1u]) / (low.x + here.flow.x);
     }
@@ -143,8 +143,8 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     }
     fill[slot].y = 1.0 / (params.gamma * p);
     var total = here.energy;
-    if ARS { total = energy[ARS_COLD * params.slots + slot]; }     // what the solve carries anew is not in it
-    energy[params.slots + slot] = predicted(cell_of(slot), slot, here, p);
+    if ARS { total = energy[part(COLD_ENERGY, slot)]; }     // what the solve carries anew is not in it
+    energy[part(PREDICTED_PRESSURE, slot)] = predicted(cell_of(slot), slot, here, p);
     // Gravity: the work of the mean momentum.
     let pull = control.dt * here.flow.x * params.gravity;
     conserved[slot] = here.flow + vec4f(0.0, pull);

@@ -6,15 +6,16 @@
 // next cell; what is beyond goes to its gas neighbours. A buried one passes all that it has back to the surface, if that is next to it,
 // or to all its neighbours: through the body gas would leak to its lee.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;
-@group(0) @binding(3) var<storage, read_write> energy: array<f32>;   // now; shares; of SOLID slots who gets them
+@group(0) @binding(3) var<storage, read_write> energy: array<f32>;
 @group(0) @binding(4) var<storage, read_write> owed_flow: array<vec4f>;
 @group(0) @binding(5) var<storage, read_write> owed_energy: array<f32>;
-@group(0) @binding(6) var<storage, read_write> work: array<vec4f>;   // share that each neighbour of a slot receives
+@group(0) @binding(6) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(7) var<storage, read> ghost: array<f32>;
 @group(0) @binding(8) var<storage, read> node: array<vec4f>;
 
@@ -206,9 +207,9 @@ fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     var out: Handed;
     for (var turn = 0u; turn < u32(owes); turn++) { out = handed_by_gas(slot, cell_of(slot)); }
     for (var turn = 0u; turn < u32(kind == SOLID); turn++) { out = handed_by_solid(slot, cell_of(slot)); }
-    work[slot] = out.flow;
-    energy[params.slots + slot] = out.energy;
-    if kind == SOLID { energy[2u * params.slots + slot] = out.receivers; }
+    work[part(HANDED_FLOW, slot)] = out.flow;
+    energy[part(HANDED_ENERGY, slot)] = out.energy;
+    if kind == SOLID { energy[part(RECEIVERS, slot)] = out.receivers; }
 }
 
 // What the neighbours of a slot hand on to it.
@@ -221,12 +222,12 @@ fn incoming(slot: u32, kind: u32) -> Sum {
             let kind_there = kind_of(cells[other]);
             var takes = kind_there == GAS || kind_there == SOLID;
             if kind == SOLID {
-                let receivers = energy[2u * params.slots + other];
+                let receivers = energy[part(RECEIVERS, other)];
                 takes = kind_there == SOLID && (receivers == TO_SOLID || (receivers == TO_SURFACE && surface));
             }
             if !takes { continue; }
-            sum.flow += work[other];
-            sum.energy += energy[params.slots + other];
+            sum.flow += work[part(HANDED_FLOW, other)];
+            sum.energy += energy[part(HANDED_ENERGY, other)];
         }
     }
     return sum;
@@ -253,12 +254,12 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         flow += conserved[slot] * cell_volume();
         heat += energy[slot] * cell_volume();
     }
-    let handed_on = any(work[slot] != vec4f(0.0)) || energy[params.slots + slot] != 0.0;
+    let handed_on = any(work[part(HANDED_FLOW, slot)] != vec4f(0.0)) || energy[part(HANDED_ENERGY, slot)] != 0.0;
     for (var turn = 0u; turn < u32(handed_on); turn++) {
         let keeps = at_surface(slot);
         let count = f32(neighbours_of_kind(c, GAS));
-        flow = select(vec4f(0.0), flow - count * work[slot], keeps);
-        heat = select(0.0, heat - count * energy[params.slots + slot], keeps);
+        flow = select(vec4f(0.0), flow - count * work[part(HANDED_FLOW, slot)], keeps);
+        heat = select(0.0, heat - count * energy[part(HANDED_ENERGY, slot)], keeps);
     }
     let more = incoming(slot, kind);
     flow += more.flow;

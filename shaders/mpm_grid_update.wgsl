@@ -5,6 +5,7 @@
 // V += dt_s (a + f / M) with the true mass, a from the solve [elastic_reaction.wgsl]; wall rules are one-sided, nothing is glued.
 // [Cao et al. 2022, step 6]
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/grid_wall.wgsl"
@@ -13,18 +14,18 @@
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
-@group(0) @binding(3) var<storage, read> work: array<vec4f>;        // second half: elastic force; w: mass times driver
+@group(0) @binding(3) var<storage, read> work: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> node: array<vec4f>;
-@group(0) @binding(5) var<storage, read> elastic: array<vec4f>;     // acceleration to spread, the mass that it was for; second half: velocity from nodes around
+@group(0) @binding(5) var<storage, read> elastic: array<vec4f>;
 
 // Velocity of a node by its own share of the impulse, and by what those around could not take.
 fn spread_kick(slot: u32, mass: f32) -> vec3f {
-    let push = elastic[slot];
+    let push = elastic[part(TO_SPREAD, slot)];
     var kick = min(push.w / mass, MOST_SPREAD) * substep_time() * push.xyz;
     let c = cell_of(slot);
     for (var k = 0u; k < select(block_size(), 0u, control.substep <= 1u); k++) {
         let near = c + block_offset(k);
-        if in_ring(near) { kick += elastic[params.slots + slot_of(near)].xyz; }
+        if in_ring(near) { kick += elastic[part(PASSED_ON, slot_of(near))].xyz; }
     }
     return kick;
 }
@@ -35,12 +36,12 @@ fn mpm_grid_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
         let here = node[slot];
         if here.w <= 0.0 { continue; }
-        let last = select(here.w, work[params.slots + slot].w / here.w, FRACTURE);
+        let last = select(here.w, work[part(ELASTIC_FORCE, slot)].w / here.w, FRACTURE);
         if DRIVEN && has(cells[slot], NODE_DRIVEN) {
             node[slot].w = last;
             continue;
         }
-        let free = here.xyz + spread_kick(slot, here.w) + substep_time() * work[params.slots + slot].xyz / here.w;
+        let free = here.xyz + spread_kick(slot, here.w) + substep_time() * work[part(ELASTIC_FORCE, slot)].xyz / here.w;
         let v = velocity_at_wall(cell_of(slot), free);
         node[slot] = vec4f(v, last);
         given += given_to(here.w, v - free, here.xyz, v);

@@ -4,6 +4,7 @@
 // shock. At vertices of a body's surface gas cells mix instead: between shards no flux of momentum would take a velocity into a wall from
 // a cell, for closed faces have none. Reads gas, cells. Writes gas, by way of work.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/cut.wgsl"
@@ -119,14 +120,14 @@ fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
             }
         }
     }
-    work[slot] = change.flow;
-    energy[params.slots + slot] = change.energy;
+    work[part(FILTER_FLOW, slot)] = change.flow;
+    energy[part(FILTER_ENERGY, slot)] = change.energy;
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn odd_even_remove(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
-    conserved[slot] += work[slot];
-    energy[slot] += energy[params.slots + slot];
+    conserved[slot] += work[part(FILTER_FLOW, slot)];
+    energy[slot] += energy[part(FILTER_ENERGY, slot)];
 }

@@ -5,6 +5,7 @@
 // Reads particles, order. Writes node (velocity, mass). On return the sums of mass and momentum are the particles'.
 // With WITH_FORCE it leaves the elastic force [N] in the second half of work instead. [Jiang et al. 2015; Cao et al. 2022, section 2.2]
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/columns.wgsl"
 #include "shared/place.wgsl"
 #include "shared/transfer.wgsl"
@@ -66,7 +67,7 @@ fn with_share(layer: Layer, share: Share, at: Place, w: f32, second: f32) -> Lay
 }
 
 fn add_to(slot: u32, value: vec4f) {
-    if WITH_FORCE { work[params.slots + slot] += value; } else { node[slot] += value; }
+    if WITH_FORCE { work[part(ELASTIC_FORCE, slot)] += value; } else { node[slot] += value; }
 }
 
 fn add_row(slot: u32, row: mat3x4f) {
@@ -85,7 +86,7 @@ fn add_layer(slot: u32, layer: Layer) {
 fn p2g_clear(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
-    if WITH_FORCE { work[params.slots + slot] = vec4f(0.0); } else { node[slot] = vec4f(0.0); }
+    if WITH_FORCE { work[part(ELASTIC_FORCE, slot)] = vec4f(0.0); } else { node[slot] = vec4f(0.0); }
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -3,6 +3,7 @@
 // follow each other along x have their sorted particles next to each other. Sums have one order: equal bits on every run.
 // Same reads and writes as p2g.wgsl; velocity, mass and force come out in the same places. [Jiang et al. 2015; Cao et al. 2022, section 2.2]
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/transfer.wgsl"
 
 override WITH_MASS: bool;       // mass and momentum
@@ -90,5 +91,5 @@ fn p2g_nodes(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
         let mass = sum.momentum.w;
         node[slot] = vec4f(select(vec3f(0.0), sum.momentum.xyz / mass, mass > 0.0), mass);
     }
-    if WITH_FORCE { work[params.slots + slot] = sum.force; }
+    if WITH_FORCE { work[part(ELASTIC_FORCE, slot)] = sum.force; }
 }

@@ -4,6 +4,7 @@
 // the node over the solid volume that the elements around give it. Nodes at walls keep their forces, which the film belongs to.
 // Reads the solved pressure. Writes the second half of work, as solve_forces does.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
@@ -51,5 +52,5 @@ fn solid_gradient(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     var difference = vec3f(0.0);
     for (var n = 0u; n < DIM; n++) { difference[n] = face_mean(c, solid, n, true) - face_mean(c, solid, n, false); }
     let inverse = select(1.0 / inertia[slot], 0.0, DRIVEN && has(cells[slot], NODE_DRIVEN));
-    work[params.slots + slot] = vec4f(difference * face_area() * solid_share(c) * inverse, inverse);
+    work[part(SOLID_NODE, slot)] = vec4f(difference * face_area() * solid_share(c) * inverse, inverse);
 }

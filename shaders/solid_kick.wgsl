@@ -1,6 +1,7 @@
 // coupled_solve, write-back to the solid: V = V* - dt M^-1 (G Q + H h) [eq. 36], and the change of the ghost pressure.
 // What light nodes leave is a share of the solve's whole kick, with what of it only takes back the reaction [elastic_reaction.wgsl].
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/system.wgsl"
@@ -12,10 +13,10 @@ override ASIDE: bool;   // the reaction was set aside
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
 @group(0) @binding(4) var<storage, read> pressure: array<f32>;
-@group(0) @binding(5) var<storage, read_write> work: array<vec4f>;  // second half: M^-1 (G Q + H h), then what light nodes leave
+@group(0) @binding(5) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(6) var<storage, read_write> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> inertia: array<f32>;
-@group(0) @binding(9) var<storage, read> elastic: array<vec4f>;     // reaction
+@group(0) @binding(9) var<storage, read> elastic: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> ghost: array<f32>;   // Q* before, Q - Q* after
 
 @compute @workgroup_size(WORKGROUP)
@@ -24,7 +25,7 @@ fn solid_kick(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     if slot >= params.slots { return; }
     let word = cells[slot];
     if has(word, NODE_SOLID) && node[slot].w > 0.0 {
-        node[slot] = vec4f(node[slot].xyz - control.dt * work[params.slots + slot].xyz, node[slot].w);
+        node[slot] = vec4f(node[slot].xyz - control.dt * work[part(SOLID_NODE, slot)].xyz, node[slot].w);
     }
     if has(word, VERTEX_SOLID) { ghost[slot] = pressure[ghost_index(slot)] - ghost[slot]; }
 }
@@ -35,11 +36,11 @@ fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     if slot >= params.slots { return; }
     var left = vec3f(0.0);
     if has(cells[slot], NODE_SOLID) {
-        var kick = work[params.slots + slot].xyz;
-        if ASIDE { kick += elastic[slot].xyz; }
+        var kick = work[part(SOLID_NODE, slot)].xyz;
+        if ASIDE { kick += elastic[part(REACTION, slot)].xyz; }
         left = -control.dt * share_left(slot) * kick;
     }
-    work[params.slots + slot] = vec4f(left, 0.0);
+    work[part(LEFT_KICK, slot)] = vec4f(left, 0.0);
 }
 
 @compute @workgroup_size(WORKGROUP)

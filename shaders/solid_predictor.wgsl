@@ -2,6 +2,7 @@
 // A body that touches a wall keeps a film of gas there: without its pressure a body on the floor would not lift. The film
 // carries the pressure of the nearest gas vertex along the wall; it acts before the solve and adds no unknown.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
@@ -28,7 +29,7 @@ fn gas_pressure(v: vec3i) -> f32 {
     for (var k = 0u; k < corner_count(); k++) {
         let c = v - corner_offset(k);
         if !inside(c) || kind_of(cells[slot_of(c)]) != GAS { continue; }
-        sum += energy[params.slots + slot_of(c)];
+        sum += energy[part(PREDICTED_PRESSURE, slot_of(c))];
         count += 1.0;
     }
     return sum / max(count, 1.0);
@@ -91,7 +92,7 @@ fn film_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     let v = cell_of(slot);
     let walls = walls_of(v);
     for (var n = 0u; n < select(0u, DIM, walls != 0u); n++) {
-        if ((walls >> n) & 1u) == 1u { work[slot][n] = nearest_gas(v, n); }
+        if ((walls >> n) & 1u) == 1u { work[part(FILM_PRESSURE, slot)][n] = nearest_gas(v, n); }
     }
 }
 
@@ -101,7 +102,7 @@ fn face_mean(low: vec3i, n: u32, offset: vec3i) -> f32 {
     for (var k = 0u; k < corner_count(); k++) {
         let corner = corner_offset(k);
         if corner[n] == 1 { continue; }
-        sum += work[slot_of(low + corner)][n] * face_entry(true, n, offset, corner);
+        sum += work[part(FILM_PRESSURE, slot_of(low + corner))][n] * face_entry(true, n, offset, corner);
     }
     return sum;
 }
@@ -138,7 +139,7 @@ fn film_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     if slot >= params.slots { return; }
     var left = vec3f(0.0);
     if has(cells[slot], NODE_FILM) && !(DRIVEN && has(cells[slot], NODE_DRIVEN)) { left = share_left(slot) * film_kick(slot); }
-    work[params.slots + slot] = vec4f(left, 0.0);
+    work[part(LEFT_KICK, slot)] = vec4f(left, 0.0);
 }
 
 @compute @workgroup_size(WORKGROUP)

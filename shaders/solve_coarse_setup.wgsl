@@ -5,6 +5,7 @@
 // In 3D a function that alternates along two axes lies in one layer of the third; the sum of squares of the means along that axis is
 // the share of m - S^-1, and of the stiffness, that such a layer has of functions that do not change along it.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/extents.wgsl"
 #include "shared/control.wgsl"
@@ -114,8 +115,7 @@ fn entries(all: vec3u, hats: vec3u) -> u32 {
 // The function whose row sums are asked for: 1 or alternating, in what takes part.
 @compute @workgroup_size(WORKGROUP)
 fn coarse_ones(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let unknowns = params.slots + 2u * params.extra_capacity;
-    for (var i = thread_index(group, lane); i < unknowns; i += striding_threads()) {
+    for (var i = thread_index(group, lane); i < unknowns(); i += striding_threads()) {
         var value = 0.0;
         if i < params.slots && takes_part(i) { value = sign_at(vec3u(cell_of(i))); }
         direction[i] = value;

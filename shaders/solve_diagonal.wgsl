@@ -1,6 +1,7 @@
 // coupled_solve, preparation: the Jacobi diagonal D = S^-1 + dt^2 sum over nodes |coefficient|^2 / M. All coefficients of one
 // vertex on one node are summed before they are squared. Unused unknowns get the inverse 0 and stay 0.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
@@ -19,7 +20,7 @@
 fn inverse(d: f32) -> f32 { return select(0.0, 1.0 / d, d > 0.0); }
 
 // Sum of |coefficient|^2 / M over the nodes, where only gas, or only solid, and the sides of the domain are around.
-fn wide_square(v: vec3i, base: u32, solid: bool) -> f32 {
+fn wide_square(v: vec3i, nodes: u32, solid: bool) -> f32 {
     let ex = wide_entries_of_vertex(0u, v.x, solid);
     let ey = wide_entries_of_vertex(1u, v.y, solid);
     let ez = wide_entries_of_vertex(2u, v.z, solid);
@@ -32,7 +33,7 @@ fn wide_square(v: vec3i, base: u32, solid: bool) -> f32 {
             let at = offset + vec3i(1);
             let entry = vec3f(ex.slope[at.x] * ey.mean[at.y] * ez.mean[at.z], ex.mean[at.x] * ey.slope[at.y] * ez.mean[at.z],
                 ex.mean[at.x] * ey.mean[at.y] * ez.slope[at.z]);
-            terms[at.y][at.x] = rounded(work[base + slot_of(v - offset)].w * dot(entry, entry));
+            terms[at.y][at.x] = rounded(work[part(nodes, slot_of(v - offset))].w * dot(entry, entry));
         }
         layers[z + 1] = plane_sum(terms);
     }
@@ -47,7 +48,7 @@ fn plane_sum(terms: mat4x4f) -> f32 {
 }
 
 fn regular_square(v: vec3i) -> f32 {
-    if QUADRATIC { return wide_square(v, 0u, false); }
+    if QUADRATIC { return wide_square(v, GAS_NODE, false); }
     var sum = 0.0;
     for (var k = 0u; k < corner_count() / 2u; k++) {
         sum += narrow_square(v, corner_offset(k)) + narrow_square(v, reach() - corner_offset(k));
@@ -60,7 +61,7 @@ fn narrow_square(v: vec3i, corner: vec3i) -> f32 {
     let ey = narrow_pair(1u, v.y, corner.y);
     let ez = narrow_pair(2u, v.z, corner.z);
     let entry = vec3f(ex.y * ey.x * ez.x, ex.x * ey.y * ez.x, ex.x * ey.x * ez.y);
-    return rounded(work[slot_of(v - corner)].w * dot(entry, entry));
+    return rounded(work[part(GAS_NODE, slot_of(v - corner))].w * dot(entry, entry));
 }
 
 // The same near an obstacle; the coefficients on one cluster add up first.
@@ -72,7 +73,7 @@ fn cut_square(v: vec3i) -> f32 {
         for (var l = 0u; l < corner_count(); l++) {
             let other = v - corner_offset(l);
             if cluster_first(slot_of(other)) != cluster_first(slot_of(j)) { continue; }
-            sum += work[slot_of(j)].w * dot(own, coefficient(other, v));
+            sum += work[part(GAS_NODE, slot_of(j))].w * dot(own, coefficient(other, v));
         }
     }
     return sum;
@@ -112,8 +113,8 @@ fn inverse_masses(v: vec3i, j: i32, k: i32, solid: bool) -> vec4f {
         let at = v - vec3i(i - 1, j, k);
         if !in_ring(at) { continue; }
         let slot = slot_of(at);
-        if !solid { masses[i] = work[slot].w; }
-        else if has(cells[slot], NODE_SOLID) { masses[i] = work[params.slots + slot].w; }
+        if !solid { masses[i] = work[part(GAS_NODE, slot)].w; }
+        else if has(cells[slot], NODE_SOLID) { masses[i] = work[part(SOLID_NODE, slot)].w; }
     }
     return masses;
 }
@@ -174,7 +175,7 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     var squares: Squares;
     if LISTED { squares = mixed_squares(v, apart, select(corner_count(), 0u, regular || deep)); }
     for (var turn = 0u; turn < u32(regular); turn++) { squares.own = regular_square(v); }
-    for (var turn = 0u; turn < u32(deep); turn++) { squares.own = wide_square(v, params.slots, true); }
+    for (var turn = 0u; turn < u32(deep); turn++) { squares.own = wide_square(v, SOLID_NODE, true); }
     inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);
     if apart {
         // where h has a row, the preconditioner of the surface stands in for the diagonal

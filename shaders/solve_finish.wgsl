@@ -1,5 +1,6 @@
 // coupled_solve, end: X = X* + D.
 #include "shared/params.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/pcg_result.wgsl"
 #include "shared/thread.wgsl"
 #include "shared/runs.wgsl"
@@ -20,5 +21,5 @@ fn solve_add(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
         let own = run_slot(run, thread);
         if own.any { add(own.slot); }
     }
-    for (var k = thread; k < 2u * params.extra_capacity; k += striding_threads()) { add(params.slots + k); }
+    for (var k = thread; k < 2u * params.extra_capacity; k += striding_threads()) { add(apart_h(k)); }
 }

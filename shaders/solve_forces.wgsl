@@ -1,6 +1,7 @@
 // coupled_solve, first half of the operator: velocity change per unit time W = M^-1 C x at every node.
 // Reads x, cells, masses. Writes work: gas nodes, then solid nodes; w keeps the inverse mass of the gas node.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/element.wgsl"
@@ -15,7 +16,7 @@ override BODIES_ONLY: bool = false; // leaves out what gas alone asks for
 @group(0) @binding(3) var<storage, read> x: array<f32>;
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(5) var<storage, read> inertia: array<f32>;
-@group(0) @binding(6) var<storage, read> energy: array<f32>;    // last third: inverse masses of gas nodes deep inside the gas with B1B0
+@group(0) @binding(6) var<storage, read> energy: array<f32>;
 
 // B2B1 in a plane where only gas and the sides of the domain are around; x and y alike, so that what is symmetric stays so to the last
 // bit. Differences from the highest value in the middle, so that a constant pressure moves nothing.
@@ -123,8 +124,8 @@ fn unknowns_at(first: vec3i) -> Unknowns {
     let place = vec4u(extra[at.x], extra[at.y], extra[at.z], extra[at.w]);
     let apart = place != vec4u(NO_EXTRA);
     for (var turn = 0u; turn < u32(any(apart)); turn++) {
-        let h = select(at, params.slots + place, apart);
-        let q = select(at, params.slots + params.extra_capacity + place, apart);
+        let h = select(at, apart_h(0u) + place, apart);
+        let q = select(at, apart_q(0u) + place, apart);
         line.h = vec4f(x[h.x], x[h.y], x[h.z], x[h.w]);
         line.solid = vec4f(x[q.x], x[q.y], x[q.z], x[q.w]);
     }
@@ -212,25 +213,25 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     if slot >= params.slots { return; }
     let word = cells[slot];
     let c = cell_of(slot);
-    var inverse_mass = work[slot].w;
+    var inverse_mass = work[part(GAS_NODE, slot)].w;
     if !LISTED {
-        if !QUADRATIC { inverse_mass = energy[2u * params.slots + slot]; }
-        if has(word, INTERIOR) { work[slot] = vec4f(regular_force(slot, c) * face_area() * inverse_mass, inverse_mass); }
+        if !QUADRATIC { inverse_mass = energy[part(INVERSE_MASS, slot)]; }
+        if has(word, INTERIOR) { work[part(GAS_NODE, slot)] = vec4f(regular_force(slot, c) * face_area() * inverse_mass, inverse_mass); }
         return;
     }
     let regular = !BODIES_ONLY && has(word, NODE_REGULAR);
     if CUT && !regular {
         var force = vec3f(0.0);
         if kind_of(word) == GAS && inside(c) { force = cut_force(slot); }
-        work[slot] = vec4f(force * face_area() * inverse_mass, inverse_mass);
+        work[part(GAS_NODE, slot)] = vec4f(force * face_area() * inverse_mass, inverse_mass);
         return;
     }
     let deep = SOLIDS && has(word, NODE_DEEP);
     var forces = mixed_force(c, select(0u, block_size(), is_mixed(word)));
     for (var turn = 0u; turn < u32(regular); turn++) { forces.gas = regular_force(slot, c); }
-    if !BODIES_ONLY { work[slot] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass); }
+    if !BODIES_ONLY { work[part(GAS_NODE, slot)] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass); }
     if !SOLIDS || !has(word, NODE_SOLID) { return; }
     for (var turn = 0u; turn < u32(deep); turn++) { forces.solid = wide_force(slot, c, true); }
     let inverse = select(1.0 / inertia[slot], 0.0, DRIVEN && has(word, NODE_DRIVEN));
-    work[params.slots + slot] = vec4f(forces.solid * face_area() * inverse, inverse);
+    work[part(SOLID_NODE, slot)] = vec4f(forces.solid * face_area() * inverse, inverse);
 }

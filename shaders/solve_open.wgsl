@@ -1,6 +1,7 @@
 // coupled_solve, preparation: open faces. b of a vertex in units of face_area(), with X* in it: what flows out through the open
 // faces that it belongs to; and their admittance, which resists the increment like a stiffness.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -12,15 +13,14 @@
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
-@group(0) @binding(4) var<storage, read_write> energy: array<f32>;    // second third: predicted pressure, of GHOST slots p0; last third: u0
+@group(0) @binding(4) var<storage, read_write> energy: array<f32>;
 @group(0) @binding(8) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(5) var<storage, read> pressure: array<f32>;
 @group(0) @binding(9) var<storage, read_write> fill: array<vec2f>;
 @group(0) @binding(6) var<storage, read_write> stiffness: array<f32>;
 @group(0) @binding(7) var<storage, read_write> residual: array<f32>;
 
-// GHOST slots next to a gas cell keep what the pressure system is told about the face, in two thirds of the energy that they do
-// not use: p0 and u0; and in `fill` what an outlet with a far pressure knows of itself.
+// GHOST slots next to a gas cell keep what the pressure system is told about the face: p0 and u0; and in `fill` what an outlet with a far pressure knows of itself.
 fn note_open_face(c: vec3i, slot: u32) {
     let near = nearest_inside(c);
     let away = c - near;
@@ -43,8 +43,8 @@ fn note_open_face(c: vec3i, slot: u32) {
     }
     let face = open_face(opening, n, outward, here, known, control.dt);
     fill[slot] = vec2f(face.velocity, select(face.reference, p, face.reference < 0.0));
-    energy[params.slots + slot] = face.reference;
-    energy[2u * params.slots + slot] = face.velocity;
+    energy[part(OPEN_PRESSURE, slot)] = face.reference;
+    energy[part(OPEN_VELOCITY, slot)] = face.velocity;
 }
 
 // While `pressure` still holds what the last solve left.
@@ -80,8 +80,8 @@ fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             let up = corner[n] == 1;
             let beyond = slot_of(select(e - axis(n), e + axis(n), up));
             if kind_of(cells[beyond]) != GHOST { continue; }
-            let face = OpenFace(energy[2u * params.slots + beyond], energy[params.slots + beyond]);
-            let y = admittance_of(opening_of(cells[beyond]), face, conserved[here].x, energy[params.slots + here]);
+            let face = OpenFace(energy[part(OPEN_VELOCITY, beyond)], energy[part(OPEN_PRESSURE, beyond)]);
+            let y = admittance_of(opening_of(cells[beyond]), face, conserved[here].x, energy[part(PREDICTED_PRESSURE, here)]);
             let share = aperture(here, n, up) * face_shape(here, n, up, corner);
             // the reference is that of the middle of the face
             let weight = conserved[here].x * params.spacing * dot(params.gravity, along_face(corner, n));

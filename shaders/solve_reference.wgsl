@@ -2,6 +2,7 @@
 // refers to; and on the way the inverse diagonal deep inside the gas with B1B0. Both depend on dt, so that sleepers take part.
 // Reads stiffness, X*, r, inverse node masses. Writes the inverse diagonal, and partial sums behind those of the iteration.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
@@ -21,9 +22,8 @@ fn solve_reference(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let scale = control.dt * face_area();
     // Of the diagonal of C^T M^-1 C, in units of face_area()^2: a node gives every vertex that it rests on as much.
     let square = scale * scale * f32(DIM) / f32(1u << (2u * (DIM - 1u)));
-    let end = params.slots + 2u * params.extra_capacity;
     var sum = 0.0;
-    for (var i = thread_index(group, lane); i < end; i += striding_threads()) {
+    for (var i = thread_index(group, lane); i < unknowns(); i += striding_threads()) {
         let own = stiffness[i];
         var inverse: f32;
         if !QUADRATIC && i < params.slots && has(cells[min(i, params.slots - 1u)], INTERIOR) {

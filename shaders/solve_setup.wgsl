@@ -2,6 +2,7 @@
 //   A D = dt C^T (V* - dt M^-1 C X*) - dt b,  X = X* + D,
 // which keeps float32 from losing a small increment in a large pressure. b: what inlets and outlets let through (solve_open).
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
@@ -19,7 +20,7 @@
 @group(0) @binding(5) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> residual: array<f32>;
-@group(0) @binding(8) var<storage, read_write> energy: array<f32>;  // last third: inverse masses of gas nodes, for the plain forms
+@group(0) @binding(8) var<storage, read_write> energy: array<f32>;
 
 // Densities of the cells of a plane around a cell, summed by how many axes they lie off it: the cell itself, beside it, across its corners.
 fn layer_densities(at: u32) -> vec3f {
@@ -89,8 +90,8 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
         mass = weighed(around);
     }
     let inverse = select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0);
-    if LISTED || QUADRATIC { work[slot] = vec4f(0.0, 0.0, 0.0, inverse); }
-    if kind_of(cells[slot]) != GHOST { energy[2u * params.slots + slot] = inverse; }
+    if LISTED || QUADRATIC { work[part(GAS_NODE, slot)] = vec4f(0.0, 0.0, 0.0, inverse); }
+    if kind_of(cells[slot]) != GHOST { energy[part(INVERSE_MASS, slot)] = inverse; }
 }
 
 // A node that is not in the gas moves like the nearest gas cells: face neighbours, else edges, else corners.
@@ -132,17 +133,17 @@ fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
     let word = cells[slot];
     if !LISTED {
         if !has(word, INTERIOR) { return; }
-        let gas = work[slot];
-        work[slot] = vec4f(velocity_of(in_space(conserved[slot])) - control.dt * gas.xyz, gas.w);
+        let gas = work[part(GAS_NODE, slot)];
+        work[part(GAS_NODE, slot)] = vec4f(velocity_of(in_space(conserved[slot])) - control.dt * gas.xyz, gas.w);
         return;
     }
     if has(word, NODE_GAS) {
-        let gas = work[slot];
-        work[slot] = vec4f(gas_node_velocity(cell_of(slot), slot) - control.dt * gas.xyz, gas.w);
+        let gas = work[part(GAS_NODE, slot)];
+        work[part(GAS_NODE, slot)] = vec4f(gas_node_velocity(cell_of(slot), slot) - control.dt * gas.xyz, gas.w);
     }
     if SOLIDS && has(word, NODE_SOLID) {
-        let solid = work[params.slots + slot];
-        work[params.slots + slot] = vec4f(node[slot].xyz - control.dt * solid.xyz, solid.w);
+        let solid = work[part(SOLID_NODE, slot)];
+        work[part(SOLID_NODE, slot)] = vec4f(node[slot].xyz - control.dt * solid.xyz, solid.w);
     }
 }
 
@@ -161,7 +162,7 @@ fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     if at_side && has(word, VERTEX_GAS) { own -= residual[slot]; } // b, from solve_open
     residual[slot] = scale * own;
     if SOLIDS && extra[slot] != NO_EXTRA {
-        residual[params.slots + extra[slot]] = scale * rows.h;
-        residual[params.slots + params.extra_capacity + extra[slot]] = scale * rows.q;
+        residual[apart_h(extra[slot])] = scale * rows.h;
+        residual[apart_q(extra[slot])] = scale * rows.q;
     }
 }

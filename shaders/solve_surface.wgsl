@@ -5,6 +5,7 @@
 // coefficients of the neighbours before it, one vertex away at most; those behind it have theirs in their own rows. What is left out
 // between bodies is small; the polynomial is positive below its upper bound, so the preconditioner is positive definite all the same.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
@@ -77,7 +78,7 @@ fn coupled(v: vec3i, w: vec3i, a: u32, push: vec4f, other: vec4f, solid: bool) -
     let c = (a + 2u) % 3u;
     let low = select(-1, -2, quadratic);
     let high = select(0, 1, quadratic);
-    let base = select(0u, params.slots, solid);
+    let nodes = select(GAS_NODE, SOLID_NODE, solid);
     var sum = 0.0;
     for (var db = select(0, low, b < DIM); db <= select(0, high, b < DIM); db++) {
         let own_b = means(quadratic, b, db);
@@ -93,7 +94,7 @@ fn coupled(v: vec3i, w: vec3i, a: u32, push: vec4f, other: vec4f, solid: bool) -
                 if !in_ring(v + d) { continue; }
                 let at = slot_of(v + d);
                 let counts = !solid || has(cells[at], NODE_SOLID);
-                sum += select(0.0, work[base + at].w, counts) * product;
+                sum += select(0.0, work[part(nodes, at)].w, counts) * product;
             }
         }
     }
@@ -182,7 +183,7 @@ fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     for (var at = thread_index(group, lane); at < row_count(); at += striding_threads()) {
         let first = at * row_length();
         let inverse = rows[first + INVERSE];
-        let given = residual[params.slots + at];
+        let given = residual[apart_h(at)];
         var step = given * inverse / middle;
         var result = 0.0;
         var left = given;
@@ -206,6 +207,6 @@ fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 @compute @workgroup_size(WORKGROUP)
 fn surface_direction(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     for (var at = thread_index(group, lane); at < row_count(); at += striding_threads()) {
-        direction[params.slots + at] += rows[at * row_length() + RESULT];
+        direction[apart_h(at)] += rows[at * row_length() + RESULT];
     }
 }

@@ -1,6 +1,7 @@
 // The device steers its own step: each entry point looks at what has been decided and opens or closes the dispatches that
 // follow. A step whose solve or sub-steps need more than was recorded simply goes on in the next recording.
 #include "shared/params.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/control.wgsl"
 #include "shared/extents.wgsl"
 #include "shared/pcg_result.wgsl"
@@ -21,8 +22,8 @@ fn control_start() {
 // After the lists of slots: their lengths rule the LISTED and FRONTIER dispatches.
 @compute @workgroup_size(1)
 fn control_listed() {
-    control.listed = extra[2u * params.slots];
-    control.frontier = extra[2u * params.slots + 1u];
+    control.listed = extra[part(LENGTHS, LENGTH_LISTED)];
+    control.frontier = extra[part(LENGTHS, LENGTH_FRONTIER)];
     let frontier = groups_for(control.frontier);
     pcg.frontier_wide = frontier.x;
     pcg.frontier_high = frontier.y;

@@ -6,6 +6,7 @@
 // Sides that let gas through, bodies and seams of periodic axes count as moving; walls and obstacles pass nothing on.
 // Reads gas and cells. Writes busy and, in extra, rows and runs.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/runs.wgsl"
@@ -145,7 +146,7 @@ fn still_wake(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 
 // Runs of the whole grid.
 fn runs_in_all() -> u32 {
-    if DIM == 1u { return (params.slots + RUN_LANES - 1u) / RUN_LANES; }
+    if DIM == 1u { return runs_over(params.slots); }
     return params.slots / columns() * blocks_across();
 }
 
@@ -191,11 +192,11 @@ fn awake_slots(run: u32, walk: Walk) -> u32 {
 fn awake_listed(run: u32) -> u32 {
     let first = RUN_LANES * run;
     var bits = 0u;
-    for (var k = 0u; k < min(RUN_LANES, list_length() - first); k++) { bits |= u32(is_awake(extra[params.slots + first + k])) << k; }
+    for (var k = 0u; k < min(RUN_LANES, list_length() - first); k++) { bits |= u32(is_awake(extra[part(LISTED_SLOTS, first + k)])) << k; }
     return bits;
 }
 
-fn runs_in_list() -> u32 { return (list_length() + RUN_LANES - 1u) / RUN_LANES; }
+fn runs_in_list() -> u32 { return runs_over(list_length()); }
 
 // Every octet counts its runs.
 @compute @workgroup_size(WORKGROUP)

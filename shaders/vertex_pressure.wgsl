@@ -2,6 +2,7 @@
 // bodies at walls with the weight of the gas in between,
 // S^-1_v = sum of (cell volume / 2^DIM) / (stiffness of the cell). Where gas and solid share a pressure both add.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/listed.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/cut.wgsl"
@@ -22,10 +23,10 @@
 @compute @workgroup_size(WORKGROUP)
 fn vertex_clear(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     for (var i = thread_index(group, lane); i < 2u * params.extra_capacity; i += striding_threads()) {
-        pressure[params.slots + i] = 0.0;
-        stiffness[params.slots + i] = 0.0;
-        residual[params.slots + i] = 0.0;
-        inverse_diagonal[params.slots + i] = 0.0;
+        pressure[apart_h(i)] = 0.0;
+        stiffness[apart_h(i)] = 0.0;
+        residual[apart_h(i)] = 0.0;
+        inverse_diagonal[apart_h(i)] = 0.0;
     }
 }
 
@@ -33,7 +34,7 @@ fn vertex_clear(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 fn interior_corner(slot: u32, corner: vec3i) -> vec2f {
     let o = vec3u(corner);
     let at = slot - o.x - params.stride.x * (o.y + params.stride.y * o.z);
-    return vec2f(energy[params.slots + at], fill[at].y);
+    return vec2f(energy[part(PREDICTED_PRESSURE, at)], fill[at].y);
 }
 
 // A vertex with only gas around it. Differences from the highest pressure, so that a constant one stays constant, up to the sides, and pairs
@@ -59,7 +60,7 @@ fn cut_vertex(slot: u32) {
         let c = v - corner_offset(k);
         let at = slot_of(c);
         if !inside(c) || kind_of(cells[at]) != GAS { continue; }
-        let p = energy[params.slots + at];
+        let p = energy[part(PREDICTED_PRESSURE, at)];
         let weight = gas_at_corner(at, corner_offset(k));
         if sum.x == 0.0 { reference = p; }
         sum += weight * vec3f(1.0, p - reference, fill[at].y);
@@ -83,7 +84,7 @@ fn beside(v: vec3i, corner: vec3i, reference: f32) -> Around {
     let at = slot_of(c);
     let kind = kind_of(cells[at]);
     if kind == GAS {
-        one.gas = vec3f(1.0, energy[params.slots + at] - reference, fill[at].y);
+        one.gas = vec3f(1.0, energy[part(PREDICTED_PRESSURE, at)] - reference, fill[at].y);
         if !SOLIDS { one.weight = rounded(conserved[at].x * dot(params.gravity, vec3f(corner) - 0.5)); }
     }
     if kind == SOLID {
@@ -98,7 +99,7 @@ fn highest_around(v: vec3i) -> f32 {
     var highest = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
         let c = v - corner_offset(k);
-        if inside(c) && kind_of(cells[slot_of(c)]) == GAS { highest = max(highest, energy[params.slots + slot_of(c)]); }
+        if inside(c) && kind_of(cells[slot_of(c)]) == GAS { highest = max(highest, energy[part(PREDICTED_PRESSURE, slot_of(c))]); }
     }
     return highest;
 }
@@ -155,10 +156,10 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     if at != NO_EXTRA {
         pressure[slot] = gas_pressure;
         stiffness[slot] = s_gas;
-        pressure[params.slots + at] = gas_pressure; // h starts from the gas
-        stiffness[params.slots + at] = 0.0;
-        pressure[params.slots + params.extra_capacity + at] = q;
-        stiffness[params.slots + params.extra_capacity + at] = s_solid;
+        pressure[apart_h(at)] = gas_pressure; // h starts from the gas
+        stiffness[apart_h(at)] = 0.0;
+        pressure[apart_q(at)] = q;
+        stiffness[apart_q(at)] = s_solid;
         return;
     }
     // Inside a body with a given motion nothing gives way; a free node of a body that it touches would meet a pressure without bound.

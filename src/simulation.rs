@@ -199,7 +199,6 @@ impl Simulation {
 
     /// One stage of the advection.
     fn record_advection(&self, pass: &mut Pass, stage: usize, source: Carried, phase: &str) {
-        pass.stage("gas_advection");
         self.carrier.record(pass, &self.state, source, phase);
         self.gas_advection.record(pass, &self.state, &self.time_step, stage, phase);
     }

@@ -11,10 +11,3 @@ const ARS_SHARE = 0.29289322;   // a: part of the step that each solve spans
 const ARS_MIDDLE = 1.7071068;   // dt/2 over a dt
 const ARS_LAST = 3.4142136;     // dt over a dt
 const ARS_RETURNED = 2.4142136; // (1 - a) dt over a dt
-
-// Parts of the work and energy arrays that hold U0 and K; further parts of the energy: internal energy of U0, and the energy that the
-// next solve starts from.
-const ARS_START = vec2u(2u, 3u);
-const ARS_KEPT = vec2u(3u, 4u);
-const ARS_HEAT = 5u;
-const ARS_COLD = 6u;

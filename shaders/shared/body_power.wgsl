@@ -1,5 +1,6 @@
 // Power between gas and body through the faces of the interface.
 // Needs element and system, interface_indices(), face_vertices(), and the bindings control, cells, pressure, node and work.
+#include "shared/arrays.wgsl"
 
 // Means of the low and the high vertex of an axis on the node of a body at an offset from the cell between them.
 fn means_of(a: u32, offset: i32) -> vec2f {
@@ -10,7 +11,7 @@ fn means_of(a: u32, offset: i32) -> vec2f {
 // Velocity of a node of a body after the solve; with MIDPOINT_POWER the mean of that and of the one that it came with, without its reaction
 // to the load [elastic_reaction.wgsl].
 fn body_velocity(at: u32, n: u32) -> f32 {
-    return node[at][n] - select(1.0, 0.5, MIDPOINT_POWER) * control.dt * work[params.slots + at][n];
+    return node[at][n] - select(1.0, 0.5, MIDPOINT_POWER) * control.dt * work[part(SOLID_NODE, at)][n];
 }
 
 // Power through a face between gas and solid: what the solid receives.

@@ -3,6 +3,7 @@
 // Local Lax-Friedrichs splitting f+- = (u_n +- alpha) U / 2, alpha the largest |u_n| of the stencil: the pressure part of the
 // Euler flux is the solve's, so sound needs no dissipation here; shocks do, see reconstruct.wgsl. [Cao et al. 2022, section 2.3; Shu & Osher 1988]
 // Without a z axis the energy travels in the place of the z momentum, which is zero.
+#include "shared/arrays.wgsl"
 #include "shared/whole.wgsl"
 
 // heat: the part of the energy's that two solves per step take from the solve instead [shared/ars.wgsl].
@@ -21,7 +22,7 @@ fn unit_between(c: Gas, d: Gas) -> f32 {
 fn heat_between(s: Stencil, low: u32, high: u32) -> f32 {
     if !ARS { return 0.0; }
     if STAGE == 0u { return 0.5 * (internal_energy(s.c) + internal_energy(s.d)); }
-    return 0.5 * (energy[ARS_HEAT * params.slots + low] + energy[ARS_HEAT * params.slots + high]);
+    return 0.5 * (energy[part(START_HEAT, low)] + energy[part(START_HEAT, high)]);
 }
 
 fn packed(gas: Gas) -> vec4f { return select(gas.flow, vec4f(gas.flow.xyz, gas.energy), vec4<bool>(DIM < 3u)); }

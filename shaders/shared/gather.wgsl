@@ -1,5 +1,6 @@
-// Transpose of the forces: C^T of a node field, at one vertex. Needs the bindings cells, extra and work (gas nodes, solid nodes).
+// Transpose of the forces: C^T of a node field, at one vertex. Needs the bindings cells, extra and work.
 
+#include "shared/arrays.wgsl"
 #include "shared/mixed.wgsl"
 
 // Rows of one vertex: its own unknown, and h and Q where they are apart.
@@ -11,7 +12,7 @@ fn plane_rows(slot: u32, v: vec3i) -> f32 {
     let ey = wide_entries_of_vertex(1u, v.y, false);
     var lines: array<mat4x4f, 2>;
     for (var j = 0u; j < 4u; j++) {
-        let at = slot + params.stride.x - params.stride.x * j;
+        let at = part(GAS_NODE, slot + params.stride.x - params.stride.x * j);
         let line = transpose(mat4x2f(work[at + 1u].xy, work[at].xy, work[at - 1u].xy, work[at - 2u].xy));
         lines[0][j] = line[0];
         lines[1][j] = line[1];
@@ -25,8 +26,8 @@ fn plane_rows(slot: u32, v: vec3i) -> f32 {
     return rounded(paired(slopes[0] * ey.mean)) + rounded(paired(slopes[1] * ex.mean));
 }
 
-// The transpose of wide_force. `base`: where the nodes of gas or solid start.
-fn wide_rows(slot: u32, v: vec3i, base: u32, solid: bool) -> f32 {
+// The transpose of wide_force. `nodes`: GAS_NODE or SOLID_NODE.
+fn wide_rows(slot: u32, v: vec3i, nodes: u32, solid: bool) -> f32 {
     let ex = wide_entries_of_vertex(0u, v.x, solid);
     let ey = wide_entries_of_vertex(1u, v.y, solid);
     let ez = wide_entries_of_vertex(2u, v.z, solid);
@@ -34,7 +35,7 @@ fn wide_rows(slot: u32, v: vec3i, base: u32, solid: bool) -> f32 {
     for (var k = -reach().z; k <= 2 * reach().z; k++) {
         for (var j = -reach().y; j <= 2 * reach().y; j++) {
             // The node (i, j, k) below the vertex sees it at the offset (i, j, k).
-            let at = base + u32(i32(slot) - i32(params.stride.x) * (j + i32(params.stride.y) * k));
+            let at = part(nodes, u32(i32(slot) - i32(params.stride.x) * (j + i32(params.stride.y) * k)));
             let a = work[at + 1u].xyz;
             let b = work[at].xyz;
             let c = work[at - 1u].xyz;
@@ -48,7 +49,8 @@ fn wide_rows(slot: u32, v: vec3i, base: u32, solid: bool) -> f32 {
 }
 
 // Sum over a layer of nodes, and its mean z velocity: the transpose of the forces' narrow_layer, x and y alike, too.
-fn narrow_layer(at: u32, v: vec3i) -> vec2f {
+fn narrow_layer(slot: u32, v: vec3i) -> vec2f {
+    let at = part(GAS_NODE, slot);
     let x_low = narrow_entry(0u, v.x - 1);
     let x_high = narrow_entry(0u, v.x);
     let a = work[at - 1u].xyz;
@@ -65,7 +67,7 @@ fn narrow_layer(at: u32, v: vec3i) -> vec2f {
 
 fn regular_rows(slot: u32, v: vec3i) -> f32 {
     if QUADRATIC && DIM == 2u { return plane_rows(slot, v); }
-    if QUADRATIC { return wide_rows(slot, v, 0u, false); }
+    if QUADRATIC { return wide_rows(slot, v, GAS_NODE, false); }
     let above = narrow_layer(slot, v);
     if DIM < 3u { return above.x; }
     let below = narrow_layer(slot - params.stride.x * params.stride.y, v);
@@ -74,7 +76,7 @@ fn regular_rows(slot: u32, v: vec3i) -> f32 {
     return low.y * below.x + high.x * above.x + low.z * below.y - high.z * above.y;
 }
 
-fn velocity_at(base: u32, j: vec3i) -> vec3f { return work[base + slot_of(j)].xyz; }
+fn velocity_at(nodes: u32, j: vec3i) -> vec3f { return work[part(nodes, slot_of(j))].xyz; }
 
 // What a line of nodes gives to a vertex through the faces between cells of one kind and another: the transpose of faces_between.
 fn rows_of_faces(own: mat2x4f, other: mat2x4f, weights: Weights, y: Step, z: Step, ends: f32, mean_y: vec2f, mean_z: vec2f) -> f32 {
@@ -85,7 +87,7 @@ fn rows_of_faces(own: mat2x4f, other: mat2x4f, weights: Weights, y: Step, z: Ste
 
 // The transpose of line_force, over all lines of nodes: rows of the element's own pressure, and of h. The bounds of the loops depend on
 // `own` so that no driver unrolls them.
-fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, base: u32, quadratic: bool) -> vec2f {
+fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, nodes: u32, quadratic: bool) -> vec2f {
     let along_x = gas_entries_of_vertex(0u, quadratic, v.x);
     let elements = columns_beside(own);
     let bodies = columns_beside(body);
@@ -99,13 +101,13 @@ fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, base: u32, quadratic: 
             let y = step_at(gas_entries_of_vertex(1u, quadratic, v.y), j);
             for (var turn = 0u; turn < u32(touches(own, j, k)); turn++) {
                 let at = v - vec3i(0, j, k);
-                let b = velocity_at(base, at);
-                let c = velocity_at(base, at - vec3i(1, 0, 0));
+                let b = velocity_at(nodes, at);
+                let c = velocity_at(nodes, at - vec3i(1, 0, 0));
                 var a = vec3f(0.0);
                 var d = vec3f(0.0);
                 if quadratic {
-                    a = velocity_at(base, at + vec3i(1, 0, 0));
-                    d = velocity_at(base, at - vec3i(2, 0, 0));
+                    a = velocity_at(nodes, at + vec3i(1, 0, 0));
+                    d = velocity_at(nodes, at - vec3i(2, 0, 0));
                 }
                 let velocity = transpose(mat4x3f(a, b, c, d));
                 let slope = vec2f(dot(along_x.slope_below, velocity[0]), dot(along_x.slope_above, velocity[0]));
@@ -126,7 +128,7 @@ fn cut_rows(v: vec3i) -> f32 {
     var sum = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
         let j = v - corner_offset(k);
-        sum += dot(work[slot_of(j)].xyz, coefficient(j, v));
+        sum += dot(work[part(GAS_NODE, slot_of(j))].xyz, coefficient(j, v));
     }
     return sum;
 }
@@ -144,13 +146,13 @@ fn gather_rows(slot: u32, word: u32) -> Rows {
     }
     let deep = SOLIDS && has(word, VERTEX_DEEP);
     let mixed = has(word, VERTEX_GAS | VERTEX_SOLID) && !regular && !deep;
-    for (var turn = 0u; turn < u32(deep); turn++) { rows.own = wide_rows(slot, v, params.slots, true); }
+    for (var turn = 0u; turn < u32(deep); turn++) { rows.own = wide_rows(slot, v, SOLID_NODE, true); }
     let kinds = kinds_beside(v, select(0u, corner_count(), mixed));
-    let gas = mixed_rows(v, kinds.gas, kinds.solid, kinds.closed, 0u, QUADRATIC);
+    let gas = mixed_rows(v, kinds.gas, kinds.solid, kinds.closed, GAS_NODE, QUADRATIC);
     rows.own += gas.x;
     rows.h = gas.y;
     if SOLIDS {
-        let solid = mixed_rows(v, kinds.solid, kinds.gas, 0u, params.slots, true);
+        let solid = mixed_rows(v, kinds.solid, kinds.gas, 0u, SOLID_NODE, true);
         rows.h += solid.y;
         rows.q = solid.x;
         if interface_index(slot) == slot { rows = Rows(rows.own + rows.h + rows.q, 0.0, 0.0); }

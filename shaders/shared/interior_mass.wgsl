@@ -1,6 +1,7 @@
-// Inverse masses of the B1B0 nodes deep inside the gas: the last third of the binding energy holds them.
+// Inverse masses of the B1B0 nodes deep inside the gas: the binding energy holds them.
+#include "shared/arrays.wgsl"
 
-fn inverse_mass(at: u32) -> f32 { return energy[2u * params.slots + at]; }
+fn inverse_mass(at: u32) -> f32 { return energy[part(INVERSE_MASS, at)]; }
 
 // Inverse masses of the four nodes around a vertex in the layer of node `at`, in the same order.
 fn masses(at: u32) -> vec4f {

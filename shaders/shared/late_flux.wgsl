@@ -1,7 +1,8 @@
 // The advection has carried gas through the faces of bodies with their velocity of before the solve. Half of what a body gains in the solve
 // carries gas, too, so that gas follows it with the mean velocity of the step: between the cell and the slot of the body, which owes it.
-// Needs the bindings control, cells, node, and work with the kick of the solve in its second half.
+// Needs the bindings control, cells, node, and work.
 #include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 
@@ -13,7 +14,7 @@ fn late_share(c: vec3i, n: u32, up: bool) -> f32 {
     let a = slot_of(c);
     let b = slot_of(select(c - axis(n), c + axis(n), up));
     let mass = vec2f(node[a].w, node[b].w);
-    let gain = -control.dt * dot(mass, vec2f(work[params.slots + a][n], work[params.slots + b][n])) / max(mass.x + mass.y, 1e-30);
+    let gain = -control.dt * dot(mass, vec2f(work[part(SOLID_NODE, a)][n], work[part(SOLID_NODE, b)][n])) / max(mass.x + mass.y, 1e-30);
     let share = select(-0.5, 0.5, up) * gain * blocked_of(cells[b]) * control.dt / params.spacing;
     return clamp(share, -MOST_LATE, MOST_LATE);
 }

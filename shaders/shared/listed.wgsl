@@ -2,6 +2,7 @@
 // stencil is the same; the LISTED form runs over the list of all others, as far as they are awake. So no thread waits for a neighbour's
 // special case. Needs the binding extra: places of the extra unknowns; one block that the list fills from its start, and the frontier, the
 // INTERIOR slots whose nodes listed vertices rest on, from its end; then the lengths of both; then the runs of slots, and of the list.
+#include "shared/arrays.wgsl"
 #include "shared/runs.wgsl"
 
 override LISTED: bool;
@@ -9,7 +10,7 @@ override LISTED: bool;
 // Slot of a thread, or the number of slots if it has none: of all slots or, LISTED, of all listed ones.
 fn every_slot(thread: u32) -> u32 {
     if !LISTED { return min(thread, params.slots); }
-    if thread < list_length() { return extra[params.slots + thread]; }
+    if thread < list_length() { return extra[part(LISTED_SLOTS, thread)]; }
     return params.slots;
 }
 
@@ -18,7 +19,7 @@ fn listed_in(run: u32, thread: u32) -> u32 {
     if !SLEEPS { return every_slot(RUN_LANES * run + lane); }
     let word = extra[params.list_runs_at + octets() + 1u + run];
     if ((word >> lane) & 1u) == 0u { return params.slots; }
-    return extra[params.slots + (word >> 8u) * RUN_LANES + lane];
+    return extra[part(LISTED_SLOTS, (word >> 8u) * RUN_LANES + lane)];
 }
 
 // Slot that a lane of a thread has in a run, of slots deep inside the gas or of the list; the number of slots if it has none.
@@ -57,12 +58,12 @@ fn busy_slot(thread: u32) -> u32 {
 // The same for kernels whose results only listed slots read, so that the plain form visits the frontier alone.
 fn frontier_slot(thread: u32) -> u32 {
     if LISTED || QUADRATIC { return listed_slot(thread); }
-    if thread < frontier_threads() { return extra[2u * params.slots - 1u - thread]; }
+    if thread < frontier_threads() { return extra[part(LENGTHS, 0u) - 1u - thread]; }
     return params.slots;
 }
 
 // Threads of such kernels.
 fn frontier_threads() -> u32 {
     if LISTED || QUADRATIC { return awake_threads(); }
-    return extra[2u * params.slots + 1u];
+    return extra[part(LENGTHS, LENGTH_FRONTIER)];
 }

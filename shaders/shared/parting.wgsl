@@ -4,9 +4,10 @@
 // as far as they have it.
 // In gas alone shares are those by mass: by pressure, tubes would have errors 2 to 10 % larger.
 // Needs element, system, body_power and the bindings control, cells, extra, pressure, conserved, energy, node and work.
+#include "shared/arrays.wgsl"
 
 // Pressure of a gas cell before the solve.
-fn own_pressure(slot: u32) -> f32 { return max(energy[params.slots + slot], 0.0); }
+fn own_pressure(slot: u32) -> f32 { return max(energy[part(PREDICTED_PRESSURE, slot)], 0.0); }
 
 // Velocity of a gas cell that its faces see.
 fn parting_speed(slot: u32, n: u32) -> f32 {
@@ -24,7 +25,7 @@ fn shift_between(p: f32, low: u32, high: u32, n: u32) -> f32 {
 }
 
 // Place of what a vertex asks of the gas around it, over the sum of the pressures of those who pay.
-fn surplus_index(vertex: u32) -> u32 { return params.slots + 2u * params.extra_capacity + vertex; }
+fn surplus_index(vertex: u32) -> u32 { return unknowns() + vertex; }
 
 // Velocity across axis n, at a vertex, of the body beyond a face of gas cell c.
 fn body_speed(v: vec3i, c: vec3i, beyond: vec3i, n: u32) -> f32 {

@@ -5,9 +5,13 @@
 // params.list_runs_at on, of eight entries: one word per run, which of them are awake, and from bit 8 on which eight they are.
 // Elsewhere all slots have their runs in order.
 // A reduction gives every octet the same slots, in the same order, whoever sleeps: they would add zero, so the sums keep their bits.
+#include "shared/arrays.wgsl"
 
 // Entries of the list, awake or not.
-fn list_length() -> u32 { return extra[2u * params.slots]; }
+fn list_length() -> u32 { return extra[part(LENGTHS, LENGTH_LISTED)]; }
+
+// Runs that so many slots take.
+fn runs_over(slots: u32) -> u32 { return (slots + RUN_LANES - 1u) / RUN_LANES; }
 
 fn octets() -> u32 { return RUN_LANES * params.groups; }
 
@@ -16,7 +20,7 @@ struct Runs { first: u32, end: u32, step: u32 }
 
 fn octet_runs(table: u32, thread: u32, all: u32) -> Runs {
     let octet = thread / RUN_LANES;
-    if !SLEEPS { return Runs(octet, (all + RUN_LANES - 1u) / RUN_LANES, octets()); }
+    if !SLEEPS { return Runs(octet, runs_over(all), octets()); }
     return Runs(extra[table + octet], extra[table + octet + 1u], 1u);
 }
 

@@ -3,13 +3,14 @@
 // apart behind the grid. C = [K; B; H]: element gradients, faces to walls and open sides on P itself, faces between gas and
 // solid on h. [Cao et al. 2022, eqs. 34-37]
 // Needs the bindings cells and extra.
+#include "shared/arrays.wgsl"
 
 fn interface_index(slot: u32) -> u32 {
-    if SOLIDS { let at = extra[slot]; if at != NO_EXTRA { return params.slots + at; } }
+    if SOLIDS { let at = extra[slot]; if at != NO_EXTRA { return apart_h(at); } }
     return slot;
 }
 fn ghost_index(slot: u32) -> u32 {
-    if SOLIDS { let at = extra[slot]; if at != NO_EXTRA { return params.slots + params.extra_capacity + at; } }
+    if SOLIDS { let at = extra[slot]; if at != NO_EXTRA { return apart_q(at); } }
     return slot;
 }
 

@@ -10,4 +10,4 @@ override WITH_DRIVER: bool;     // and the driver of fracture times the mass, in
 @group(0) @binding(5) var<storage, read> order: array<u32>;
 @group(0) @binding(6) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(7) var<storage, read_write> node: array<vec4f>;     // velocity, mass
-@group(0) @binding(8) var<storage, read_write> work: array<vec4f>;     // second half: elastic force [N]
+@group(0) @binding(8) var<storage, read_write> work: array<vec4f>;

@@ -7,7 +7,7 @@ use crate::numerics::{Rounds, copy_bandwidth};
 use crate::scene::{Estimate, Pair, Scene};
 use crate::stage::traffic::{self, Load};
 use crate::state::MemoryPlan;
-use crate::state::constants::STAGES;
+use crate::state::stages::Stage;
 
 /// Iterations of the pressure solve in a step of most scenes.
 const ITERATIONS: u64 = 4;
@@ -44,7 +44,7 @@ impl Duration {
             carrier: scene.consistent(),
             quadratic: scene.numerics.pair == Pair::B2b1,
         };
-        let bytes: u64 = STAGES.iter().map(|stage| traffic::bytes(stage, &load)).sum();
+        let bytes: u64 = Stage::ALL.iter().map(|stage| traffic::bytes(stage.name(), &load)).sum();
         let seconds = estimate.steps * (bytes as f64 / (REACHED * copy)).max(LAUNCHES);
         let refused = plan.check_device(scene, &gpu).err().map(|error| error.to_string());
         Some(Self { device: gpu.info.name.clone(), seconds, refused })

@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::error::Error;
 use crate::math::plain;
 use crate::state::Control;
-use crate::state::constants::STAGES;
+use crate::state::stages::Stage;
 
 /// What is usually wrong where nothing has moved yet.
 const FIRST: &str = "in the first step that is usually the start state";
@@ -15,24 +15,25 @@ impl Simulation {
     /// The fault of the run as an error.
     pub(super) fn fault(&self, control: &Control) -> Error {
         let (stage, at) = ((control.fault >> 27) as usize, control.fault & 0x07ff_ffff);
-        let name = STAGES.get(stage).copied().unwrap_or("unknown");
-        let (place, reason) = match name {
-            "g2p" => {
+        let stage = Stage::ALL.get(stage).copied();
+        let name = stage.map_or("unknown", Stage::name);
+        let (place, reason) = match stage {
+            Some(Stage::G2p) => {
                 (format!("particle {at}"), "it is turned inside out or not finite; try a smaller numerics.elastic_cfl")
             }
-            "coupled_solve" => (
+            Some(Stage::CoupledSolve) => (
                 "all cells".to_owned(),
                 "the pressure solve did not converge; try a larger numerics.tolerance or a smaller time.cfl",
             ),
-            "interface" => {
+            Some(Stage::Interface) => {
                 (self.cell(at), "more surface vertices of fragments than there is room for; try a finer resolution")
             }
             _ => (self.cell(at), "density or pressure is not positive and finite; try a smaller time.cfl"),
         };
         let step = u64::from(control.step) + 1;
-        let reason = match (step, name) {
-            (1, "interface") | (2.., _) => reason.to_owned(),
-            (_, "g2p" | "coupled_solve") => format!("{reason}; {FIRST}: {}", self.start_text()),
+        let reason = match (step, stage) {
+            (1, Some(Stage::Interface)) | (2.., _) => reason.to_owned(),
+            (_, Some(Stage::G2p | Stage::CoupledSolve)) => format!("{reason}; {FIRST}: {}", self.start_text()),
             _ => format!("density or pressure is not positive and finite; {FIRST}: {}", self.start_text_at(at)),
         };
         Error::Diverged { step, stage: name, place, reason }

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// The state whose velocity carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +65,7 @@ impl CarrierVelocity {
 
     /// Carrier of a state, in a phase.
     pub fn record(&self, pass: &mut Pass, state: &State, source: Carried, phase: &str) {
+        pass.stage(Stage::Carrier.name());
         for (kernel, entry) in self.kernels.iter().filter(|(carried, _)| *carried == source).flat_map(|(_, all)| all) {
             pass.dispatch(kernel, &extent(state, phase, *entry));
         }

@@ -13,6 +13,7 @@ use crate::numerics::{Block, Dots, Layout, Levels, Pcg, Runs, Width};
 use crate::scene::{Scene, SolidUpdate};
 use crate::state::State;
 use crate::state::constants::{Entry, PARTIALS};
+use crate::state::stages::Stage;
 use coarse::Coarse;
 use surface::Surface;
 
@@ -141,13 +142,14 @@ impl CoupledSolve {
 
     /// What the nodes bear before the solve: films, gravity, forces of the pressure so far. In a phase.
     pub fn record_loads(&self, pass: &mut Pass, state: &State, phase: &str) {
-        pass.stage("coupled_solve");
+        pass.stage(Stage::SolidPredictor.name());
         for kernel in &self.film {
             pass.dispatch(kernel, &slots(state, phase));
         }
         for kernel in &self.predictor {
             pass.dispatch(kernel, &extent(state, phase, Entry::Reduce));
         }
+        pass.stage(Stage::CoupledSolve.name());
         pass.dispatch(&self.open, &extent(state, phase, Entry::ListAwake));
         record_both(pass, state, phase, &self.masses);
         self.record_nodes(pass, state, phase, &self.forces_of_pressure);
@@ -155,7 +157,7 @@ impl CoupledSolve {
 
     /// Velocities, right-hand side and diagonal; opens the iteration. In a phase.
     pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str) {
-        pass.stage("coupled_solve");
+        pass.stage(Stage::CoupledSolve.name());
         self.record_nodes(pass, state, phase, &self.velocities);
         for (kernel, entry) in &self.vertices.setup {
             pass.dispatch(kernel, &extent(state, phase, *entry));
@@ -186,7 +188,7 @@ impl CoupledSolve {
 
     /// Iterations; those after convergence do nothing.
     pub fn record_iterations(&self, pass: &mut Pass, count: u32) {
-        pass.stage("coupled_solve");
+        pass.stage(Stage::CoupledSolve.name());
         let [forces, listed_forces] = &self.forces;
         let [operator, listed_operator] = &self.vertices.operator;
         let (block, levels) = (self.block(), self.levels());
@@ -219,7 +221,7 @@ impl CoupledSolve {
 
     /// Pressure kick of the solid nodes, change of the ghost pressure.
     pub fn record_solid(&self, pass: &mut Pass, state: &State) {
-        pass.stage("coupled_solve");
+        pass.stage(Stage::SolidKick.name());
         for kernel in &self.kick {
             pass.dispatch(kernel, &slots(state, "UPDATE"));
         }

@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::scene::{Coupling, Scene};
 use crate::state::State;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -37,13 +38,13 @@ impl ElasticFirst {
 
     /// Gives it to the velocities that enter the solve, in a phase.
     pub fn record_before(&self, pass: &mut Pass, state: &State, phase: &str) {
-        pass.stage("coupled_solve");
+        pass.stage(Stage::SolidPredictor.name());
         pass.dispatch(&self.before, &slots(state, phase));
     }
 
     /// The only sub-step, instead of `mpm_grid_update`.
     pub fn record_substep(&self, pass: &mut Pass, state: &State) {
-        pass.stage("mpm_grid_update");
+        pass.stage(Stage::MpmGridUpdate.name());
         pass.dispatch(&self.walls, &slots(state, "SUBSTEP"));
     }
 }

@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::scene::{Coupling, Ghost, Scene};
 use crate::state::State;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -50,6 +51,7 @@ impl ElasticReaction {
 
     /// The velocities that enter the solve, from its load without them, in a phase.
     pub fn record_before(&self, pass: &mut Pass, state: &State, phase: &str) {
+        pass.stage(Stage::ElasticReaction.name());
         pass.dispatch(&self.before, &slots(state, phase));
     }
 
@@ -67,7 +69,7 @@ impl ElasticReaction {
 
     /// What nodes that have grown lighter pass on in a sub-step, before `mpm_grid_update`.
     pub fn record_substep(&self, pass: &mut Pass, state: &State) {
-        pass.stage("mpm_grid_update");
+        pass.stage(Stage::MpmGridUpdate.name());
         pass.dispatch(&self.left, &slots(state, "AGAIN"));
     }
 }

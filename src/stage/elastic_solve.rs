@@ -9,6 +9,7 @@ use crate::numerics::{Block, Dots, Layout, Levels, Pcg, PcgVectors, Width};
 use crate::scene::{Elasticity, Scene};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Iterations of one linear system at most: a system that needs more is left where it is, and the next round goes on from there.
 pub const MAX_ITERATIONS: u32 = 300;
@@ -86,7 +87,7 @@ impl ElasticSolve {
     /// One round of Newton's method. A round that needs more than the recorded iterations goes on in the next recording, and so does
     /// a step that needs more rounds.
     pub fn record_round(&self, pass: &mut Pass, state: &State, iterations: u32) {
-        pass.stage("elastic_solve");
+        pass.stage(Stage::ElasticSolve.name());
         let single = Extent::Groups([1, 1, 1]);
         let [round, iteration, balanced] = &self.round;
         pass.dispatch(round, &single);
@@ -110,7 +111,7 @@ impl ElasticSolve {
 
     /// Walls and the books, once the velocities are found; and what is missing from the momentum of bodies.
     pub fn record_finish(&self, pass: &mut Pass, state: &State) {
-        pass.stage("elastic_solve");
+        pass.stage(Stage::ElasticSolve.name());
         let [missing, bodies, _] = &self.balance;
         pass.dispatch(&self.finish, &extent(state, "SUBSTEP", Entry::Reduce));
         pass.dispatch(missing, &extent(state, "SUBSTEP", Entry::Reduce));
@@ -119,7 +120,7 @@ impl ElasticSolve {
 
     /// That momentum, to the particles once they have moved.
     pub fn record_balance(&self, pass: &mut Pass, state: &State) {
-        pass.stage("elastic_solve");
+        pass.stage(Stage::ElasticSolve.name());
         pass.dispatch(&self.balance[2], &extent(state, "SUBSTEP", Entry::Particles));
     }
 }

@@ -6,6 +6,7 @@ use crate::gpu::{Bound, Pass};
 use crate::scene::Scene;
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -44,12 +45,13 @@ impl FluidUpdate {
 
     /// Gas that follows bodies, momentum; who pays where velocities part; energy; floor.
     pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, control: &TimeStep) {
-        pass.stage("fluid_update");
+        pass.stage(Stage::FluidUpdate.name());
         if let Some(late_flux) = &self.late_flux {
             pass.dispatch(late_flux, &extent(state, "UPDATE", Entry::ListAwake));
         }
         record_busy(pass, state, "UPDATE", &self.momentum);
         carrier.record(pass, state, Carried::Solved, "UPDATE");
+        pass.stage(Stage::FluidUpdate.name());
         if let Some(parting) = &self.parting {
             record_both(pass, state, "UPDATE", parting);
         }

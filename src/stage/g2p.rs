@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// How nodes reach particles.
 #[derive(Debug)]
@@ -38,7 +39,7 @@ impl G2p {
 
     /// One sub-step of the particles.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("g2p");
+        pass.stage(Stage::G2p.name());
         match &self.form {
             Form::Particles(g2p) => pass.dispatch(g2p, &extent(state, "SUBSTEP", Entry::Particles)),
             Form::Cells([cells, particles]) => {

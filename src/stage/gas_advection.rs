@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage: two Runge-Kutta stages, each with its correction by the limiter; with two solves one before the first and two
 /// before the second.
@@ -25,9 +26,8 @@ struct RungeKuttaStage {
 impl RungeKuttaStage {
     fn new(parts: Parts<'_>, limiter: bool, stage: u32) -> Result<Self> {
         let Parts { gpu, state } = parts;
-        let theta = [("theta", state.pcg.product.raw())];
         let bind = |entry: &str, listed: f64| {
-            state.bind(gpu, "gas_advection.wgsl", entry, &theta, &[("STAGE", f64::from(stage)), ("LISTED", listed)])
+            state.bind(gpu, "gas_advection.wgsl", entry, &[], &[("STAGE", f64::from(stage)), ("LISTED", listed)])
         };
         Ok(Self {
             interior: bind("advect_interior", 0.0)?,
@@ -49,6 +49,7 @@ impl GasAdvection {
 
     /// One of the stages, from 0, in a phase: two belong to one advection, or with two solves one to the first and two to the second.
     pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: &str) {
+        pass.stage(Stage::GasAdvection.name());
         let kernels = &self.stages[stage];
         pass.dispatch(&kernels.interior, &extent(state, phase, Entry::Marched));
         pass.dispatch(&kernels.listed, &extent(state, phase, Entry::ListAwake));

@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernel of the points.
 #[derive(Debug)]
@@ -27,7 +28,7 @@ impl Gauges {
 
     /// The points after the step that has just ended, into their history ring.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("totals");
+        pass.stage(Stage::Totals.name());
         pass.dispatch(&self.0, &extent(state, "END", Entry::Single));
     }
 }

@@ -8,6 +8,7 @@ use crate::gpu::{Bound, Pass};
 use crate::numerics::Scan;
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -39,10 +40,11 @@ impl InterfaceStage {
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>) -> Result<Self> {
         let Parts { gpu, state } = parts;
-        let (wanted, place) = (state.pcg.residual.raw(), state.pcg.product.raw());
-        let (edge, edge_place) = (state.pcg.direction.raw(), state.pcg.solution.raw());
-        let renamed = [("wanted", wanted), ("place", place), ("edge", edge), ("edge_place", edge_place)];
-        let mark = |entry: &str| state.bind(gpu, "interface_mark.wgsl", entry, &renamed, &[]);
+        let mark = |entry: &str| state.bind(gpu, "interface_mark.wgsl", entry, &[], &[]);
+        let scan = |counts: &str, places: &str| {
+            let (slots, [counts, places]) = (state.params.slots, [counts, places].map(|name| state.lent(name)));
+            Scan::over(gpu, counts, places, slots, slots + 1)
+        };
         let fill = |entry: &str| state.bind(gpu, "interface.wgsl", entry, &[], &[]);
         let ledger = |entry: &str| state.bind(gpu, "ledger.wgsl", entry, &[], &[]);
         let solids = if state.has_solids() {
@@ -60,9 +62,9 @@ impl InterfaceStage {
         };
         Ok(Self {
             flags: mark("interface_flags")?,
-            scan: Scan::over(gpu, wanted, place, state.params.slots, state.params.slots + 1)?,
+            scan: scan("wanted", "place")?,
             edge: mark("interface_edge")?,
-            edge_scan: Scan::over(gpu, edge, edge_place, state.params.slots, state.params.slots + 1)?,
+            edge_scan: scan("edge", "edge_place")?,
             list: mark("interface_list")?,
             solids,
         })
@@ -91,7 +93,7 @@ impl InterfaceStage {
     /// Marks all slots and settles the gas books. Without bodies nothing changes.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         let Some(solids) = &self.solids else { return };
-        pass.stage("interface");
+        pass.stage(Stage::Interface.name());
         pass.dispatch(&solids.fill, &slots(state, "BEGIN"));
         pass.dispatch(&solids.ghost, &extent(state, "BEGIN", Entry::Marched));
         pass.dispatch(&solids.walls, &slots(state, "BEGIN"));

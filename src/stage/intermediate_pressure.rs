@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -33,7 +34,7 @@ impl IntermediatePressure {
 
     /// Cell pressures, then vertex pressures and stiffness, in a phase.
     pub fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
-        pass.stage("intermediate_pressure");
+        pass.stage(Stage::IntermediatePressure.name());
         record_both(pass, state, phase, &self.cells);
         pass.dispatch(&self.open_faces, &extent(state, phase, Entry::ListAwake));
         pass.dispatch(&self.clear, &extent(state, phase, Entry::Reduce));

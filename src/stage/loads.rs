@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the loads but for that of the faces, which belongs between those of `fluid_update`.
 #[derive(Debug)]
@@ -38,7 +39,7 @@ impl Loads {
 
     /// The loads of the step that has just ended, into their history ring.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("totals");
+        pass.stage(Stage::Totals.name());
         pass.dispatch(&self.record, &extent(state, "END", Entry::Single));
     }
 }

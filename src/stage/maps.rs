@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the maps.
 #[derive(Debug)]
@@ -30,7 +31,7 @@ impl Maps {
 
     /// Takes in the step that has just ended.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("totals");
+        pass.stage(Stage::Totals.name());
         pass.dispatch(&self.gas, &extent(state, "END", Entry::Slots));
         if let Some(particles) = &self.particles {
             pass.dispatch(particles, &extent(state, "END", Entry::Particles));

@@ -1,22 +1,5 @@
 //! The stages of a step, in order. Each owns its kernels with their buffers: `new` binds, `record` dispatches.
-//!
-//! | Stage | Question it answers |
-//! |---|---|
-//! | `time_step` | how far may we go? |
-//! | `particle_sort` | which particles touch which cell? |
-//! | `supports` | what is held? |
-//! | `p2g` | what do the solids look like on the grid? |
-//! | `interface` | where do gas and solid meet? |
-//! | `still` | where does nothing move? |
-//! | `carrier` | which velocity carries the gas through its faces? |
-//! | `gas_advection` | where does the gas carry itself? |
-//! | `intermediate_pressure` | which pressure does the advected gas have? |
-//! | `elastic_reaction` | which part of the elastic force bears the load of a node? |
-//! | `coupled_solve` | which pressure and velocity satisfy both sides? |
-//! | `fluid_update` | what does that pressure do to the gas? |
-//! | `elastic_solve` | which node velocities balance the elastic force at the end of the step? |
-//! | `mpm_grid_update` | how do the nodes move? |
-//! | `g2p` | how do the particles move and deform? |
+//! [`crate::state::stages`] lists them with the questions that they answer.
 //!
 //! Stages do not know each other. They communicate through the buffers of [`crate::state::State`] only, in the order written
 //! in [`crate::simulation::Simulation::record_step`].

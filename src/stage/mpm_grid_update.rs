@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -24,7 +25,7 @@ impl MpmGridUpdate {
 
     /// One sub-step of the nodes.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("mpm_grid_update");
+        pass.stage(Stage::MpmGridUpdate.name());
         pass.dispatch(&self.update, &extent(state, "SUBSTEP", Entry::Reduce));
     }
 }

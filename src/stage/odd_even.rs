@@ -5,6 +5,7 @@ use super::time_step::slots;
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
+use crate::state::stages::Stage;
 
 /// Kernels of the filter.
 #[derive(Debug)]
@@ -24,7 +25,7 @@ impl OddEven {
 
     /// Removes its share of the mode, if a step has just ended that wants it.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("odd_even");
+        pass.stage(Stage::OddEven.name());
         for kernel in &self.kernels {
             pass.dispatch(kernel, &slots(state, "FILTER"));
         }

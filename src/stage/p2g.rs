@@ -7,6 +7,7 @@ use crate::gpu::{Bound, Buffer, Pass, Settings};
 use crate::scene;
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// How particles reach nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,19 +158,19 @@ impl P2g {
 
     /// Mass and velocity at the start of a step.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("p2g");
+        pass.stage(Stage::P2g.name());
         self.mass.record(pass, state, "BEGIN");
     }
 
     /// Elastic force at the start of a step.
     pub fn record_force(&self, pass: &mut Pass, state: &State) {
-        pass.stage("p2g");
+        pass.stage(Stage::ElasticForce.name());
         self.force.record(pass, state, "BEGIN");
     }
 
     /// Elastic force for the next sub-step; mass and velocity again if the particles have moved since.
     pub fn record_substep(&self, pass: &mut Pass, state: &State, first: bool) {
-        pass.stage("p2g");
+        pass.stage(Stage::P2g.name());
         if first {
             self.force.record(pass, state, "FIRST");
         } else {

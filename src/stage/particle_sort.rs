@@ -6,6 +6,7 @@ use crate::gpu::{Bound, Pass};
 use crate::numerics::Scan;
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -18,20 +19,19 @@ pub struct ParticleSort {
 }
 
 impl ParticleSort {
-    /// Binds. The counts live in a vector of the solve.
+    /// Binds.
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
     pub fn new(parts: Parts<'_>) -> Result<Self> {
         let Parts { gpu, state } = parts;
-        let counts = state.pcg.residual.raw();
-        let bind = |entry: &str| state.bind(gpu, "particle_sort.wgsl", entry, &[("count", counts)], &[]);
+        let bind = |entry: &str| state.bind(gpu, "particle_sort.wgsl", entry, &[], &[]);
         Ok(Self {
             clear: bind("sort_clear")?,
             count: bind("sort_count")?,
             scan: Scan::over(
                 gpu,
-                counts,
+                state.lent("count"),
                 state.particles.cell_start.raw(),
                 state.params.slots,
                 state.params.slots + 1,
@@ -44,7 +44,7 @@ impl ParticleSort {
     /// Sorts, if a particle may have left its cell since the last time.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         let phase = "SORT";
-        pass.stage("particle_sort");
+        pass.stage(Stage::ParticleSort.name());
         pass.dispatch(&self.clear, &extent(state, phase, Entry::Slots));
         pass.dispatch(&self.count, &extent(state, phase, Entry::Particles));
         self.scan.record_with(pass, &scan_extents(state, phase));

@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -40,7 +41,7 @@ impl Still {
 
     /// Marks the rows in which there is something to do, and lists the slots that are awake.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("still");
+        pass.stage(Stage::Still.name());
         for kernel in &self.mark {
             pass.dispatch(kernel, &extent(state, "BEGIN", Entry::Reduce));
         }

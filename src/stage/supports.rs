@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage; scenes without clamped, driven or rubbing bodies have none.
 #[derive(Debug)]
@@ -29,14 +30,14 @@ impl Supports {
 
     /// Velocities of driven parts in the step that has just been chosen.
     pub fn record_motions(&self, pass: &mut Pass, state: &State) {
-        pass.stage("supports");
+        pass.stage(Stage::Supports.name());
         pass.dispatch(&self.now, &extent(state, "BEGIN", Entry::Single));
         pass.dispatch(&self.particles, &extent(state, "BEGIN", Entry::Particles));
     }
 
     /// Nodes of driven parts, and the friction of nodes at walls, after particles have reached the grid in a phase.
     pub fn record_nodes(&self, pass: &mut Pass, state: &State, phase: &str) {
-        pass.stage("supports");
+        pass.stage(Stage::Supports.name());
         pass.dispatch(&self.nodes, &slots(state, phase));
     }
 }

@@ -6,6 +6,7 @@ use crate::gpu::{Bound, Extent, Pass};
 use crate::scene::Scene;
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -61,7 +62,7 @@ impl TimeStep {
 
     /// Chooses dt and opens the step, if one is due.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("time_step");
+        pass.stage(Stage::TimeStep.name());
         // The listed form leaves its maxima first, the plain form adds to them.
         for kernel in self.gas.iter().rev() {
             pass.dispatch(kernel, &Extent::Groups([state.params.groups, 1, 1]));

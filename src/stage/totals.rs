@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::state::State;
 use crate::state::constants::Entry;
+use crate::state::stages::Stage;
 
 /// Kernels of the totals.
 #[derive(Debug)]
@@ -33,7 +34,7 @@ impl Totals {
 
     /// One record of the history ring, if a step has just ended.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        pass.stage("totals");
+        pass.stage(Stage::Totals.name());
         pass.dispatch(&self.gas, &extent(state, "END", Entry::Reduce));
         if let Some(particles) = &self.particles {
             pass.dispatch(particles, &extent(state, "END", Entry::Reduce));

@@ -4,11 +4,13 @@
 //! neighbouring threads share is taken to come from caches. A stage that reaches the device's bandwidth with these bytes
 //! cannot be made faster without moving less. The preconditioner's rows are left out: they follow the bodies' surface, not the grid.
 
+use crate::state::stages::Stage;
+
 /// Bytes that one stage moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Traffic {
-    /// Name of the stage.
-    pub stage: &'static str,
+    /// The stage.
+    pub stage: Stage,
     /// How often it moves them.
     pub per: Per,
     /// Bytes per slot in scenes without bodies.
@@ -34,43 +36,47 @@ pub enum Per {
     Substep,
 }
 
-const fn row(stage: &'static str, per: Per, slot: u32, slot_with_solids: u32, particle: u32) -> Traffic {
+const fn row(stage: Stage, per: Per, slot: u32, slot_with_solids: u32, particle: u32) -> Traffic {
     Traffic { stage, per, slot, slot_with_solids, slot_with_carrier: 0, slot_with_quadratic: 0, particle }
 }
 
-const fn carrier(stage: &'static str, slot_with_carrier: u32) -> Traffic {
+const fn carrier(stage: Stage, slot_with_carrier: u32) -> Traffic {
     Traffic { slot_with_carrier, ..row(stage, Per::Step, 0, 0, 0) }
 }
 
-const fn quadratic(stage: &'static str, per: Per, slot_with_quadratic: u32) -> Traffic {
+const fn quadratic(stage: Stage, per: Per, slot_with_quadratic: u32) -> Traffic {
     Traffic { slot_with_quadratic, ..row(stage, per, 0, 0, 0) }
 }
 
 /// The bytes of all stages; stages with several parts have several lines. Of the sort it is what one takes where it is due. Particle transfers are those of the gather form in
 /// 3D, whose nine colors each read and write the nodes.
-pub const TRAFFIC: [Traffic; 19] = [
-    row("time_step", Per::Step, 24, 0, 128),
-    row("particle_sort", Per::Step, 0, 16, 88),
-    row("particle_sort", Per::Substep, 0, 16, 88),
-    row("p2g", Per::Substep, 0, 640, 108),
-    row("interface", Per::Step, 0, 360, 264),
-    row("still", Per::Step, 20, 0, 0),
-    row("gas_advection", Per::Step, 116, 32, 0),
-    carrier("gas_advection", 96),
-    carrier("intermediate_pressure", 4),
-    row("intermediate_pressure", Per::Step, 84, 8, 0),
-    row("coupled_solve", Per::Step, 116, 216, 0),
+pub const TRAFFIC: [Traffic; 23] = [
+    row(Stage::TimeStep, Per::Step, 24, 0, 128),
+    row(Stage::ParticleSort, Per::Step, 0, 16, 88),
+    row(Stage::ParticleSort, Per::Substep, 0, 16, 88),
+    row(Stage::P2g, Per::Substep, 0, 640, 108),
+    row(Stage::Interface, Per::Step, 0, 360, 264),
+    row(Stage::ElasticForce, Per::Step, 0, 368, 68),
+    row(Stage::Still, Per::Step, 20, 0, 0),
+    row(Stage::GasAdvection, Per::Step, 116, 32, 0),
+    carrier(Stage::Carrier, 128),
+    carrier(Stage::IntermediatePressure, 4),
+    row(Stage::IntermediatePressure, Per::Step, 84, 8, 0),
+    row(Stage::SolidPredictor, Per::Step, 0, 176, 36),
+    row(Stage::ElasticReaction, Per::Step, 0, 104, 0),
+    row(Stage::CoupledSolve, Per::Step, 116, 0, 0),
     // The operator names kinds, direction, stiffness, node masses, product and diagonal; the vectors are direction, residual and
     // solution, to and fro, product and diagonal. With bodies residual and direction take a sweep each: 60.
-    row("coupled_solve", Per::Iteration, 56, 56, 0),
+    row(Stage::CoupledSolve, Per::Iteration, 56, 56, 0),
     // Forces and operator apart, with the nodes' velocities in between, and the vectors as with bodies.
-    quadratic("coupled_solve", Per::Iteration, 56),
-    row("fluid_update", Per::Step, 176, 32, 0),
-    carrier("fluid_update", 48),
-    row("mpm_grid_update", Per::Substep, 0, 52, 0),
-    row("g2p", Per::Substep, 0, 20, 288),
-    row("totals", Per::Step, 24, 20, 0),
-    row("totals", Per::Step, 0, 0, 128),
+    quadratic(Stage::CoupledSolve, Per::Iteration, 56),
+    row(Stage::FluidUpdate, Per::Step, 176, 32, 0),
+    carrier(Stage::FluidUpdate, 16),
+    row(Stage::SolidKick, Per::Step, 0, 304, 0),
+    row(Stage::MpmGridUpdate, Per::Substep, 0, 52, 0),
+    row(Stage::G2p, Per::Substep, 0, 20, 288),
+    row(Stage::Totals, Per::Step, 24, 20, 0),
+    row(Stage::Totals, Per::Step, 0, 0, 128),
 ];
 
 /// What the bytes of a run depend on: sizes, and sums over its steps.
@@ -95,10 +101,17 @@ pub struct Load {
 }
 
 /// Stages that leave out slots that sleep.
-const SLEEPING: [&str; 6] =
-    ["time_step", "still", "gas_advection", "intermediate_pressure", "coupled_solve", "fluid_update"];
+const SLEEPING: [Stage; 7] = [
+    Stage::TimeStep,
+    Stage::Still,
+    Stage::Carrier,
+    Stage::GasAdvection,
+    Stage::IntermediatePressure,
+    Stage::CoupledSolve,
+    Stage::FluidUpdate,
+];
 
-/// Bytes that a stage has moved in a run.
+/// Bytes that a stage has moved in a run, by its name.
 #[must_use]
 pub fn bytes(stage: &str, load: &Load) -> u64 {
     let solids = u64::from(load.particles > 0);
@@ -115,5 +128,5 @@ pub fn bytes(stage: &str, load: &Load) -> u64 {
         let slots = if SLEEPING.contains(&row.stage) { load.awake } else { load.slots };
         times * (slot * slots + u64::from(row.particle) * load.particles)
     };
-    TRAFFIC.iter().filter(|row| row.stage == stage).map(of_row).sum()
+    TRAFFIC.iter().filter(|row| row.stage.name() == stage).map(of_row).sum()
 }

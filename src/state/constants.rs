@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::stages::Stage;
 use crate::material;
 
 /// Cell kinds, low two bits of a cell word.
@@ -17,21 +18,6 @@ pub const GHOST: u32 = 3;
 pub const RULES: [&str; 6] = ["FIXED", "SUBSONIC", "TOTAL", "PRESSURE", "ATTENUATED", "FAR"];
 /// Lowest bit of the place of its rule in the word of a GHOST slot.
 pub const RULE_SHIFT: u32 = 16;
-
-/// Stage names in the order of a step; the position is the stage number in a fault.
-pub const STAGES: [&str; 11] = [
-    "time_step",
-    "particle_sort",
-    "p2g",
-    "interface",
-    "gas_advection",
-    "intermediate_pressure",
-    "coupled_solve",
-    "fluid_update",
-    "elastic_solve",
-    "mpm_grid_update",
-    "g2p",
-];
 
 /// Groups, at most, that leave one partial result each.
 pub const PARTIALS: u32 = 1024;
@@ -178,8 +164,8 @@ pub fn source() -> String {
             put(&format!("{prefix}_{name}"), value as u32);
         }
     }
-    for (value, name) in STAGES.iter().enumerate() {
-        put(&format!("STAGE_{}", name.to_uppercase()), value as u32);
+    for stage in Stage::ALL {
+        put(&format!("STAGE_{}", stage.name().to_uppercase()), *stage as u32);
     }
     for (value, name) in PHASES.iter().enumerate() {
         put(&format!("PHASE_{name}_EXTENTS"), (PHASE_WIDTH * value) as u32);

@@ -1,6 +1,6 @@
 //! The gas: conserved variables and the scratch space of advection and solve.
 
-use super::{Grid, Openings};
+use super::{Grid, Openings, arrays};
 use crate::error::Result;
 use crate::gpu::{Buffer, Gpu};
 use crate::scene::Scene;
@@ -8,11 +8,11 @@ use crate::scene::Scene;
 /// Buffers of the gas, in padded slots.
 #[derive(Debug)]
 pub struct GasState {
-    /// Density and momentum now; in SOLID slots owed gas, in GHOST and WALL slots what crosses the boundary in a step.
+    /// Density and momentum. What each array holds, part by part: [`arrays`].
     pub conserved: Buffer<[f32; 4]>,
-    /// Total energy per volume: now, then two scratch parts (stages of advection; cell pressure of the predictor); the kept states, the internal energy of the first, what the next solve starts from.
+    /// Total energy per volume, and further parts.
     pub energy: Buffer<f32>,
-    /// Two parts of scratch: stages of advection; forces of gas nodes and of solid nodes; the kept states.
+    /// What stages of a step hand on: parts of a vec4.
     pub work: Buffer<[f32; 4]>,
     /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\]; in GHOST and WALL slots what has crossed the boundary, per cell volume.
     /// Without bodies and obstacles only the slots of the ring have a place, in their order (`shaders/shared/books.wgsl`).
@@ -29,20 +29,15 @@ impl GasState {
     pub fn new(gpu: &Gpu, scene: &Scene, grid: &Grid, particles: usize) -> Result<Self> {
         let slots = grid.slots();
         let books = if ring_books(scene, particles > 0) { slots - grid.cell_count() } else { slots };
-        let kept = kept_states(scene);
+        let parts = |array: &str| arrays::parts(array, scene.solves() == 2) * slots;
         Ok(Self {
             conserved: Buffer::new(gpu, "conserved", slots)?,
-            energy: Buffer::new(gpu, "energy", (3 + 2 * kept) * slots)?,
-            work: Buffer::new(gpu, "work", (2 + kept) * slots)?,
+            energy: Buffer::new(gpu, "energy", parts("energy"))?,
+            work: Buffer::new(gpu, "work", parts("work"))?,
             owed_flow: Buffer::new(gpu, "owed_flow", books)?,
             owed_energy: Buffer::new(gpu, "owed_energy", books)?,
         })
     }
-}
-
-/// States beside the present one that outlive a solve: that at the start of the step, and what the first of two solves started from.
-pub(super) fn kept_states(scene: &Scene) -> usize {
-    if scene.solves() == 2 { 2 } else { 0 }
 }
 
 /// Whether only the ring has books: without bodies and obstacles nothing else collects gas.

@@ -14,9 +14,7 @@ pub struct Interface {
     pub fill: Buffer<[f32; 2]>,
     /// Vertex ghost pressure before the solve; its change after.
     pub ghost: Buffer<f32>,
-    /// Place of a vertex in the list of those that carry P, h and Q apart; then the list of slots that are not deep inside the
-    /// gas and, from the end, that of the frontier around them; then the lengths of both. Without solids the first part
-    /// holds the places of cut cells, and their table stands at the end. In between `Places`.
+    /// Places of vertices and lists of slots, part by part ([`super::arrays`]); then `Places`, and behind them the table of cut cells.
     pub extra: Buffer<u32>,
     /// Rows of blocks of columns of marching kernels in which something moves, now and in the step before; then scratch of as many words.
     /// Where nothing sleeps another buffer serves.

@@ -54,7 +54,7 @@ impl MemoryPlan {
         let places = super::interface::Places::new([0, 1, 2].map(padded), dimension, sleeps);
         let count = particles as u64;
         let solid = if particles == 0 { 1 } else { slots };
-        let kept = super::gas::kept_states(scene) as u64;
+        let parts = |array: &str| super::arrays::parts(array, scene.solves() == 2) as u64 * slots;
         let table = super::cut::WIDTH as u64 * cut_cells;
         let mut plan = Self {
             cells: scene.domain.cells.iter().map(|&n| u64::from(n)).product(),
@@ -62,8 +62,8 @@ impl MemoryPlan {
             cut_cells,
             buffers: Vec::new(),
         };
-        plan.add("gas", &[("conserved", slots, 16), ("work", (2 + kept) * slots, 16)]);
-        plan.add("gas", &[("energy", (3 + 2 * kept) * slots, 4)]);
+        plan.add("gas", &[("conserved", slots, 16), ("work", parts("work"), 16)]);
+        plan.add("gas", &[("energy", parts("energy"), 4)]);
         let books = if super::gas::ring_books(scene, particles > 0) { slots - plan.cells } else { slots };
         plan.add("gas", &[("owed_flow", books, 16), ("owed_energy", books, 4)]);
         plan.add("interface", &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4)]);

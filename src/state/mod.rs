@@ -1,5 +1,6 @@
 //! Buffers and their host mirrors; no algorithms. Here the scene meets the device.
 
+pub mod arrays;
 pub(crate) mod coarse;
 pub mod constants;
 pub mod control;
@@ -14,6 +15,7 @@ pub mod memory;
 pub mod openings;
 pub mod params;
 pub mod particles;
+pub mod stages;
 pub mod supports;
 pub(crate) mod surface;
 
@@ -299,8 +301,30 @@ impl State {
         kernel.bind(gpu, &buffers)
     }
 
-    /// The one list of names under which shaders know the state.
-    fn names(&self) -> Vec<(&str, &wgpu::Buffer)> {
+    /// A vector of the solve that another stage borrows, by the name of its binding there.
+    ///
+    /// # Panics
+    /// If [`arrays::USES`] has no such name: a bug of the caller.
+    pub(crate) fn lent(&self, name: &str) -> &wgpu::Buffer {
+        let named = self.names();
+        named.iter().find(|(known, _)| *known == name).expect("names of lent vectors are literals of this crate").1
+    }
+
+    /// The one list of names under which shaders know the state: arrays, and vectors that the solve lends.
+    fn names(&self) -> Vec<(&'static str, &wgpu::Buffer)> {
+        let mut named = self.arrays();
+        let own = |array: &str| named.iter().find(|(known, _)| *known == array).map(|(_, buffer)| *buffer);
+        let lent = |used: &arrays::Use| match used.name {
+            arrays::Name::Lent("busy") if self.sleeps() => Some(("busy", self.interface.busy.raw())),
+            arrays::Name::Lent(name) => own(used.array).map(|buffer| (name, buffer)),
+            _ => None,
+        };
+        let lent: Vec<_> = arrays::USES.iter().filter_map(lent).collect();
+        named.extend(lent);
+        named
+    }
+
+    fn arrays(&self) -> Vec<(&'static str, &wgpu::Buffer)> {
         vec![
             ("params", self.params_buffer.raw()),
             ("control", self.control.raw()),
@@ -319,7 +343,6 @@ impl State {
             ("fill", self.interface.fill.raw()),
             ("ghost", self.interface.ghost.raw()),
             ("extra", self.interface.extra.raw()),
-            ("busy", if self.sleeps() { self.interface.busy.raw() } else { self.pcg.product.raw() }),
             ("position", self.particles.position.raw()),
             ("velocity", self.particles.velocity.raw()),
             ("affine", self.particles.affine.raw()),

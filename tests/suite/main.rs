@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_macros)]
 
 mod analytic;
+mod arrays;
 mod bench;
 mod bits;
 mod books;
@@ -22,6 +23,7 @@ mod frames;
 mod fuzz;
 mod gallery;
 mod gauges;
+mod generated;
 mod gpu;
 mod hardware;
 mod images;

@@ -36,7 +36,7 @@ fn folder() -> PathBuf {
 }
 
 /// All shader files on disk: path below `shaders/`, text.
-fn files() -> BTreeMap<String, String> {
+pub(crate) fn files() -> BTreeMap<String, String> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder()];
     while let Some(path) = folders.pop() {

@@ -1,0 +1,44 @@
+//! Parts of files that follow from tables in Rust: they stand between two lines, and `scripts/generate` writes them.
+
+use std::path::Path;
+
+use brisance::state::{arrays, stages};
+
+/// File, table that it follows from, and the text.
+fn parts() -> Vec<(&'static str, &'static str, String)> {
+    vec![
+        ("shaders/shared/arrays.wgsl", "src/state/arrays.rs", arrays::constants()),
+        ("docs/inside/arrays.md", "src/state/arrays.rs", format!("\n{}\n", arrays::table())),
+        ("docs/method/overview.md", "src/state/stages.rs", format!("\n{}\n", stages::table())),
+    ]
+}
+
+/// The text of a file with a part of it written anew.
+fn with_part(text: &str, source: &str, part: &str) -> Option<String> {
+    let mark = format!("Generated from {source} by scripts/generate");
+    let start = text.find(&mark)? + text[text.find(&mark)?..].find('\n')? + 1;
+    let end = start + text[start..].find("End of what is generated")?;
+    let end = text[..end].rfind('\n')? + 1;
+    Some(format!("{}{part}{}", &text[..start], &text[end..]))
+}
+
+#[test]
+fn what_is_generated_is_up_to_date() {
+    let write = std::env::var_os("BRISANCE_GENERATE").is_some();
+    let mut failures = Vec::new();
+    for (name, source, part) in parts() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let wanted =
+            with_part(&text, source, &part).unwrap_or_else(|| panic!("{name}: no lines around a generated part"));
+        if text == wanted {
+            continue;
+        }
+        if write {
+            std::fs::write(&path, wanted).unwrap();
+        } else {
+            failures.push(name);
+        }
+    }
+    assert!(failures.is_empty(), "run scripts/generate: {failures:?} differ from their tables");
+}
