@@ -2,10 +2,10 @@
 #include "shared/params.wgsl"
 #include "shared/control.wgsl"
 #include "shared/extents.wgsl"
-#include "shared/pcg_result.wgsl"
+#include "shared/pcg.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
-@group(0) @binding(2) var<storage, read_write> pcg: PcgResult;
+@group(0) @binding(2) var<storage, read_write> pcg: Pcg;
 
 // A round that starts with more than this share of the imbalance of the one before (squared) is the last.
 const STILL = 0.5;

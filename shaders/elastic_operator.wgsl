@@ -8,7 +8,7 @@
 #include "shared/place.wgsl"
 #include "shared/matrix.wgsl"
 #include "shared/motion.wgsl"
-#include "shared/pcg_result.wgsl"
+#include "shared/pcg.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> position: array<vec4f>;
@@ -20,7 +20,7 @@
 @group(0) @binding(8) var<storage, read_write> product: array<vec4f>;
 @group(0) @binding(9) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(10) var<storage, read> solution: array<vec4f>;
-@group(0) @binding(11) var<storage, read> pcg: PcgResult;
+@group(0) @binding(11) var<storage, read> pcg: Pcg;
 
 fn grid_vector(slot: u32) -> vec3f { return direction[slot].xyz; }
 

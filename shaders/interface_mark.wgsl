@@ -10,7 +10,7 @@
 @group(0) @binding(2) var<storage, read> fill: array<vec2f>;
 @group(0) @binding(3) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(4) var<storage, read_write> wanted: array<u32>;  // volume of a wall; 1 where a vertex wants P, h, Q apart; then where a slot is mixed
-@group(0) @binding(5) var<storage, read> place: array<u32>;         // scan of wanted
+@group(0) @binding(5) var<storage, read> wanted_place: array<u32>;  // scan of wanted
 @group(0) @binding(6) var<storage, read_write> extra: array<atomic<u32>>;   // place in the extra block, or NO_EXTRA; then the lists
 @group(0) @binding(7) var<storage, read_write> control: Control;
 @group(0) @binding(8) var<storage, read_write> edge: array<u32>;    // 1 where a slot is not INTERIOR
@@ -171,13 +171,13 @@ fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     var at = NO_EXTRA;
-    if wanted[slot] == 1u { at = place[slot]; }
+    if wanted[slot] == 1u { at = wanted_place[slot]; }
     if at != NO_EXTRA && at >= params.extra_capacity {
         atomicMin(&control.fault, (STAGE_INTERFACE << 27u) | slot);
         at = NO_EXTRA;
     }
     atomicStore(&extra[slot], at);
-    if slot == params.slots - 1u { control.extra = place[slot] + wanted[slot]; }
+    if slot == params.slots - 1u { control.extra = wanted_place[slot] + wanted[slot]; }
 }
 
 // INTERIOR: every stencil of cell, node and vertex stays deep inside the gas. The nodes of the vertex have only gas around them,
@@ -234,8 +234,8 @@ fn interface_list(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     let interior = edge[slot] == 0u && !is_alias(cell_of(slot));
     let last = params.slots - 1u;
     if edge[slot] == 1u {
-        let first = place[last] + wanted[last];
-        let at = select(first + edge_place[slot] - place[slot], place[slot], wanted[slot] == 1u);
+        let first = wanted_place[last] + wanted[last];
+        let at = select(first + edge_place[slot] - wanted_place[slot], wanted_place[slot], wanted[slot] == 1u);
         atomicStore(&extra[part(LISTED_SLOTS, at)], slot);
     }
     if interior { cells[slot] = (cells[slot] & 0xffffu) | INTERIOR | reach_of(slot); }

@@ -8,35 +8,7 @@
 // other, as many lists as there are octets of lanes, so that a sum has the same terms in the same order whatever is left out.
 #include "shared/thread.wgsl"
 #include "shared/reduce4.wgsl"
-
-struct Pcg {
-    rho: f32,               // r . z, z the preconditioner times r
-    alpha: f32,
-    beta: f32,
-    reference: f32,         // c . D^-1 c of the full right-hand side c
-    tolerance: f32,
-    iterations: u32,
-    max_iterations: u32,
-    outcome: u32,           // PCG_RUNNING, PCG_CONVERGED, PCG_STALLED
-    length: u32,            // unknowns
-    listed_wide: u32,       // groups of kernels over a list that the caller keeps, x
-    listed_high: u32,       // and y
-    frontier_wide: u32,     // the same of a second list
-    frontier_high: u32,
-    groups_wide: u32,       // groups of the kernels with one thread per slot, x
-    groups_high: u32,       // and y
-    groups_partial: u32,    // groups of the kernels that leave partial sums
-    groups_block: u32,      // groups, at most as many, of the kernels of the block with a preconditioner of its own
-    size: f32,              // r . D^-1 r, and of the block r . z: what the tolerance looks at, levels or not
-    most: f32,              // a solve that begins with a larger size is not worth it: it ends with nothing done
-    levels: u32,            // coarse levels in use
-    joined: u32,            // 1 where the operator leaves q . D^-1 q and no block has a preconditioner of its own
-    runs: u32,              // place of the lists of runs in the binding `runs`, 0 without: where the runs of each octet begin, and the end of the
-                            // last; then per run its first unknown and, from bit 8 on, which of eight it has
-    apart: u32,             // first unknown that no run has
-    reference_at: u32,      // place of the partial sums for the reference, 0 if pcg_begin makes them from `product`
-    level_groups: array<u32, PCG_LEVELS>,   // groups, at most as many, of the kernels of each level, the finest first; 0 without
-}
+#include "shared/pcg.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> pcg: Pcg;
 @group(0) @binding(2) var<storage, read_write> solution: array<f32>;

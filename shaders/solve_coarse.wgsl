@@ -6,7 +6,7 @@
 #include "shared/thread.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/coarse.wgsl"
-#include "shared/pcg_result.wgsl"
+#include "shared/pcg.wgsl"
 
 @group(0) @binding(1) var<uniform> level: Level;
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
@@ -15,7 +15,7 @@
 @group(0) @binding(5) var<storage, read_write> levels: array<vec2f>;    // inverse diagonal; residual, then sum
 @group(0) @binding(6) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> direction: array<f32>;
-@group(0) @binding(8) var<storage, read> pcg: PcgResult;
+@group(0) @binding(8) var<storage, read> pcg: Pcg;
 
 // Unknowns that are not used have no residual.
 fn residual_at(slot: u32) -> f32 {

@@ -11,7 +11,7 @@
 #include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/coarse.wgsl"
-#include "shared/pcg_result.wgsl"
+#include "shared/pcg.wgsl"
 
 @group(0) @binding(1) var<uniform> level: Level;
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
@@ -22,7 +22,7 @@
 @group(0) @binding(7) var<storage, read_write> direction: array<f32>;
 @group(0) @binding(8) var<storage, read> stiffness: array<f32>;
 @group(0) @binding(10) var<storage, read> solution: array<f32>;         // row sums at listed slots
-@group(0) @binding(11) var<storage, read_write> pcg: PcgResult;
+@group(0) @binding(11) var<storage, read_write> pcg: Pcg;
 @group(0) @binding(12) var<storage, read_write> coarse_extents: array<vec4u>;
 @group(0) @binding(13) var<storage, read_write> control: Control;
 

@@ -1,7 +1,7 @@
 // coupled_solve, end: X = X* + D.
 #include "shared/params.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/pcg_result.wgsl"
+#include "shared/pcg.wgsl"
 #include "shared/thread.wgsl"
 #include "shared/runs.wgsl"
 
@@ -9,7 +9,7 @@
 @group(0) @binding(2) var<storage, read> extra: array<u32>;
 @group(0) @binding(5) var<storage, read> solution: array<f32>;
 @group(0) @binding(6) var<storage, read> direction: array<f32>;
-@group(0) @binding(7) var<storage, read> pcg: PcgResult;
+@group(0) @binding(7) var<storage, read> pcg: Pcg;
 
 fn add(i: u32) { pressure[i] += solution[i] + pcg.alpha * direction[i]; }
 

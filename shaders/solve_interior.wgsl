@@ -82,8 +82,8 @@ fn deep_slot(run: u32, thread: u32) -> RunSlot {
 @compute @workgroup_size(WORKGROUP)
 fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, lane);
-    if SLEEPS && thread / RUN_LANES >= extra[params.runs_at + octets()] { return; }
-    let own = deep_slot(thread / RUN_LANES, thread);
+    if SLEEPS && thread / OCTET >= extra[params.runs_at + octets()] { return; }
+    let own = deep_slot(thread / OCTET, thread);
     if !own.deep { return; }
     let scale = control.dt * face_area();
     y[own.slot] = scale * (divergence(own.slot) - scale * operator_at(own.slot, x[own.slot]));

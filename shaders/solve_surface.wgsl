@@ -35,7 +35,6 @@ const RESIDUAL = 1u;
 const DIRECTION = 2u;       // and the next one
 const VERTEX = 4u;
 const INVERSE = 5u;
-const COUPLINGS = 6u;
 
 fn before() -> u32 { return block_size() / 2u; }
 fn row_length() -> u32 { return COUPLINGS + before(); }

@@ -4,12 +4,12 @@
 #include "shared/arrays.wgsl"
 #include "shared/control.wgsl"
 #include "shared/extents.wgsl"
-#include "shared/pcg_result.wgsl"
+#include "shared/pcg.wgsl"
 
 override FILTER_COURANT: f32;   // cells that sound crosses at least in a step with the filter of odd_even.wgsl
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
-@group(0) @binding(2) var<storage, read_write> pcg: PcgResult;
+@group(0) @binding(2) var<storage, read_write> pcg: Pcg;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
 
 // Before the first step: lets the marks of the start run.
@@ -68,7 +68,7 @@ fn control_solved() {
 @compute @workgroup_size(1)
 fn control_awake() {
     open_awake(PHASE_BEGIN_EXTENTS);
-    let listed = groups_for(select(control.listed, RUN_LANES * control.list_runs, SLEEPS));
+    let listed = groups_for(select(control.listed, OCTET * control.list_runs, SLEEPS));
     pcg.listed_wide = listed.x;
     pcg.listed_high = listed.y;
 }

@@ -173,26 +173,26 @@ fn walk_on(walk: ptr<function, Walk>) {
 
 // First slot of a run.
 fn run_start(run: u32, walk: Walk) -> u32 {
-    if DIM == 1u { return RUN_LANES * run; }
-    return (walk.at.z * params.march + walk.at.y) * walk.columns + walk.at.x * RUN_LANES;
+    if DIM == 1u { return OCTET * run; }
+    return (walk.at.z * params.march + walk.at.y) * walk.columns + walk.at.x * OCTET;
 }
 
 // Slots of a run that are awake, as bits: in 1D some, else all or none.
 fn awake_slots(run: u32, walk: Walk) -> u32 {
     if DIM > 1u {
         let awake = (block_rows(walk.at.z * walk.across + walk.at.x) >> (16u + walk.at.y)) & 1u;
-        return awake * ((1u << min(RUN_LANES, walk.columns - walk.at.x * RUN_LANES)) - 1u);
+        return awake * ((1u << min(OCTET, walk.columns - walk.at.x * OCTET)) - 1u);
     }
     var bits = 0u;
-    for (var k = 0u; k < min(RUN_LANES, params.slots - RUN_LANES * run); k++) { bits |= u32(is_awake(RUN_LANES * run + k)) << k; }
+    for (var k = 0u; k < min(OCTET, params.slots - OCTET * run); k++) { bits |= u32(is_awake(OCTET * run + k)) << k; }
     return bits;
 }
 
 // The same of a run of the list.
 fn awake_listed(run: u32) -> u32 {
-    let first = RUN_LANES * run;
+    let first = OCTET * run;
     var bits = 0u;
-    for (var k = 0u; k < min(RUN_LANES, list_length() - first); k++) { bits |= u32(is_awake(extra[part(LISTED_SLOTS, first + k)])) << k; }
+    for (var k = 0u; k < min(OCTET, list_length() - first); k++) { bits |= u32(is_awake(extra[part(LISTED_SLOTS, first + k)])) << k; }
     return bits;
 }
 
@@ -258,7 +258,7 @@ fn still_list(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
         walk_on(&walk);
         if awake == 0u { continue; }
         var deep = 0u;
-        for (var k = 0u; k < RUN_LANES; k++) { deep |= u32(has(cells[min(first + k, params.slots - 1u)], INTERIOR)) << k; }
+        for (var k = 0u; k < OCTET; k++) { deep |= u32(has(cells[min(first + k, params.slots - 1u)], INTERIOR)) << k; }
         extra[at] = first;
         extra[at + 1u] = (deep & awake) | (awake << 8u);
         at += 2u;

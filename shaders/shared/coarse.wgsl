@@ -14,8 +14,6 @@ struct Grid {
 // A level with all its spaces, and the one below it; `number` 1 is the finest coarse level.
 struct Level { own: array<Grid, SPACES>, below: array<Grid, SPACES>, length: u32, number: u32 }
 
-const SPACES = 4u;
-
 // Threads of the kernels of a level. Needs the binding pcg.
 fn level_threads(number: u32) -> u32 { return pcg.level_groups[number] * WORKGROUP; }
 

@@ -20,8 +20,8 @@ fn surface_groups() -> vec4u {
 // Opens the dispatches over slots that are awake in a phase that is open.
 fn open_awake(first: u32) {
     let keep = extents[first + EXTENT_SINGLE].x;
-    extents[first + EXTENT_AWAKE] = groups_for(select(params.slots, RUN_LANES * control.runs, SLEEPS)) * keep;
-    extents[first + EXTENT_LIST_AWAKE] = groups_for(select(control.listed, RUN_LANES * control.list_runs, SLEEPS)) * keep;
+    extents[first + EXTENT_AWAKE] = groups_for(select(params.slots, OCTET * control.runs, SLEEPS)) * keep;
+    extents[first + EXTENT_LIST_AWAKE] = groups_for(select(control.listed, OCTET * control.list_runs, SLEEPS)) * keep;
 }
 
 // Switches the dispatches of one phase on or off. Needs the binding control.

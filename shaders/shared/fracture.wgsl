@@ -16,13 +16,10 @@ const END_OF_TAIL = 0.999;
 
 fn can_break(m: MaterialParams) -> bool { return FRACTURE && m.tensile_strength > 0.0; }
 
-// Units of the factor that scatters strength, in one.
-const STRENGTH_UNIT = 8192.0;
-
 // Strength of a particle: the material's times the factor in the high half of the particle's word, 0 for none.
 fn strength_of(m: MaterialParams, word: f32) -> f32 {
     let factor = bitcast<u32>(word) >> 16u;
-    return m.tensile_strength * select(f32(factor) / STRENGTH_UNIT, 1.0, factor == 0u);
+    return m.tensile_strength * select(f32(factor) / f32(STRENGTH_UNIT), 1.0, factor == 0u);
 }
 
 fn ratio_of(m: MaterialParams, strength: f32) -> f32 { return max(m.toughness / (strength * strength), LEAST_RATIO); }

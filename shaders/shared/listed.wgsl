@@ -15,11 +15,11 @@ fn every_slot(thread: u32) -> u32 {
 }
 
 fn listed_in(run: u32, thread: u32) -> u32 {
-    let lane = thread % RUN_LANES;
-    if !SLEEPS { return every_slot(RUN_LANES * run + lane); }
+    let lane = thread % OCTET;
+    if !SLEEPS { return every_slot(OCTET * run + lane); }
     let word = extra[params.list_runs_at + octets() + 1u + run];
     if ((word >> lane) & 1u) == 0u { return params.slots; }
-    return extra[part(LISTED_SLOTS, (word >> 8u) * RUN_LANES + lane)];
+    return extra[part(LISTED_SLOTS, (word >> 8u) * OCTET + lane)];
 }
 
 // Slot that a lane of a thread has in a run, of slots deep inside the gas or of the list; the number of slots if it has none.
@@ -37,7 +37,7 @@ fn listed_runs(thread: u32) -> Runs {
 
 // Threads that have a slot, or find that they have none.
 fn awake_threads() -> u32 {
-    if SLEEPS { return RUN_LANES * extra[select(params.runs_at, params.list_runs_at, LISTED) + octets()]; }
+    if SLEEPS { return OCTET * extra[select(params.runs_at, params.list_runs_at, LISTED) + octets()]; }
     if LISTED { return list_length(); }
     return params.slots;
 }
@@ -46,7 +46,7 @@ fn awake_threads() -> u32 {
 fn listed_slot(thread: u32) -> u32 {
     if !SLEEPS { return every_slot(thread); }
     if thread >= awake_threads() { return params.slots; }
-    return slot_in(thread / RUN_LANES, thread);
+    return slot_in(thread / OCTET, thread);
 }
 
 // The same for kernels that have something to do in all listed slots: walls bear the pressure of gas that sleeps, too.

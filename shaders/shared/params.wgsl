@@ -1,4 +1,4 @@
-// What one run fixes: grid, gas, limits, switches. Mirror of src/state/params.rs (Params).
+// What one run fixes: grid, gas, limits, switches.
 // The dimension and the switches of the method are pipeline overrides, so that a switched-off branch costs nothing.
 
 override DIM: u32;
@@ -26,44 +26,46 @@ override SLEEPS: bool;          // gas that nothing reaches in a step may be lef
 override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
 override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE
 
+// Generated from src/state/params.rs by scripts/generate.
 struct Params {
-    cells: vec3u,               // cells per axis, 1 on inactive axes
-    slots: u32,                 // length of every cell, node and vertex array
-    stride: vec3u,              // cells plus the ring on active axes
-    particles: u32,
-    origin: vec3f,              // [m] low corner of the domain
-    spacing: f32,               // [m] cell edge
-    gravity: vec3f,             // [m s^-2]
-    gamma: f32,                 // ratio of specific heats
-    ambient_density: f32,       // [kg m^-3]
-    ambient_pressure: f32,      // [Pa]
-    cfl: f32,
-    max_courant: f32,           // cap of c dt / dx
-    max_growth: f32,            // cap of dt / previous dt
-    fixed_step: f32,            // [s] 0 = from the bounds
-    elastic_cfl: f32,
-    solid_threshold: f32,       // share of a cell that makes it solid
-    mass_floor: f32,            // [kg] least node mass that the pressure solve sees, of the heaviest body
-    tolerance: f32,             // of the solve, relative
-    extra_capacity: u32,        // vertices that may carry P, h and Q apart
-    max_iterations: u32,
-    probes: u32,
-    history: u32,               // steps that the history ring holds
-    bodies: u32,
-    max_substeps: u32,
-    groups: u32,                // groups that leave partial results
-    march: u32,                 // slots that one thread of a marching kernel takes, along the last axis
-    wall_sides: u32,            // sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
-    blending: u32,              // 1: faces of partly filled cells are blocked by their share
+    cells: vec3u,               // Cells per axis, 1 on inactive axes
+    slots: u32,                 // Length of every cell, node and vertex array
+    stride: vec3u,              // Cells per axis with the ring
+    particles: u32,             // Particles
+    origin: vec3f,              // Low corner of the domain [m]
+    spacing: f32,               // Cell edge [m]
+    gravity: vec3f,             // Gravity [m s^-2]
+    gamma: f32,                 // Ratio of specific heats
+    ambient_density: f32,       // Ambient density [kg m^-3]
+    ambient_pressure: f32,      // Ambient pressure [Pa]
+    cfl: f32,                   // Courant number of the material velocity
+    max_courant: f32,           // Cap of c dt / dx
+    max_growth: f32,            // Cap of dt over the previous dt
+    fixed_step: f32,            // Fixed step [s], 0 for none
+    elastic_cfl: f32,           // Courant number of the elastic sub-steps
+    solid_threshold: f32,       // Share of a cell that makes it solid
+    mass_floor: f32,            // Least node mass that the pressure solve sees [kg]
+    tolerance: f32,             // Relative tolerance of the solve
+    extra_capacity: u32,        // Vertices that may carry P, h and Q apart
+    max_iterations: u32,        // Iterations after which a solve counts as stalled
+    probes: u32,                // Probes
+    history: u32,               // Steps that the history ring holds
+    bodies: u32,                // Bodies
+    max_substeps: u32,          // Largest number of sub-steps of one step
+    groups: u32,                // Groups that leave partial results
+    march: u32,                 // Slots that one thread of a marching kernel takes one after the other, along the last axis
+    wall_sides: u32,            // Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
+    blending: u32,              // 1 if faces of partly filled cells are blocked by their share
     least_entropy: f32,         // p / rho^gamma that no gas falls below
-    surface_rows: u32,          // vertices whose interface pressure has a row in the preconditioner
-    still: u32,                 // what is left out where nothing moves: STILL_NONE, STILL_ADVECTION, STILL_ASLEEP
-    runs_at: u32,               // place of the runs of slots that are awake, in the buffer extra
-    still_at: u32,              // place of the rows of blocks there
-    table_at: u32,              // place of the table of cut cells there
-    list_runs_at: u32,          // place of the runs of the list there
-    scan: array<vec4u, SCAN_DISPATCHES>,    // groups of each dispatch of a prefix sum over all slots
+    surface_rows: u32,          // Vertices whose interface pressure has a row in the preconditioner
+    still: u32,                 // What is left out where nothing moves, with the same result: STILL_NONE, STILL_ADVECTION, STILL_ASLEEP
+    runs_at: u32,               // Place of the runs of slots that are awake in super::Interface::extra
+    still_at: u32,              // Place of the rows of blocks there
+    table_at: u32,              // Place of the table of cut cells there
+    list_runs_at: u32,          // Place of the runs of the list there
+    scan: array<vec4u, SCAN_DISPATCHES>, // Groups of each dispatch of a prefix sum over all slots and one more
 }
+// End of what is generated.
 
 @group(0) @binding(0) var<uniform> params: Params;
 

@@ -11,15 +11,15 @@
 fn list_length() -> u32 { return extra[part(LENGTHS, LENGTH_LISTED)]; }
 
 // Runs that so many slots take.
-fn runs_over(slots: u32) -> u32 { return (slots + RUN_LANES - 1u) / RUN_LANES; }
+fn runs_over(slots: u32) -> u32 { return (slots + OCTET - 1u) / OCTET; }
 
-fn octets() -> u32 { return RUN_LANES * params.groups; }
+fn octets() -> u32 { return OCTET * params.groups; }
 
 // Runs of an octet of threads: the first one, one beyond the last, and the step from one to the next.
 struct Runs { first: u32, end: u32, step: u32 }
 
 fn octet_runs(table: u32, thread: u32, all: u32) -> Runs {
-    let octet = thread / RUN_LANES;
+    let octet = thread / OCTET;
     if !SLEEPS { return Runs(octet, runs_over(all), octets()); }
     return Runs(extra[table + octet], extra[table + octet + 1u], 1u);
 }
@@ -30,9 +30,9 @@ fn runs_of(thread: u32) -> Runs { return octet_runs(params.runs_at, thread, para
 struct RunSlot { slot: u32, deep: bool, any: bool }
 
 fn run_slot(run: u32, thread: u32) -> RunSlot {
-    let lane = thread % RUN_LANES;
+    let lane = thread % OCTET;
     if !SLEEPS {
-        let slot = RUN_LANES * run + lane;
+        let slot = OCTET * run + lane;
         return RunSlot(slot, slot < params.slots, slot < params.slots);
     }
     let at = params.runs_at + octets() + 1u + 2u * run;

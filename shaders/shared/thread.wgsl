@@ -27,5 +27,3 @@ fn octet_index(workgroup: vec3u, local: u32, threads: u32) -> u32 {
     if first >= all { return first * WORKGROUP + local; }
     return OCTET * (local / OCTET * all + first) + local % OCTET;
 }
-
-const OCTET = 8u;

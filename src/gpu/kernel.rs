@@ -14,6 +14,9 @@ use crate::error::{Error, Result};
 /// Threads of a workgroup, flat along x; every shader sees it as `const WORKGROUP`.
 pub const WORKGROUP: u32 = 64;
 
+/// Neighbouring threads that take slots next to each other: on a CPU as many as one instruction; every shader sees it as `const OCTET`.
+pub const OCTET: u32 = 8;
+
 /// Workgroups along one axis at most, on every device; every shader sees it as `const MAX_GROUPS`.
 pub const MAX_GROUPS: u32 = 65_535;
 

@@ -16,13 +16,14 @@ pub mod readback;
 mod reflect;
 mod shader;
 mod sources;
+pub mod structure;
 mod written;
 
 pub use adapters::AdapterSummary;
 pub use allocations::{Allocation, watched};
 pub use buffer::Buffer;
 pub use device::{Gpu, GpuOptions, Settings};
-pub use kernel::{Bound, Constants, Extent, Kernel, MAX_GROUPS, WORKGROUP, group_counts};
+pub use kernel::{Bound, Constants, Extent, Kernel, MAX_GROUPS, OCTET, WORKGROUP, group_counts};
 pub use pass::{Detail, Pass, Times, add_time};
 pub use reflect::{Access, Binding, Compiled, MAX_STORAGE_BUFFERS};
 pub use shader::{Folder, Shader};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use wgpu::naga;
 
-use super::kernel::{MAX_GROUPS, WORKGROUP};
+use super::kernel::{MAX_GROUPS, OCTET, WORKGROUP};
 use super::reflect::Compiled;
 use super::sources::SOURCES;
 use crate::error::{Error, Result};
@@ -60,13 +60,14 @@ const INJECTED: &str = "<constants>";
 
 impl Shader {
     /// Reads a shader, replaces each `#include "path"` by the file (once per shader) and puts `constants` on top, after the
-    /// `const WORKGROUP` and `MAX_GROUPS` that all shaders see. The constants may include files too.
+    /// `const WORKGROUP`, `MAX_GROUPS` and `OCTET` that all shaders see. The constants may include files too.
     ///
     /// # Errors
     /// [`Error::Shader`] for an unknown file, a malformed directive or a cycle, with the file and line of the include.
     pub fn load(name: &str, constants: &str, folder: &Folder) -> Result<Shader> {
-        let injected =
-            format!("const WORKGROUP: u32 = {WORKGROUP}u; const MAX_GROUPS: u32 = {MAX_GROUPS}u;\n{constants}");
+        let injected = format!(
+            "const WORKGROUP: u32 = {WORKGROUP}u; const MAX_GROUPS: u32 = {MAX_GROUPS}u; const OCTET: u32 = {OCTET}u;\n{constants}"
+        );
         let mut joiner = Joiner { folder, files: Vec::new(), open: Vec::new(), head: Vec::new(), body: Vec::new() };
         joiner.join(INJECTED, &injected)?;
         joiner.join(name, &folder.text(name)?)?;

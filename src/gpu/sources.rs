@@ -106,7 +106,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/opening.wgsl",
     "shared/params.wgsl",
     "shared/parting.wgsl",
-    "shared/pcg_result.wgsl",
+    "shared/pcg.wgsl",
     "shared/place.wgsl",
     "shared/reconstruct.wgsl",
     "shared/reduce.wgsl",

@@ -8,21 +8,24 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::error::Result;
+use crate::gpu::structure::structure;
 use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP, group_counts};
-
-/// WGSL constants of this method.
-const SOURCE: &str = "const PCG_RUNNING = 0u;\nconst PCG_CONVERGED = 1u;\nconst PCG_STALLED = 2u;\n\
-                      const PCG_SLOTS = 0u;\nconst PCG_PARTIAL = 1u;\nconst PCG_SINGLE = 2u;\nconst PCG_LISTED = 3u;\n\
-                      const PCG_FRONTIER = 4u;\nconst PCG_BLOCK = 5u;\nconst PCG_APART = 6u;\nconst PCG_JOINED = 7u;\n\
-                      const PCG_LEVEL = 8u;\nconst PCG_LEVELS = 12u;\n";
 
 /// Levels at most, the finest included.
 pub const LEVELS: usize = 12;
-/// Entries of residual and direction, one after the other or at once.
+use self::LEVELS as PCG_LEVELS;
+/// Entries of the group counts of an iteration, from 0; the last is that of the finest level.
+const ENTRIES: [&str; 9] = ["SLOTS", "PARTIAL", "SINGLE", "LISTED", "FRONTIER", "BLOCK", "APART", "JOINED", "LEVEL"];
+/// One group.
+const SINGLE: u64 = 2;
+/// The block of a preconditioner of its own.
+const BLOCK: u64 = 5;
+/// Residual and direction, one after the other or at once.
 const APART: u64 = 6;
 const JOINED: u64 = 7;
-/// Entry of the finest level in the group counts of an iteration.
 const LEVEL: u64 = 8;
+/// What a solve may have come to, from 0.
+const OUTCOMES: [&str; 3] = ["RUNNING", "CONVERGED", "STALLED"];
 /// Numbers of the group counts of an iteration.
 pub(crate) const EXTENTS: usize = 4 * (LEVEL as usize + LEVELS);
 
@@ -57,60 +60,62 @@ impl PcgVectors {
     }
 }
 
-/// Mirror of `Pcg` in `shaders/linear_algebra.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-pub struct PcgControl {
-    /// r . z, z the preconditioner times r.
-    pub rho: f32,
-    /// Step length.
-    pub alpha: f32,
-    /// Weight of the old direction.
-    pub beta: f32,
-    /// Squared norm that the tolerance refers to.
-    pub reference: f32,
-    /// Relative tolerance.
-    pub tolerance: f32,
-    /// Iterations so far.
-    pub iterations: u32,
-    /// Iterations after which the solve counts as stalled.
-    pub max_iterations: u32,
-    /// 0 running, 1 converged, 2 stalled.
-    pub outcome: u32,
-    /// Unknowns.
-    pub length: u32,
-    /// Groups of kernels over a list that the caller keeps, x.
-    pub listed_wide: u32,
-    /// The same, y.
-    pub listed_high: u32,
-    /// Groups of kernels over a second list, x.
-    pub frontier_wide: u32,
-    /// The same, y.
-    pub frontier_high: u32,
-    /// Groups of the kernels with one thread per slot, x.
-    pub groups_wide: u32,
-    /// The same, y.
-    pub groups_high: u32,
-    /// Groups of the kernels that leave partial sums.
-    pub groups_partial: u32,
-    /// Groups, at most as many, of the kernels of [`Block`].
-    pub groups_block: u32,
-    /// r . D^-1 r, and r . z of [`Block`]: what the tolerance looks at.
-    pub size: f32,
-    /// A solve that begins with a larger one is not worth it: it ends with nothing done.
-    pub most: f32,
-    /// Coarse levels in use.
-    pub levels: u32,
-    /// 1 for [`Dots::Both`].
-    pub joined: u32,
-    /// [`Runs::at`], 0 without runs.
-    pub runs: u32,
-    /// [`Runs::apart`], 0 without runs.
-    pub apart: u32,
-    /// [`Layout::reference_at`].
-    pub reference_at: u32,
-    /// Groups, at most as many as leave partial sums, of the kernels of each of [`Levels`], the finest first; 0 without.
-    pub level_groups: [u32; LEVELS],
+structure! {
+    /// Scalars of a solve.
+    #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+    PcgControl as "Pcg" {
+        /// r . z, z the preconditioner times r.
+        rho: f32,
+        /// Step length.
+        alpha: f32,
+        /// Weight of the old direction.
+        beta: f32,
+        /// Squared norm that the tolerance refers to.
+        reference: f32,
+        /// Relative tolerance.
+        tolerance: f32,
+        /// Iterations so far.
+        iterations: u32,
+        /// Iterations after which the solve counts as stalled.
+        max_iterations: u32,
+        /// PCG_RUNNING, PCG_CONVERGED, PCG_STALLED.
+        outcome: u32,
+        /// Unknowns.
+        length: u32,
+        /// Groups of kernels over a list that the caller keeps, x.
+        listed_wide: u32,
+        /// The same, y.
+        listed_high: u32,
+        /// Groups of kernels over a second list, x.
+        frontier_wide: u32,
+        /// The same, y.
+        frontier_high: u32,
+        /// Groups of the kernels with one thread per slot, x.
+        groups_wide: u32,
+        /// The same, y.
+        groups_high: u32,
+        /// Groups of the kernels that leave partial sums.
+        groups_partial: u32,
+        /// Groups, at most as many, of the kernels of [`Block`].
+        groups_block: u32,
+        /// r . D^-1 r, and r . z of [`Block`]: what the tolerance looks at.
+        size: f32,
+        /// A solve that begins with a larger one is not worth it: it ends with nothing done.
+        most: f32,
+        /// Coarse levels in use.
+        levels: u32,
+        /// 1 for [`Dots::Both`].
+        joined: u32,
+        /// Place of the lists of runs in the binding `runs`, 0 without: where the runs of each octet begin, and the end of the last; then per
+        /// run its first unknown and, from bit 8 on, which of eight it has.
+        runs: u32,
+        /// First unknown that no run has, 0 without runs.
+        apart: u32,
+        /// Place of the partial sums for the reference, 0 if `pcg_begin` makes them from `product`.
+        reference_at: u32,
+        /// Groups, at most as many as leave partial sums, of the kernels of each level, the finest first; 0 without.
+        level_groups: [u32; PCG_LEVELS],
+    }
 }
 
 /// The iteration.
@@ -267,8 +272,10 @@ impl Pcg {
             ("pcg_extents", extents.raw()),
             ("runs", layout.runs.map_or(extents.raw(), |runs| runs.words.raw())),
         ];
+        let constants = source();
         let bound = |entry: &str| -> Result<Bound> {
-            let kernel = Kernel::new(gpu, "linear_algebra.wgsl", entry, &Constants { overrides: &[], source: SOURCE })?;
+            let constants = Constants { overrides: &[], source: &constants };
+            let kernel = Kernel::new(gpu, "linear_algebra.wgsl", entry, &constants)?;
             let used = |name: &str| kernel.bindings().iter().any(|binding| binding.name == name);
             let buffers: Vec<_> = named.iter().copied().filter(|(name, _)| used(name)).collect();
             kernel.bind(gpu, &buffers)
@@ -322,7 +329,7 @@ impl Pcg {
         for (kernel, width) in operator {
             pass.dispatch(kernel, &extent(*width as u64));
         }
-        pass.dispatch(&self.alpha, &extent(2));
+        pass.dispatch(&self.alpha, &extent(SINGLE));
         if let Some(step) = &self.step {
             pass.dispatch(step, &extent(JOINED));
         }
@@ -331,7 +338,7 @@ impl Pcg {
             pass.dispatch(&self.update, &extent(APART));
         }
         for term in &block.terms {
-            pass.dispatch(term, &extent(5));
+            pass.dispatch(term, &extent(BLOCK));
         }
         levels.record_down(pass, &self.extents, LEVEL);
         pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
@@ -339,7 +346,7 @@ impl Pcg {
             pass.dispatch(&self.direction, &extent(APART));
         }
         if let Some(direction) = block.direction {
-            pass.dispatch(direction, &extent(5));
+            pass.dispatch(direction, &extent(BLOCK));
         }
         levels.record_up(pass, &self.extents, LEVEL);
     }
@@ -347,6 +354,9 @@ impl Pcg {
 
 /// WGSL constants that other shaders need to read the outcome of a solve.
 #[must_use]
-pub fn source() -> &'static str {
-    SOURCE
+pub fn source() -> String {
+    let counted = OUTCOMES.iter().enumerate().chain(ENTRIES.iter().enumerate());
+    let mut text: String = counted.map(|(value, name)| format!("const PCG_{name} = {value}u;\n")).collect();
+    text.push_str(&format!("const PCG_LEVELS = {LEVELS}u;\n"));
+    text
 }

@@ -62,7 +62,7 @@ impl InterfaceStage {
         };
         Ok(Self {
             flags: mark("interface_flags")?,
-            scan: scan("wanted", "place")?,
+            scan: scan("wanted", "wanted_place")?,
             edge: mark("interface_edge")?,
             edge_scan: scan("edge", "edge_place")?,
             list: mark("interface_list")?,

@@ -6,7 +6,7 @@ use Stage::{
     Carrier, CoupledSolve, ElasticForce, ElasticReaction, ElasticSolve, FluidUpdate, G2p, GasAdvection, Interface,
     IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, SolidKick, SolidPredictor, Still, TimeStep,
 };
-use When::{At, Next, Substep};
+use When::{At, Next, Second, Substep};
 
 use super::stages::Stage;
 
@@ -19,6 +19,8 @@ pub use text::{constants, table};
 pub enum When {
     /// A stage of the step.
     At(Stage),
+    /// A stage of the second of two solves per step, after `fluid_update` of the first.
+    Second(Stage),
     /// A stage of an elastic sub-step, between `solid_kick` and what follows the sub-steps.
     Substep(Stage),
     /// A stage of the next step.
@@ -33,9 +35,11 @@ impl When {
     #[must_use]
     pub fn order(self) -> u32 {
         match self {
-            At(stage) if stage <= SolidKick => stage as u32,
-            Substep(stage) => STEP / 4 + stage as u32,
-            At(stage) => STEP / 2 + stage as u32,
+            At(stage) if stage <= FluidUpdate => stage as u32,
+            Second(stage) => STEP / 5 + stage as u32,
+            At(stage) if stage == SolidKick => 2 * STEP / 5 + stage as u32,
+            Substep(stage) => 3 * STEP / 5 + stage as u32,
+            At(stage) => 4 * STEP / 5 + stage as u32,
             Next(stage) => STEP + At(stage).order(),
         }
     }
@@ -43,6 +47,7 @@ impl When {
     fn text(self) -> String {
         match self {
             At(stage) => format!("`{}`", stage.name()),
+            Second(stage) => format!("`{}` of the second solve", stage.name()),
             Substep(stage) => format!("`{}` of sub-steps", stage.name()),
             Next(stage) => format!("`{}` of the next step", stage.name()),
         }
@@ -217,13 +222,13 @@ pub const USES: &[Use] = &[
         "u0 of open faces").at(Slots::Ring).in_place(),
     Use::new("energy", Name::Part(2, "OPEN_VELOCITY"), (At(FluidUpdate), Next(Carrier)), "m s^-1",
         "the same, for the carrier").at(Slots::Ring).of(Scenes::Gas),
-    Use::new("energy", Name::Part(3, "START_ENERGY"), (At(GasAdvection), At(FluidUpdate)), "J m^-3",
+    Use::new("energy", Name::Part(3, "START_ENERGY"), (At(GasAdvection), Second(GasAdvection)), "J m^-3",
         "at the start of the step").of(Scenes::TwoSolves),
-    Use::new("energy", Name::Part(4, "KEPT_ENERGY"), (At(GasAdvection), At(FluidUpdate)), "J m^-3",
+    Use::new("energy", Name::Part(4, "KEPT_ENERGY"), (At(GasAdvection), Second(GasAdvection)), "J m^-3",
         "what the first solve started from").of(Scenes::TwoSolves),
-    Use::new("energy", Name::Part(5, "START_HEAT"), (At(GasAdvection), At(FluidUpdate)), "J m^-3",
+    Use::new("energy", Name::Part(5, "START_HEAT"), (At(GasAdvection), Second(FluidUpdate)), "J m^-3",
         "internal energy at the start of the step").of(Scenes::TwoSolves),
-    Use::new("energy", Name::Part(6, "COLD_ENERGY"), (At(GasAdvection), At(IntermediatePressure)), "J m^-3",
+    Use::new("energy", Name::Part(6, "COLD_ENERGY"), (At(GasAdvection), Second(IntermediatePressure)), "J m^-3",
         "what the next solve starts from, without the part that it carries").of(Scenes::TwoSolves),
     Use::new("work", Name::Part(0, "HANDED_FLOW"), (At(Interface), At(Interface)), "kg, kg m s^-1",
         "mass and momentum that the ledger hands on to each receiver").of(Scenes::Bodies),
@@ -249,9 +254,9 @@ pub const USES: &[Use] = &[
         "elastic force; w: where something breaks mass times driver").of(Scenes::Explicit),
     Use::new("work", Name::Part(1, "ELASTIC_FORCE"), (At(ElasticSolve), At(ElasticSolve)), "N",
         "elastic force, or that of a change of the stress").of(Scenes::Implicit),
-    Use::new("work", Name::Part(2, "START_FLOW"), (At(GasAdvection), At(FluidUpdate)), "kg m^-3, kg m^-2 s^-1",
+    Use::new("work", Name::Part(2, "START_FLOW"), (At(GasAdvection), Second(GasAdvection)), "kg m^-3, kg m^-2 s^-1",
         "at the start of the step").of(Scenes::TwoSolves),
-    Use::new("work", Name::Part(3, "KEPT_FLOW"), (At(GasAdvection), At(FluidUpdate)), "kg m^-3, kg m^-2 s^-1",
+    Use::new("work", Name::Part(3, "KEPT_FLOW"), (At(GasAdvection), Second(GasAdvection)), "kg m^-3, kg m^-2 s^-1",
         "what the first solve started from").of(Scenes::TwoSolves),
     Use::new("node", Name::Array, (At(P2g), At(G2p)), "m s^-1, kg",
         "velocity and mass of solid nodes; after `mpm_grid_update`, where something breaks, w: driver").of(Scenes::Bodies),
@@ -313,7 +318,7 @@ pub const USES: &[Use] = &[
     Use::new("residual", Name::Part(1, "APART"), (At(IntermediatePressure), At(CoupledSolve)), "m^3", "of h, then of Q"),
     Use::new("direction", Name::Lent("edge"), (At(Interface), At(Interface)), "", "1 where a slot is not deep inside the gas"),
     Use::new("direction", Name::First, (At(CoupledSolve), At(CoupledSolve)), "Pa", "of the search"),
-    Use::new("product", Name::Lent("place"), (At(Interface), At(Interface)), "", "prefix sum of `wanted`"),
+    Use::new("product", Name::Lent("wanted_place"), (At(Interface), At(Interface)), "", "prefix sum of `wanted`"),
     Use::new("product", Name::Lent("busy"), (At(Still), At(Still)), "", "rows in which something moves, where all is computed"),
     Use::new("product", Name::Lent("theta"), (At(GasAdvection), At(GasAdvection)), "",
         "share of the high-order flux that a cell allows"),

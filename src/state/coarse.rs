@@ -38,7 +38,7 @@ pub(crate) struct Level {
 /// Axes that the spaces coarsen: hat functions all, those that alternate along two axes these two. In 2D the first two.
 const COARSENS: [[u32; 3]; SPACES] = [[1, 1, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]];
 /// Spaces at most.
-const SPACES: usize = 4;
+pub(super) const SPACES: usize = 4;
 /// Vertices along the shortest axis that are not worth a coarser level.
 const FEWEST: u32 = 4;
 /// Numbers of the table of group counts before the first iteration: nodes, listed slots, all unknowns, levels.

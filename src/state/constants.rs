@@ -16,6 +16,8 @@ pub const GHOST: u32 = 3;
 
 /// What a rule prescribes beyond a side; the position is the number on the device.
 pub const RULES: [&str; 6] = ["FIXED", "SUBSONIC", "TOTAL", "PRESSURE", "ATTENUATED", "FAR"];
+/// Which pressures a vertex between gas and body has, see [`crate::scene::InterfacePressure`].
+pub const INTERFACES: [&str; 3] = ["RESOLVED", "H", "SINGLE"];
 /// Lowest bit of the place of its rule in the word of a GHOST slot.
 pub const RULE_SHIFT: u32 = 16;
 
@@ -35,12 +37,10 @@ pub const NO_FAULT: u32 = u32::MAX;
 pub const SCAN_DISPATCHES: usize = 6;
 /// Columns of a marching kernel that are still together: as many as one instruction of a CPU takes, or a part of a GPU's.
 pub const STILL_BLOCK: u32 = 8;
-/// Slots of a run that a thread's neighbours take with it.
-pub const RUN_LANES: u32 = 8;
 /// Iterations that the solve may take while some slots sleep; a longer one wakes them: after few in the step before, and after more.
 pub const REACHES: [u32; 2] = [4, 8];
 /// Entries of a phase in the table of extents.
-pub const PHASE_WIDTH: usize = 11 + SCAN_DISPATCHES;
+pub const PHASE_WIDTH: usize = Entry::Scan as usize + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
 pub const PHASES: [&str; 14] = [
     "BEGIN",
@@ -59,43 +59,54 @@ pub const PHASES: [&str; 14] = [
     "ITERATION",
 ];
 
-/// Entries of a phase in the table of extents.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
-pub enum Entry {
-    /// One thread per slot.
-    Slots = 0,
-    /// One thread per particle.
-    Particles = 1,
-    /// [`super::Params::groups`] groups that stride and leave one partial result each.
-    Reduce = 2,
-    /// One group.
-    Single = 3,
-    /// One thread per slot that is not INTERIOR.
-    Listed = 4,
-    /// One thread per INTERIOR slot whose node listed vertices rest on.
-    Frontier = 5,
-    /// One thread per march of [`super::Params::march`] slots.
-    Marched = 6,
-    /// One thread per march over a column of one color: every third column of cells along each axis but the last.
-    Color = 7,
-    /// One thread per row of the preconditioner of interface pressures, in at most as many groups as leave partial results.
-    Surface = 8,
-    /// One thread per slot of the runs that are awake.
-    Awake = 9,
-    /// One thread per slot of the runs of the list that are awake.
-    ListAwake = 10,
-    /// First dispatch of a prefix sum.
-    Scan = 11,
+/// Declares the entries of a phase with their names in WGSL.
+macro_rules! entries {
+    ($($(#[doc = $doc:literal])+ $entry:ident $name:literal)+) => {
+        /// Entries of a phase in the table of extents.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(u32)]
+        pub enum Entry {
+            $($(#[doc = $doc])+ $entry),+
+        }
+
+        const ENTRIES: &[&str] = &[$($name),+];
+    };
 }
 
-/// Number of a rule on the device.
+entries! {
+    /// One thread per slot.
+    Slots "SLOTS"
+    /// One thread per particle.
+    Particles "PARTICLES"
+    /// [`super::Params::groups`] groups that stride and leave one partial result each.
+    Reduce "REDUCE"
+    /// One group.
+    Single "SINGLE"
+    /// One thread per slot that is not INTERIOR.
+    Listed "LISTED"
+    /// One thread per INTERIOR slot whose node listed vertices rest on.
+    Frontier "FRONTIER"
+    /// One thread per march of [`super::Params::march`] slots.
+    Marched "MARCHED"
+    /// One thread per march over a column of one color: every third column of cells along each axis but the last.
+    Color "COLOR"
+    /// One thread per row of the preconditioner of interface pressures, in at most as many groups as leave partial results.
+    Surface "SURFACE"
+    /// One thread per slot of the runs that are awake.
+    Awake "AWAKE"
+    /// One thread per slot of the runs of the list that are awake.
+    ListAwake "LIST_AWAKE"
+    /// First dispatch of a prefix sum.
+    Scan "SCAN"
+}
+
+/// Number on the device of one of names that count from 0, such as [`RULES`].
 ///
 /// # Panics
-/// If the rule is not in [`RULES`]: a bug of the caller.
+/// If the name is not among them: a bug of the caller.
 #[must_use]
-pub fn rule(name: &str) -> u32 {
-    RULES.iter().position(|known| *known == name).expect("rule names are literals of this crate") as u32
+pub fn number(names: &[&str], name: &str) -> u32 {
+    names.iter().position(|known| *known == name).expect("names are literals of this crate") as u32
 }
 
 /// Byte offset of an entry of a phase in the table of extents.
@@ -125,28 +136,42 @@ const FLAGS: [&str; 12] = [
 ];
 
 /// Lists of names that count from 0, each with its prefix.
-const COUNTED: [(&str, &[&str]); 5] = [
-    ("STILL", &["NONE", "ADVECTION", "ASLEEP"]),
+const COUNTED: [(&str, &[&str]); 4] = [
     ("RULE", &RULES),
-    ("INTERFACE", &["RESOLVED", "H", "SINGLE"]),
+    ("INTERFACE", &INTERFACES),
     ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP", "ELASTIC"]),
-    (
-        "EXTENT",
-        &[
-            "SLOTS",
-            "PARTICLES",
-            "REDUCE",
-            "SINGLE",
-            "LISTED",
-            "FRONTIER",
-            "MARCHED",
-            "COLOR",
-            "SURFACE",
-            "AWAKE",
-            "LIST_AWAKE",
-            "SCAN",
-        ],
-    ),
+    ("EXTENT", ENTRIES),
+];
+
+/// Single numbers.
+const NUMBERS: [(&str, u32); 27] = [
+    ("GAS", GAS),
+    ("SOLID", SOLID),
+    ("WALL", WALL),
+    ("GHOST", GHOST),
+    ("RULE_SHIFT", RULE_SHIFT),
+    ("MAX_OPENINGS", super::MAX_OPENINGS as u32),
+    ("MAX_BODIES", crate::scene::MAX_BODIES as u32),
+    ("CUT_WIDTH", super::cut::WIDTH as u32),
+    ("PARTIALS", PARTIALS),
+    ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
+    ("STILL_BLOCK", STILL_BLOCK),
+    ("STILL_NONE", 0),
+    ("STILL_ADVECTION", super::params::STILL_ADVECTION),
+    ("STILL_ASLEEP", super::params::STILL_ASLEEP),
+    ("SPACES", super::coarse::SPACES as u32),
+    ("COUPLINGS", super::surface::COUPLINGS as u32),
+    ("STRENGTH_UNIT", super::particles::STRENGTH_UNIT),
+    ("SHORT_REACH", REACHES[0]),
+    ("LONG_REACH", REACHES[1]),
+    ("HISTORY_WIDTH", HISTORY_WIDTH),
+    ("BLOCKS", BLOCKS),
+    ("BLOCK_GIVEN", BLOCK_GIVEN),
+    ("LOAD_NUMBERS", super::loads::LOAD_NUMBERS),
+    ("GAUGE_WIDTH", super::gauges::GAUGE_WIDTH),
+    ("NO_FAULT", NO_FAULT),
+    ("MAX_ROUNDS", MAX_ROUNDS),
+    ("NO_EXTRA", u32::MAX),
 ];
 
 /// The constants as WGSL.
@@ -173,31 +198,7 @@ pub fn source() -> String {
     for (name, value) in super::cut::FIELDS {
         put(&format!("CUT_{name}"), value);
     }
-    let numbers = [
-        ("GAS", GAS),
-        ("SOLID", SOLID),
-        ("WALL", WALL),
-        ("GHOST", GHOST),
-        ("RULE_SHIFT", RULE_SHIFT),
-        ("MAX_OPENINGS", super::MAX_OPENINGS as u32),
-        ("MAX_BODIES", crate::scene::MAX_BODIES as u32),
-        ("CUT_WIDTH", super::cut::WIDTH as u32),
-        ("PARTIALS", PARTIALS),
-        ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
-        ("STILL_BLOCK", STILL_BLOCK),
-        ("RUN_LANES", RUN_LANES),
-        ("SHORT_REACH", REACHES[0]),
-        ("LONG_REACH", REACHES[1]),
-        ("HISTORY_WIDTH", HISTORY_WIDTH),
-        ("BLOCKS", BLOCKS),
-        ("BLOCK_GIVEN", BLOCK_GIVEN),
-        ("LOAD_NUMBERS", super::loads::LOAD_NUMBERS),
-        ("GAUGE_WIDTH", super::gauges::GAUGE_WIDTH),
-        ("NO_FAULT", NO_FAULT),
-        ("MAX_ROUNDS", MAX_ROUNDS),
-        ("NO_EXTRA", u32::MAX),
-    ];
-    for (name, value) in numbers {
+    for (name, value) in NUMBERS {
         put(name, value);
     }
     let _ = writeln!(text, "const LIGHTEST_NODE = {:?};", super::params::LIGHTEST_NODE);
@@ -205,7 +206,7 @@ pub fn source() -> String {
     let _ = writeln!(text, "const LIGHTEST_BESIDE = vec3f({line:?}, {plane:?}, {space:?});");
     let _ = writeln!(text, "const IMPLICIT_COURANT = {:?};", crate::scene::IMPLICIT_COURANT);
     let _ = writeln!(text, "const STICK = {:?};", super::supports::STICK);
-    text.push_str(crate::numerics::pcg::source());
+    text.push_str(&crate::numerics::pcg::source());
     text
 }
 

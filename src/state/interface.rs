@@ -1,9 +1,9 @@
 //! Where gas and solid meet, and the unknowns of the pressure system.
 
-use super::constants::{PARTIALS, RUN_LANES, STILL_BLOCK};
+use super::constants::{PARTIALS, STILL_BLOCK};
 use super::params::{MARCH, Params, STILL_ASLEEP};
 use crate::error::Result;
-use crate::gpu::{Buffer, Gpu, WORKGROUP};
+use crate::gpu::{Buffer, Gpu, OCTET, WORKGROUP};
 
 /// Marks of cells and vertices, in padded slots.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ impl Places {
     /// For cells with the ring, on any device: for as many groups that leave partial results as there may be, and the shortest marches.
     /// Where nothing sleeps there are no lists of runs.
     pub(super) fn new(stride: [u64; 3], dimension: u32, sleeps: bool) -> Self {
-        let (block, lanes) = (u64::from(STILL_BLOCK), u64::from(RUN_LANES));
+        let (block, lanes) = (u64::from(STILL_BLOCK), u64::from(OCTET));
         let slots: u64 = stride.iter().product();
         let groups = slots.div_ceil(u64::from(WORKGROUP)).clamp(1, u64::from(PARTIALS));
         let rows = stride[dimension as usize - 1];

@@ -166,7 +166,8 @@ impl Openings {
             }
         });
         let Some(places) = places.collect::<Option<Vec<u32>>>() else { return constants::WALL };
-        let prescribed = |place: &&u32| self.table[**place as usize].rule <= constants::rule("SUBSONIC");
+        let prescribed =
+            |place: &&u32| self.table[**place as usize].rule <= constants::number(&constants::RULES, "SUBSONIC");
         let place = places.iter().find(prescribed).or(places.first());
         place.map_or(constants::WALL, |place| constants::GHOST | (place << constants::RULE_SHIFT))
     }
@@ -195,7 +196,13 @@ impl Openings {
 fn of_state(scene: &Scene, name: &str, state: &GasState) -> Opening {
     let [density, x, y, z, energy] = state.conserved(scene.gas.gamma).map(|v| v as f32);
     let flow = [density, x, y, z];
-    Opening { flow, energy, pressure: state.pressure as f32, rule: constants::rule(name), ..Opening::default() }
+    Opening {
+        flow,
+        energy,
+        pressure: state.pressure as f32,
+        rule: constants::number(&constants::RULES, name),
+        ..Opening::default()
+    }
 }
 
 fn knot(state: &TimedState) -> Knot {

@@ -2,90 +2,94 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use super::constants::SCAN_DISPATCHES;
 use super::gas::ring_books;
 use super::{Grid, constants, surface};
 use crate::gpu::WORKGROUP;
+use crate::gpu::structure::structure;
+use crate::gpu::structure::types::{vec3f, vec3u, vec4u};
 use crate::numerics::Scan;
 use crate::scene::{Boundary, Ghost, Integrator, InterfacePressure, Pair, Scene};
 
-/// Mirror of `Params` in `shaders/shared/params.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Params {
-    /// Cells per axis, 1 on inactive axes.
-    pub cells: [u32; 3],
-    /// Length of every cell, node and vertex array.
-    pub slots: u32,
-    /// Cells per axis with the ring.
-    pub stride: [u32; 3],
-    /// Particles.
-    pub particles: u32,
-    /// Low corner of the domain \[m\].
-    pub origin: [f32; 3],
-    /// Cell edge \[m\].
-    pub spacing: f32,
-    /// Gravity \[m s^-2\].
-    pub gravity: [f32; 3],
-    /// Ratio of specific heats.
-    pub gamma: f32,
-    /// Ambient density \[kg m^-3\].
-    pub ambient_density: f32,
-    /// Ambient pressure \[Pa\].
-    pub ambient_pressure: f32,
-    /// Courant number of the material velocity.
-    pub cfl: f32,
-    /// Cap of c dt / dx.
-    pub max_courant: f32,
-    /// Cap of dt over the previous dt.
-    pub max_growth: f32,
-    /// Fixed step \[s\], 0 for none.
-    pub fixed_step: f32,
-    /// Courant number of the elastic sub-steps.
-    pub elastic_cfl: f32,
-    /// Share of a cell that makes it solid.
-    pub solid_threshold: f32,
-    /// Least node mass that the pressure solve sees \[kg\].
-    pub mass_floor: f32,
-    /// Relative tolerance of the solve.
-    pub tolerance: f32,
-    /// Vertices that may carry P, h and Q apart.
-    pub extra_capacity: u32,
-    /// Iterations after which a solve counts as stalled.
-    pub max_iterations: u32,
-    /// Probes.
-    pub probes: u32,
-    /// Steps that the history ring holds.
-    pub history: u32,
-    /// Bodies.
-    pub bodies: u32,
-    /// Largest number of sub-steps of one step.
-    pub max_substeps: u32,
-    /// Groups that leave partial results.
-    pub groups: u32,
-    /// Slots that one thread of a marching kernel takes one after the other, along the last axis.
-    pub march: u32,
-    /// Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+.
-    pub wall_sides: u32,
-    /// 1 if faces of partly filled cells are blocked by their share.
-    pub blending: u32,
-    /// p / rho^gamma that no gas falls below.
-    pub least_entropy: f32,
-    /// Vertices whose interface pressure has a row in the preconditioner.
-    pub surface_rows: u32,
-    /// What is left out where nothing moves, with the same result: 0 nothing, 1 the advection, 2 all that can.
-    pub still: u32,
-    /// Place of the runs of slots that are awake in [`super::Interface::extra`].
-    pub runs_at: u32,
-    /// Place of the rows of blocks there.
-    pub still_at: u32,
-    /// Place of the table of cut cells there.
-    pub table_at: u32,
-    /// Place of the runs of the list there.
-    pub list_runs_at: u32,
-    /// Fills the space before vectors.
-    pub unused: u32,
-    /// Groups of each dispatch of a prefix sum over all slots and one more.
-    pub scan: [[u32; 4]; constants::SCAN_DISPATCHES],
+structure! {
+    /// What one run fixes: grid, gas, limits.
+    #[derive(Clone, Copy, Debug, Pod, Zeroable)]
+    Params as "Params" {
+        /// Cells per axis, 1 on inactive axes.
+        cells: vec3u,
+        /// Length of every cell, node and vertex array.
+        slots: u32,
+        /// Cells per axis with the ring.
+        stride: vec3u,
+        /// Particles.
+        particles: u32,
+        /// Low corner of the domain \[m\].
+        origin: vec3f,
+        /// Cell edge \[m\].
+        spacing: f32,
+        /// Gravity \[m s^-2\].
+        gravity: vec3f,
+        /// Ratio of specific heats.
+        gamma: f32,
+        /// Ambient density \[kg m^-3\].
+        ambient_density: f32,
+        /// Ambient pressure \[Pa\].
+        ambient_pressure: f32,
+        /// Courant number of the material velocity.
+        cfl: f32,
+        /// Cap of c dt / dx.
+        max_courant: f32,
+        /// Cap of dt over the previous dt.
+        max_growth: f32,
+        /// Fixed step \[s\], 0 for none.
+        fixed_step: f32,
+        /// Courant number of the elastic sub-steps.
+        elastic_cfl: f32,
+        /// Share of a cell that makes it solid.
+        solid_threshold: f32,
+        /// Least node mass that the pressure solve sees \[kg\].
+        mass_floor: f32,
+        /// Relative tolerance of the solve.
+        tolerance: f32,
+        /// Vertices that may carry P, h and Q apart.
+        extra_capacity: u32,
+        /// Iterations after which a solve counts as stalled.
+        max_iterations: u32,
+        /// Probes.
+        probes: u32,
+        /// Steps that the history ring holds.
+        history: u32,
+        /// Bodies.
+        bodies: u32,
+        /// Largest number of sub-steps of one step.
+        max_substeps: u32,
+        /// Groups that leave partial results.
+        groups: u32,
+        /// Slots that one thread of a marching kernel takes one after the other, along the last axis.
+        march: u32,
+        /// Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+.
+        wall_sides: u32,
+        /// 1 if faces of partly filled cells are blocked by their share.
+        blending: u32,
+        /// p / rho^gamma that no gas falls below.
+        least_entropy: f32,
+        /// Vertices whose interface pressure has a row in the preconditioner.
+        surface_rows: u32,
+        /// What is left out where nothing moves, with the same result: STILL_NONE, STILL_ADVECTION, STILL_ASLEEP.
+        still: u32,
+        /// Place of the runs of slots that are awake in [`super::Interface::extra`].
+        runs_at: u32,
+        /// Place of the rows of blocks there.
+        still_at: u32,
+        /// Place of the table of cut cells there.
+        table_at: u32,
+        /// Place of the runs of the list there.
+        list_runs_at: u32,
+        /// Fills the space before vectors.
+        unused: u32,
+        /// Groups of each dispatch of a prefix sum over all slots and one more.
+        scan: [vec4u; SCAN_DISPATCHES],
+    }
 }
 
 /// [`Params::still`]: the advection leaves out what motion does not reach by the solve.
@@ -200,7 +204,7 @@ impl Params {
             table_at: 0,
             list_runs_at: 0,
             unused: 0,
-            scan: [[0; 4]; constants::SCAN_DISPATCHES],
+            scan: [[0; 4]; SCAN_DISPATCHES],
         };
         let places = super::interface::Places::new(
             params.stride.map(u64::from),
@@ -248,11 +252,14 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
             "INTERFACE",
-            match scene.interface_pressure() {
-                InterfacePressure::Resolved | InterfacePressure::Auto => 0.0,
-                InterfacePressure::H => 1.0,
-                InterfacePressure::Single => 2.0,
-            },
+            f64::from(constants::number(
+                &constants::INTERFACES,
+                match scene.interface_pressure() {
+                    InterfacePressure::Resolved | InterfacePressure::Auto => "RESOLVED",
+                    InterfacePressure::H => "H",
+                    InterfacePressure::Single => "SINGLE",
+                },
+            )),
         ),
     ]
 }

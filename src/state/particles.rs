@@ -104,11 +104,11 @@ impl ParticleStart {
 
 /// A factor of strength for the high half of a word: as a float no such word is a NaN, an infinity or below the normal numbers.
 fn strength_bits(factor: f64) -> u32 {
-    ((STRENGTH_UNIT * factor).round() as u32) << 16
+    ((f64::from(STRENGTH_UNIT) * factor).round() as u32) << 16
 }
 
 /// Units of that factor in one, as in `shaders/shared/fracture.wgsl`.
-const STRENGTH_UNIT: f64 = 8192.0;
+pub(super) const STRENGTH_UNIT: u32 = 8192;
 
 impl Particles {
     /// Allocates and uploads. `carrier`: gas without bodies also wants room per slot in `node`; `elastic`: vectors per slot

@@ -7,8 +7,8 @@ pub(crate) const TERMS: u32 = 12;
 const SHARE: usize = 64;
 const LEAST: usize = 768;
 
-/// Numbers of a row beside the couplings.
-const HEAD: usize = 6;
+/// Numbers of a row before its couplings.
+pub(super) const COUPLINGS: usize = 6;
 
 /// Rows for so many vertices with pressures apart; those beyond have the diagonal alone.
 pub(crate) fn rows(slots: usize, extra_capacity: usize) -> usize {
@@ -17,5 +17,5 @@ pub(crate) fn rows(slots: usize, extra_capacity: usize) -> usize {
 
 /// Numbers of a row: head, and couplings with half of the neighbours.
 pub(crate) fn row_length(dimension: usize) -> usize {
-    HEAD + 3_usize.pow(dimension as u32) / 2
+    COUPLINGS + 3_usize.pow(dimension as u32) / 2
 }

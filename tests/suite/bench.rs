@@ -6,6 +6,7 @@ use brisance::gpu::{Detail, Gpu};
 use brisance::numerics::{Rounds, copy_bandwidth};
 use brisance::scene::Scene;
 use brisance::simulation::Simulation;
+use brisance::state::stages::Stage;
 use serde_json::Value;
 
 use crate::cli::{fails, succeeds};
@@ -105,6 +106,12 @@ fn a_device_without_timestamps_waits_for_each_stage() {
     blind.timestamps = false;
     for detail in [Detail::Stages, Detail::Kernels] {
         let [stamped, waited] = [&gpu, &blind].map(|gpu| names(gpu, PISTON.0, PISTON.1, detail));
+        for name in &stamped {
+            let stage = name.split(':').next().unwrap_or_default();
+            let listed =
+                Stage::ALL.iter().map(|stage| stage.name()).chain(["steps", "rest"]).any(|known| known == stage);
+            assert!(listed, "{name} is of no stage in src/state/stages.rs");
+        }
         let missing: Vec<&String> = stamped.difference(&waited).collect();
         assert!(stamped.len() > 5 && missing.is_empty(), "{missing:?} in {waited:?}");
     }

@@ -2,12 +2,16 @@
 
 use std::path::Path;
 
-use brisance::state::{arrays, stages};
+use brisance::numerics::PcgControl;
+use brisance::state::{Control, Params, arrays, stages};
 
 /// File, table that it follows from, and the text.
 fn parts() -> Vec<(&'static str, &'static str, String)> {
     vec![
         ("shaders/shared/arrays.wgsl", "src/state/arrays.rs", arrays::constants()),
+        ("shaders/shared/params.wgsl", "src/state/params.rs", Params::wgsl()),
+        ("shaders/shared/control.wgsl", "src/state/control.rs", Control::wgsl()),
+        ("shaders/shared/pcg.wgsl", "src/numerics/pcg.rs", PcgControl::wgsl()),
         ("docs/inside/arrays.md", "src/state/arrays.rs", format!("\n{}\n", arrays::table())),
         ("docs/method/overview.md", "src/state/stages.rs", format!("\n{}\n", stages::table())),
     ]

@@ -23,7 +23,7 @@ const PICTURES: [&str; 12] = [
 ];
 
 /// The text injected before a shader's source.
-fn constants(shader: &str) -> String {
+pub(crate) fn constants(shader: &str) -> String {
     if PICTURES.contains(&shader) {
         return brisance::render::shader_constants();
     }
@@ -55,7 +55,7 @@ pub(crate) fn files() -> BTreeMap<String, String> {
 }
 
 /// Files with entry points: those in no sub-folder.
-fn stages() -> Vec<String> {
+pub(crate) fn stages() -> Vec<String> {
     files().into_keys().filter(|name| !name.contains('/')).collect()
 }
 

@@ -1,0 +1,31 @@
+// Scalars of a solve by conjugate gradients. After it they tell the control of the step how it ended.
+
+// Generated from src/numerics/pcg.rs by scripts/generate.
+struct Pcg {
+    rho: f32,                   // r . z, z the preconditioner times r
+    alpha: f32,                 // Step length
+    beta: f32,                  // Weight of the old direction
+    reference: f32,             // Squared norm that the tolerance refers to
+    tolerance: f32,             // Relative tolerance
+    iterations: u32,            // Iterations so far
+    max_iterations: u32,        // Iterations after which the solve counts as stalled
+    outcome: u32,               // PCG_RUNNING, PCG_CONVERGED, PCG_STALLED
+    length: u32,                // Unknowns
+    listed_wide: u32,           // Groups of kernels over a list that the caller keeps, x
+    listed_high: u32,           // The same, y
+    frontier_wide: u32,         // Groups of kernels over a second list, x
+    frontier_high: u32,         // The same, y
+    groups_wide: u32,           // Groups of the kernels with one thread per slot, x
+    groups_high: u32,           // The same, y
+    groups_partial: u32,        // Groups of the kernels that leave partial sums
+    groups_block: u32,          // Groups, at most as many, of the kernels of Block
+    size: f32,                  // r . D^-1 r, and r . z of Block: what the tolerance looks at
+    most: f32,                  // A solve that begins with a larger one is not worth it: it ends with nothing done
+    levels: u32,                // Coarse levels in use
+    joined: u32,                // 1 for Dots::Both
+    runs: u32,                  // Place of the lists of runs in the binding runs, 0 without: where the runs of each octet begin, and the end of the last; then per run its first unknown and, from bit 8 on, which of eight it has
+    apart: u32,                 // First unknown that no run has, 0 without runs
+    reference_at: u32,          // Place of the partial sums for the reference, 0 if pcg_begin makes them from product
+    level_groups: array<u32, PCG_LEVELS>, // Groups, at most as many as leave partial sums, of the kernels of each level, the finest first; 0 without
+}
+// End of what is generated.
