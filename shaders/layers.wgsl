@@ -71,7 +71,8 @@ fn finish_layers(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocat
         let ray = at.x + view.size.x * at.y;
         let own = light[ray];
         let row = (f32(at.y + view.first_row) + 0.5) / f32(view.size.y);
-        let behind = view.exposure * (1.0 - own.a) * mix(BACKGROUND_TOP, BACKGROUND_BOTTOM, row);
+        let background = mix(view.background_top.rgb, view.background_bottom.rgb, row);
+        let behind = view.exposure * (1.0 - own.a) * background;
         sum += vec4f(max(own.rgb - behind, vec3f(0.0)), own.a);
         if (view.particles > 0u) {
             found = nearer_particle(ray, found);

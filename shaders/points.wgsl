@@ -167,7 +167,7 @@ fn share_of_square(mark: Footprint, offset: vec2f) -> f32 {
 
 fn footprint(p: u32) -> Footprint {
     let ball = balls[2u * p];
-    var mark = Footprint(ball.xyz, ball.w, vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0), vec4f(0.0), 1.0);
+    var mark = Footprint(ball.xyz, ball.w * splat_growth(), vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0), vec4f(0.0), 1.0);
     let place = project(mark.centre);
     if (mark.radius == 0.0 || (place.z <= mark.radius && view.parallel == 0u)) {
         return mark;

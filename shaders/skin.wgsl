@@ -1,4 +1,5 @@
 // The surface that particles show: its depth, smoothed on request, and its light.
+// draw_back: reads depth_in, balls, nearest; writes depth_out and kept, what is left of larger balls: their surface, drawn back.
 // smooth_depth: reads depth_in, balls, nearest; writes depth_out, the mean over the samples around that lie on the same sheet.
 // list_skin: reads nearest; writes covered, the number of rays that meet particles and their list, and skin_groups, the
 // workgroups of shade_skin.
@@ -20,6 +21,7 @@
 @group(0) @binding(7) var<storage, read> light_grid: array<u32>;
 @group(0) @binding(8) var<storage, read_write> surface: array<vec4u>;
 @group(0) @binding(9) var<storage, read> glow_grid: array<vec4f>;
+@group(0) @binding(11) var<storage, read_write> kept: array<u32>;
 
 // Whether the particles are smoothed into a surface.
 override SMOOTH: bool = false;
@@ -41,6 +43,46 @@ fn depth_of(place: vec2i) -> f32 {
 fn samples_across(length: f32, depth: f32) -> f32 {
     let distance = select(depth, 1.0, view.parallel == 1u);
     return length / (distance * view.half_height) * 0.5 * f32(view.size.y) * f32(view.samples);
+}
+
+// Depths that differ by more than so many radii belong to different sheets.
+const SHEET: f32 = 6.0;
+
+@compute @workgroup_size(WORKGROUP)
+fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
+    let grid = sample_grid();
+    if (i >= grid.x * grid.y) {
+        return;
+    }
+    kept[i] = nearest[i];
+    depth_out[i] = depth_in[i];
+    if (nearest[i] == NOTHING) {
+        return;
+    }
+    let place = vec2i(vec2u(i % grid.x, i / grid.x));
+    let depth = bitcast<f32>(FARTHEST - depth_in[i]);
+    let radius = balls[2u * (FARTHEST - nearest[i])].w;
+    let excess = (splat_growth() - 1.0) * radius;
+    let reach = clamp(samples_across(excess, depth), 1.0, f32(SAMPLE_MARGIN) / 3.0);
+    // What is farthest on a ring around: the sheet itself, one behind it, or nothing.
+    var farthest = depth;
+    for (var k = 0u; k < 16u; k++) {
+        let angle = f32(k) * 0.39269908;
+        let near = clamp(place + vec2i(round(reach * vec2f(cos(angle), sin(angle)))), vec2i(0), vec2i(grid) - 1);
+        let j = u32(near.x) + grid.x * u32(near.y);
+        if (nearest[j] == NOTHING) {
+            kept[i] = NOTHING;
+            depth_out[i] = NOTHING;
+            return;
+        }
+        let own = bitcast<f32>(FARTHEST - depth_in[j]);
+        if (own > farthest) {
+            farthest = own;
+            kept[i] = select(nearest[i], nearest[j], own - depth > SHEET * radius);
+        }
+    }
+    depth_out[i] = FARTHEST - bitcast<u32>(farthest + excess);
 }
 
 @compute @workgroup_size(WORKGROUP)

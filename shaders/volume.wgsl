@@ -94,6 +94,9 @@ fn gas_light(before: Gathered, place: vec3f, lit: f32) -> Gathered {
     return over(before, source, 1.0 - exp(-extinction * view.step));
 }
 
+// Cells of gas before a body that show the gas in front of them: between the middles of cells the gas behind a thin wall would shine through.
+const CLEARANCE: f32 = 1.2;
+
 // Gathers light from the gas between two distances.
 fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Gathered) -> Gathered {
     var gathered = before;
@@ -103,10 +106,11 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Ga
     // The light grid is read at its nearest cell, half a cell off at random: steps add up to the mean.
     let light_start = in_light(ray.start) + 0.8 * (jitter - 0.5);
     let light_step = in_light(ray.start + ray.direction) - in_light(ray.start);
+    let clear = max(to_distance - CLEARANCE * view.spacing, from_distance);
     var s = from_distance + jitter * view.step;
     var brick = Brick(-1.0, false);
     while (s < to_distance && gathered.passing > DARK) {
-        let place = in_cells(ray.start + s * ray.direction);
+        let place = in_cells(ray.start + min(s, clear) * ray.direction);
         if (s >= brick.end) {
             brick = brick_at(ray, place, s);
         }
@@ -200,7 +204,7 @@ fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     }
     gathered = over(gathered, EDGE_COLOR, select(edge.y, 0.0, wall_depth * along < middle));
     gathered = over(gathered, wall.color, wall.coverage);
-    let background = mix(BACKGROUND_TOP, BACKGROUND_BOTTOM, pixel.y / f32(view.size.y));
+    let background = mix(view.background_top.rgb, view.background_bottom.rgb, pixel.y / f32(view.size.y));
     let alpha = 1.0 - gathered.passing;
     gathered = over(gathered, background, 1.0);
     light[i] = vec4f(view.exposure * gathered.color, alpha);

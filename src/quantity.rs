@@ -64,7 +64,7 @@ pub const TABLE: &[Quantity] = &[
     quantity(Place::Cell, "energy", "J m^-3", "total energy [J/m\u{b3}]", 1, |s| gas(s, |i| [s.energy[i]])),
     quantity(Place::Cell, "temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [s.pressure[i] / s.density[i]])),
     quantity(Place::Cell, "mach", "1", "Mach number", 1, |s| gas(s, |i| [mach(s, i)])),
-    quantity(Place::Cell, "schlieren", "kg m^-4", "density gradient [kg/m^4]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
+    quantity(Place::Cell, "schlieren", "kg m^-4", "density gradient [kg/m\u{2074}]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
     quantity(Place::Cell, "vorticity", "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
     quantity(Place::Cell, "entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma as f32)])),
     quantity(Place::Cell, "owed", "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),

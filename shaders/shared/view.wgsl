@@ -89,6 +89,9 @@ struct View {
     slice_count: u32,
     contour_count: u32,
     arrows: vec2u,
+    // Light behind everything in 3D.
+    background_top: vec4f,
+    background_bottom: vec4f,
     // Planes: the points x with dot(xyz, x) = w.
     slices: array<vec4f, 4>,
     // Values of the contour lines.

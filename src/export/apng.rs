@@ -22,7 +22,7 @@ pub fn read(path: &Path) -> Result<Frame> {
     let mut rgba = vec![0; reader.output_buffer_size().unwrap_or(0)];
     let info = reader.next_frame(&mut rgba).map_err(wrong)?;
     rgba.truncate(info.buffer_size());
-    Ok(Frame { width: info.width, height: info.height, rgba })
+    Ok(Frame { width: info.width, height: info.height, rgba, ..Frame::default() })
 }
 
 /// The pictures in these files, at most `width` pixels wide, `delay` milliseconds each, over and over.
@@ -68,7 +68,7 @@ pub fn shrunk(frame: &Frame, width: u32) -> Frame {
             rgba.extend(sum.map(|total| (total / (block * block)) as u8));
         }
     }
-    Frame { width: wide, height: high, rgba }
+    Frame { width: wide, height: high, rgba, ..Frame::default() }
 }
 
 #[cfg(test)]

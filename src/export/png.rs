@@ -4,11 +4,16 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use ::png::{BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, SrgbRenderingIntent};
+use ::png::{
+    BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, PixelDimensions, SrgbRenderingIntent, Unit,
+};
 
 use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::render::{Depth, Frame, Picture};
 use crate::{Error, Result};
+
+/// An inch \[m\].
+const METRES_PER_INCH: f64 = 0.0254;
 
 /// Writes the pictures of a frame to `frames/NNNN.png`, `frames/FIELD/NNNN.png` and `frames/VIEW/...`, see [`Moment::places`].
 #[derive(Debug)]
@@ -77,7 +82,7 @@ pub fn read(path: &Path) -> Result<Frame> {
         return Err(failed(&"no picture with 8 bits per channel"));
     }
     let rgba = rgb.chunks_exact(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255]).collect();
-    Ok(Frame { width: info.width, height: info.height, rgba })
+    Ok(Frame { width: info.width, height: info.height, rgba, ..Frame::default() })
 }
 
 /// The same with 16 bits per channel.
@@ -97,6 +102,10 @@ fn encode(
     encoder.set_depth(depth);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     encoder.set_compression(Compression::Fast);
+    if let Some(per_inch) = frame.per_inch {
+        let per_metre = (f64::from(per_inch) / METRES_PER_INCH).round() as u32;
+        encoder.set_pixel_dims(Some(PixelDimensions { xppu: per_metre, yppu: per_metre, unit: Unit::Meter }));
+    }
     for (keyword, content) in text {
         let (keyword, content) = ((*keyword).to_owned(), content.clone());
         if content.chars().all(|letter| u32::from(letter) < 256) {

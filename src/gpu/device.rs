@@ -1,6 +1,7 @@
 //! Opening the device, and keeping its first error.
 
 use std::collections::HashMap;
+use std::hash::Hash;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -97,6 +98,9 @@ pub struct Gpu {
     faults: Arc<Mutex<Faults>>,
     allocated: Arc<AtomicU64>,
 }
+
+/// Shaders, and kernels, that a device knows at most. A scene has up to 150; a driver in software takes some megabytes for each.
+const MOST_KNOWN: usize = 256;
 
 /// Compiled shaders by file name and constants text.
 type ShaderCache = Arc<Mutex<HashMap<(String, String), (Arc<Compiled>, wgpu::ShaderModule)>>>;
@@ -287,6 +291,15 @@ impl Gpu {
     pub(super) fn ledger(&self) -> &Arc<AtomicU64> {
         &self.allocated
     }
+}
+
+/// Remembers something. A memory that is full starts over: what is in use lives on with its users.
+pub(super) fn remember<K: Eq + Hash, T>(memory: &Mutex<HashMap<K, T>>, key: K, value: T) {
+    let mut known = lock(memory);
+    if known.len() >= MOST_KNOWN {
+        known.clear();
+    }
+    known.insert(key, value);
 }
 
 /// Locks, also after another thread panicked: the guarded values are valid at every moment.

@@ -5,7 +5,7 @@ use std::num::NonZeroU64;
 use std::sync::Arc;
 
 use super::buffer::Buffer;
-use super::device::{Gpu, lock};
+use super::device::{Gpu, lock, remember};
 use super::pipeline::{Pipeline, Recipe};
 use super::reflect::{Access, Binding, Compiled};
 use super::shader::Shader;
@@ -97,7 +97,7 @@ impl Kernel {
         }
         gpu.go_on()?;
         let kernel = Kernel::compile(gpu, (&compiled, &module), entry, constants)?;
-        lock(&gpu.kernels).insert(key, kernel.clone());
+        remember(&gpu.kernels, key, kernel.clone());
         Ok(kernel)
     }
 
@@ -214,7 +214,7 @@ fn compiled(gpu: &Gpu, name: &str, constants: &str) -> Result<(Arc<Compiled>, wg
     if let Some(error) = pollster::block_on(scope.pop()) {
         return Err(Error::Shader(format!("shaders/{name}: {error}")));
     }
-    lock(&gpu.shaders).insert(key, (Arc::clone(&compiled), module.clone()));
+    remember(&gpu.shaders, key, (Arc::clone(&compiled), module.clone()));
     Ok((compiled, module))
 }
 

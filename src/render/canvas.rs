@@ -1,11 +1,9 @@
 //! Text, rectangles and lines on a finished frame.
 
-use embedded_graphics::mono_font::{MonoFont, MonoTextStyle, iso_8859_1 as fonts};
-use embedded_graphics::pixelcolor::Rgb888;
-use embedded_graphics::prelude::{DrawTarget, Drawable, OriginDimensions, Pixel, Point, RgbColor, Size};
-use embedded_graphics::text::{Baseline, Text};
-
 use super::frame::Frame;
+use super::letters::Lettering;
+use super::paper::Paper;
+use crate::scene::RenderSettings;
 
 /// Where a text stands relative to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,58 +35,16 @@ impl Rectangle {
     }
 }
 
-/// A font and how many pixels one of its dots covers.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Lettering {
-    font: &'static MonoFont<'static>,
-    scale: i32,
-}
-
-impl Lettering {
-    /// Letters that stay legible at this picture size.
-    pub(crate) fn for_size(width: u32, height: u32) -> Self {
-        let (font, scale) = match height.min(width * 9 / 16) {
-            0..220 => (&fonts::FONT_5X8, 1),
-            220..400 => (&fonts::FONT_6X10, 1),
-            400..600 => (&fonts::FONT_8X13, 1),
-            600..1000 => (&fonts::FONT_10X20, 1),
-            1000..1900 => (&fonts::FONT_9X15, 2),
-            _ => (&fonts::FONT_10X20, 3),
-        };
-        Self { font, scale }
-    }
-
-    /// Pixels from one letter to the next.
-    pub(crate) fn advance(&self) -> i32 {
-        self.font.character_size.width as i32 * self.scale
-    }
-
-    /// Height of a line in pixels.
-    pub(crate) fn line(&self) -> i32 {
-        self.font.character_size.height as i32 * self.scale
-    }
-
-    /// Width of a thin line, and the unit of small distances, in pixels.
-    pub(crate) fn unit(&self) -> i32 {
-        self.scale
-    }
-
-    /// Width of a text in pixels.
-    pub(crate) fn width(&self, text: &str) -> i32 {
-        text.chars().count() as i32 * self.advance()
-    }
-}
-
 /// Draws on a frame.
 pub(crate) struct Canvas<'a> {
     pub(crate) frame: &'a mut Frame,
     pub(crate) lettering: Lettering,
+    pub(crate) paper: Paper,
 }
 
 impl<'a> Canvas<'a> {
-    pub(crate) fn new(frame: &'a mut Frame) -> Self {
-        let lettering = Lettering::for_size(frame.width, frame.height);
-        Self { frame, lettering }
+    pub(crate) fn new(frame: &'a mut Frame, look: &RenderSettings) -> Self {
+        Self { frame, lettering: Lettering::of(look), paper: Paper::of(look) }
     }
 
     /// Mixes `color` over a pixel; outside of the frame nothing happens.
@@ -124,20 +80,15 @@ impl<'a> Canvas<'a> {
 
     /// Writes one line of text; `y` is the middle of the line. Text that is too long loses its end.
     pub(crate) fn text(&mut self, x: i32, y: i32, anchor: Anchor, text: &str, color: [u8; 3]) {
-        let room = ((self.frame.width as i32 - self.lettering.advance()) / self.lettering.advance()).max(0) as usize;
-        let text: String = text.chars().take(room).collect();
-        let width = self.lettering.width(&text);
+        let lettering = self.lettering.clone();
+        let text = lettering.cut(text, self.frame.width as i32 - lettering.advance());
+        let width = lettering.width(&text);
         let left = match anchor {
             Anchor::Left => x,
             Anchor::Middle => x - width / 2,
             Anchor::Right => x - width,
         };
-        let style = MonoTextStyle::new(self.lettering.font, Rgb888::new(color[0], color[1], color[2]));
-        let top = y - self.lettering.line() / 2;
-        let scale = self.lettering.scale;
-        let mut letters = Letters { canvas: self, left, top, scale };
-        // Drawing into memory cannot fail: the error type has no values.
-        let Ok(_) = Text::with_baseline(&text, Point::zero(), style, Baseline::Top).draw(&mut letters);
+        lettering.draw(&text, [left, y], |[x, y], share| self.blend(x, y, color, share));
     }
 
     /// Draws a smooth round dot around a point given in pixels, inside `clip`.
@@ -198,33 +149,5 @@ fn cover_segment(coverage: &mut [f32], clip: Rectangle, segment: [[f32; 2]; 2], 
             let pixel = &mut coverage[(y * clip.width + x) as usize];
             *pixel = pixel.max(amount);
         }
-    }
-}
-
-/// The place of one text: each dot of the font becomes a square.
-struct Letters<'a, 'b> {
-    canvas: &'a mut Canvas<'b>,
-    left: i32,
-    top: i32,
-    scale: i32,
-}
-
-impl OriginDimensions for Letters<'_, '_> {
-    fn size(&self) -> Size {
-        Size::new(self.canvas.frame.width, self.canvas.frame.height)
-    }
-}
-
-impl DrawTarget for Letters<'_, '_> {
-    type Color = Rgb888;
-    type Error = std::convert::Infallible;
-
-    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(&mut self, pixels: I) -> Result<(), Self::Error> {
-        for Pixel(point, color) in pixels {
-            let (x, y) = (self.left + point.x * self.scale, self.top + point.y * self.scale);
-            let square = Rectangle { x, y, width: self.scale, height: self.scale };
-            self.canvas.fill(square, [color.r(), color.g(), color.b()], 1.0);
-        }
-        Ok(())
     }
 }

@@ -1,6 +1,8 @@
 //! Finished pictures in memory.
 
 use super::layers::{LayerPixel, Layers};
+use super::paper::Paper;
+use crate::scene::{Look, RenderSettings};
 
 /// A picture: 8 bits per channel, sRGB, rows from the top.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -11,6 +13,8 @@ pub struct Frame {
     pub height: u32,
     /// Red, green, blue, alpha of each pixel; alpha is 255.
     pub rgba: Vec<u8>,
+    /// Pixels per inch, if it is meant for paper.
+    pub per_inch: Option<u32>,
 }
 
 /// What a picture holds beside its 8 bits per channel.
@@ -50,11 +54,20 @@ pub(super) struct Drawn {
     pub(super) toned: Vec<[f32; 4]>,
 }
 
+/// Pixels per inch of pictures for paper.
+const PRINT_PER_INCH: u32 = 300;
+
 impl Frame {
+    /// A frame of a look's size with nothing on it.
+    pub(super) fn blank(look: &RenderSettings) -> Self {
+        let per_inch = (look.look == Look::Print).then_some(PRINT_PER_INCH);
+        Self { per_inch, ..Self::filled(look.size[0], look.size[1], Paper::of(look).ground) }
+    }
+
     /// A frame of one colour.
     #[must_use]
     pub fn filled(width: u32, height: u32, color: [u8; 3]) -> Self {
         let pixel = [color[0], color[1], color[2], 255];
-        Self { width, height, rgba: pixel.repeat(width as usize * height as usize) }
+        Self { width, height, rgba: pixel.repeat(width as usize * height as usize), per_inch: None }
     }
 }

@@ -35,14 +35,10 @@ pub(super) const TONE_ACES: u32 = 1;
 /// Line-of-sight pictures: of [`crate::scene::RenderMode::LineOfSight`] and [`crate::scene::RenderMode::Shadowgraph`].
 pub(super) const OPTICS: [u32; 2] = [1, 2];
 
-/// Light behind everything in 3D, top and bottom of the picture.
-const BACKGROUND: [[f32; 3]; 2] = [[0.0045, 0.0060, 0.0100], [0.0200, 0.0240, 0.0330]];
-
 /// WGSL constants that the drawing shaders share with the host.
 pub fn constants() -> String {
     let mut text = quantity::constants();
     let vector = |[red, green, blue]: [f32; 3]| format!("vec3f({red:?}, {green:?}, {blue:?})");
-    let [top, bottom] = BACKGROUND.map(vector);
     let _ = writeln!(text, "const KIND_GAS: u32 = {}u;\nconst KIND_SOLID: u32 = {}u;", kind::GAS, kind::SOLID);
     let _ = writeln!(text, "const KIND_WALL: u32 = {}u;", kind::WALL);
     let _ = writeln!(text, "const NO_VALUE: f32 = {NO_VALUE:e};\nconst SAMPLE_MARGIN: u32 = {SAMPLE_MARGIN}u;");
@@ -51,7 +47,6 @@ pub fn constants() -> String {
     let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;\nconst BLOCK_CELLS: u32 = {BLOCK_CELLS}u;");
     let _ = writeln!(text, "const RANGE_GROUPS: u32 = {}u;", super::gas::RANGE_GROUPS);
     let _ = writeln!(text, "const TONE_ACES: u32 = {TONE_ACES}u;\nconst OPTICS_SHADOWGRAPH: u32 = {}u;", OPTICS[1]);
-    let _ = writeln!(text, "const BACKGROUND_TOP: vec3f = {top};\nconst BACKGROUND_BOTTOM: vec3f = {bottom};");
     let count = BODY_COLORS.len();
     let colors = BODY_COLORS.map(|color| vector(color.map(|channel| linear_from_srgb(f32::from(channel) / 255.0))));
     let _ = writeln!(text, "const BODY_COLOR_COUNT: u32 = {count}u;");

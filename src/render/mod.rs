@@ -13,9 +13,11 @@ mod frame;
 mod gas;
 mod kernels;
 mod layers;
+mod letters;
 mod light;
 mod lines;
 mod overlay;
+mod paper;
 mod particles;
 mod plane;
 mod plot;
@@ -183,7 +185,7 @@ impl Renderer {
             scale: self.scale(look, &layout, time),
             camera: layers::camera(&self.eye(look, time), layout.plot.width as f32 / layout.plot.height as f32),
         };
-        let picture = plane::compose(look.size, &layout, &drawn, &labels, self.sources.grid.dimension < 3);
+        let picture = plane::compose(look, &layout, &drawn, &labels, self.sources.grid.dimension < 3);
         Ok(Picture { name: field.keyword().to_owned(), range, ..picture })
     }
 
@@ -221,7 +223,7 @@ impl Renderer {
         let colored = look.particle_color.is_value() && look.particles && self.sources.particles.is_some();
         let bars = [overlays.color_bar && self.optics(look) == 0, overlays.color_bar && colored];
         let aspect = (self.sources.grid.dimension < 3).then(|| extent[0] / extent[1]);
-        Layout::new(look.size, aspect, bars, overlays.title || overlays.time)
+        Layout::new(look, aspect, bars)
     }
 
     fn eye(&self, look: &RenderSettings, time: f64) -> Eye {
@@ -363,7 +365,7 @@ impl Renderer {
     /// The line plot of a one-dimensional state.
     fn draw_lines(&self, look: &RenderSettings, time: f64) -> Result<Picture> {
         let line = self.read_line(look, time)?;
-        let frame = plot::draw(&line, look.size, &self.stamp(look, time));
+        let frame = plot::draw(&line, look, &self.stamp(look, time));
         Ok(Picture { name: "lines".to_owned(), range: line.range(0), ..plane::flat(frame, self.depth) })
     }
 

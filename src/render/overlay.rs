@@ -2,16 +2,12 @@
 
 use glam::Vec3;
 
-use super::canvas::{Anchor, Canvas, Lettering, Rectangle};
+use super::canvas::{Anchor, Canvas, Rectangle};
 use super::colormap::lookup;
-use super::ticks::ticks;
-
-/// Behind everything.
-pub(crate) const BACKGROUND: [u8; 3] = [14, 17, 22];
-/// Letters.
-pub(crate) const INK: [u8; 3] = [222, 226, 232];
-/// Frames and ticks.
-pub(crate) const FAINT: [u8; 3] = [118, 126, 138];
+use super::letters::Lettering;
+use super::paper::Paper;
+use super::ticks::{scientific, ticks};
+use crate::scene::RenderSettings;
 
 /// Where the parts of a picture are.
 #[derive(Debug, Clone, Copy)]
@@ -28,9 +24,10 @@ const LABEL_LETTERS: i32 = 8;
 impl Layout {
     /// For a plot of the given width over height; `None` lets the plot take the whole frame, under everything else.
     /// `shown` says which colour bars there are.
-    pub(crate) fn new(size: [u32; 2], aspect: Option<f32>, shown: [bool; 2], header: bool) -> Self {
-        let letters = Lettering::for_size(size[0], size[1]);
-        let [width, height] = size.map(|pixels| pixels as i32);
+    pub(crate) fn new(look: &RenderSettings, aspect: Option<f32>, shown: [bool; 2]) -> Self {
+        let letters = Lettering::of(look);
+        let header = look.overlays.title || look.overlays.time;
+        let [width, height] = look.size.map(|pixels| pixels as i32);
         let (line, advance) = (letters.line(), letters.advance());
         let some = shown.contains(&true);
         let bar_width = 2 * advance;
@@ -85,15 +82,17 @@ pub(crate) fn header(canvas: &mut Canvas, title: Option<&str>, time: Option<f64>
     let (line, advance) = (canvas.lettering.line(), canvas.lettering.advance());
     let right = canvas.frame.width as i32 - advance;
     let stamp = time.map_or_else(String::new, |time| format!("t = {} s", significant(time)));
-    let room = (right - 4 * advance - canvas.lettering.width(&stamp)) / advance;
-    let title: String = title.unwrap_or_default().chars().take(room.max(0) as usize).collect();
-    canvas.text(2 * advance, line, Anchor::Left, &title, INK);
-    canvas.text(right, line, Anchor::Right, &stamp, INK);
+    let room = right - 4 * advance - canvas.lettering.width(&stamp);
+    let title = canvas.lettering.cut(title.unwrap_or_default(), room);
+    let ink = canvas.paper.ink;
+    canvas.text(2 * advance, line, Anchor::Left, &title, ink);
+    canvas.text(right, line, Anchor::Right, &stamp, ink);
 }
 
 /// A bar of a round length in the lower left corner of the plot, where a metre has so many pixels everywhere.
 pub(crate) fn scale_bar(canvas: &mut Canvas, plot: Rectangle, pixels_per_metre: f64) {
     let longest = 0.25 * f64::from(plot.width) / pixels_per_metre;
+    let Paper { ink, ground, .. } = canvas.paper;
     let Some((length, label)) = ticks([0.0, longest], 2).pop().filter(|(length, _)| *length > 0.0) else { return };
     let (line, advance, unit) = (canvas.lettering.line(), canvas.lettering.advance(), canvas.lettering.unit());
     let width = (length * pixels_per_metre).round() as i32;
@@ -102,13 +101,13 @@ pub(crate) fn scale_bar(canvas: &mut Canvas, plot: Rectangle, pixels_per_metre: 
         return;
     }
     let around = Rectangle { x: bar.x - unit, y: bar.y - unit, width: width + 2 * unit, height: 4 * unit };
-    canvas.fill(around, BACKGROUND, 0.6);
-    canvas.fill(bar, INK, 1.0);
+    canvas.fill(around, ground, 0.6);
+    canvas.fill(bar, ink, 1.0);
     let label = format!("{label} m");
     let text = (canvas.lettering.width(&label), bar.y - 2 * unit - line / 2);
     let behind = Rectangle { x: bar.x - unit, y: text.1 - line / 2, width: text.0 + 2 * unit, height: line };
-    canvas.fill(behind, BACKGROUND, 0.6);
-    canvas.text(bar.x, text.1, Anchor::Left, &label, INK);
+    canvas.fill(behind, ground, 0.6);
+    canvas.text(bar.x, text.1, Anchor::Left, &label, ink);
 }
 
 /// Velocities at places of a regular pattern, as arrows; the fastest is as long as the places are apart.
@@ -132,20 +131,20 @@ pub(crate) fn arrows(canvas: &mut Canvas, plot: Rectangle, count: [u32; 2], velo
         let side = 0.3 * (along + along.perp());
         let barb = |side: glam::Vec2| (tip - side).to_array();
         let mirrored = 0.3 * (along - along.perp());
-        for (color, width) in [(BACKGROUND, 2.6 * width), (INK, width)] {
+        for (color, width) in [(canvas.paper.ground, 2.6 * width), (canvas.paper.ink, width)] {
             canvas.stroke(&[tail.to_array(), tip.to_array()], plot, color, width);
             canvas.stroke(&[barb(side), tip.to_array(), barb(mirrored)], plot, color, width);
         }
     }
 }
 
-/// Four significant digits, with an exponent for very small and very large numbers.
+/// Four significant digits, times a power of ten for very small and very large numbers.
 pub(crate) fn significant(value: f64) -> String {
     let exponent = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
     if (-3.0..5.0).contains(&exponent) {
         format!("{value:.*}", (3.0 - exponent) as usize)
     } else {
-        format!("{value:.3e}")
+        scientific(value, 3)
     }
 }
 
@@ -159,24 +158,25 @@ pub(crate) fn color_bar(
     contrast: f32,
     caption: &str,
 ) {
+    let Paper { ink, ground, faint, .. } = canvas.paper;
     for row in 0..bar.height {
         let fraction = (row as f32 + 0.5) / bar.height as f32;
         let strip = Rectangle { x: bar.x, y: bar.bottom() - 1 - row, width: bar.width, height: 1 };
         canvas.fill(strip, lookup(table, fraction.powf(contrast)), 1.0);
     }
-    canvas.outline(bar, FAINT);
+    canvas.outline(bar, faint);
     let (line, advance, unit) = (canvas.lettering.line(), canvas.lettering.advance(), canvas.lettering.unit());
     let wanted = (bar.height / (3 * line)).clamp(2, 8) as usize;
     for (value, label) in ticks(range, wanted) {
         let fraction = (value - range[0]) / (range[1] - range[0]);
         let y = bar.bottom() - (fraction * f64::from(bar.height)).round() as i32;
-        canvas.fill(Rectangle { x: bar.right(), y, width: advance / 2, height: unit }, FAINT, 1.0);
-        canvas.text(bar.right() + advance, y, Anchor::Left, &label, INK);
+        canvas.fill(Rectangle { x: bar.right(), y, width: advance / 2, height: unit }, faint, 1.0);
+        canvas.text(bar.right() + advance, y, Anchor::Left, &label, ink);
     }
     let width = canvas.lettering.width(caption);
     let (x, y) = (bar.x.min(canvas.frame.width as i32 - advance - width), bar.y - 5 * line / 4);
     // A long caption reaches over the picture, which may be bright.
     let behind = Rectangle { x: x - unit, y: y - line / 2, width: width + 2 * unit, height: line };
-    canvas.fill(behind, BACKGROUND, 0.6);
-    canvas.text(x, y, Anchor::Left, caption, INK);
+    canvas.fill(behind, ground, 0.6);
+    canvas.text(x, y, Anchor::Left, caption, ink);
 }

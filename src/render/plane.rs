@@ -16,7 +16,7 @@ use super::screen::{Screen, Shared};
 use super::transfer::Tables;
 use super::{Stamp, View};
 use crate::gpu::{Gpu, Pass};
-use crate::scene::Scene;
+use crate::scene::{RenderSettings, Scene};
 use crate::{Error, Result};
 
 /// Sizes of pictures whose kernels and buffers are kept at most.
@@ -128,17 +128,22 @@ impl Drawing {
 }
 
 /// Puts the plot's pixels on a frame and writes over and around them.
-pub(super) fn compose(size: [u32; 2], layout: &Layout, drawn: &Drawn, labels: &Labels, outlined: bool) -> Picture {
-    let [width, height] = size;
-    let mut frame = Frame::filled(width, height, overlay::BACKGROUND);
+pub(super) fn compose(
+    look: &RenderSettings,
+    layout: &Layout,
+    drawn: &Drawn,
+    labels: &Labels,
+    outlined: bool,
+) -> Picture {
+    let mut frame = Frame::blank(look);
     let plot = layout.plot;
     for (row, line) in drawn.pixels.chunks_exact(plot.width as usize).enumerate() {
-        let first = 4 * ((plot.y as usize + row) * width as usize + plot.x as usize);
+        let first = 4 * ((plot.y as usize + row) * frame.width as usize + plot.x as usize);
         frame.rgba[first..first + 4 * line.len()].copy_from_slice(bytemuck::cast_slice(line));
     }
-    let mut canvas = Canvas::new(&mut frame);
+    let mut canvas = Canvas::new(&mut frame, look);
     if outlined {
-        canvas.outline(plot, overlay::FAINT);
+        canvas.outline(plot, canvas.paper.faint);
     }
     let (count, velocities) = &labels.arrows;
     overlay::arrows(&mut canvas, plot, *count, velocities);

@@ -2,18 +2,13 @@
 
 use super::canvas::{Anchor, Canvas, Rectangle};
 use super::frame::Frame;
-use super::overlay::{BACKGROUND, FAINT, INK, header};
+use super::overlay::header;
 use super::ticks::ticks;
 use super::{BODY_COLORS, Stamp};
+use crate::scene::RenderSettings;
 use crate::snapshot::kind;
 use crate::state::Grid;
 
-/// Panel background.
-const PANEL: [u8; 3] = [22, 26, 33];
-/// Lines across a panel.
-const GRID_LINE: [u8; 3] = [42, 48, 58];
-/// Curves of the three panels.
-const CURVES: [[u8; 3]; 3] = [[102, 194, 255], [255, 184, 77], [140, 220, 120]];
 /// Captions of the three panels.
 const CAPTIONS: [&str; 3] = ["density [kg/m\u{b3}]", "velocity [m/s]", "pressure [Pa]"];
 
@@ -52,9 +47,10 @@ impl Line {
 }
 
 /// Draws the three panels.
-pub(crate) fn draw(line: &Line, size: [u32; 2], stamp: &Stamp) -> Frame {
-    let mut frame = Frame::filled(size[0], size[1], BACKGROUND);
-    let mut canvas = Canvas::new(&mut frame);
+pub(crate) fn draw(line: &Line, look: &RenderSettings, stamp: &Stamp) -> Frame {
+    let size = look.size;
+    let mut frame = Frame::blank(look);
+    let mut canvas = Canvas::new(&mut frame, look);
     header(&mut canvas, stamp.title, stamp.time);
     let (text, advance) = (canvas.lettering.line(), canvas.lettering.advance());
     let (left, right) = (9 * advance, 3 * advance);
@@ -70,7 +66,7 @@ pub(crate) fn draw(line: &Line, size: [u32; 2], stamp: &Stamp) -> Frame {
         Panel { line, area, range: line.range(panel), index: panel }.draw(&mut canvas);
     }
     let middle = left + (size[0] as i32 - left - right) / 2;
-    canvas.text(middle, size[1] as i32 - 3 * text / 4, Anchor::Middle, "x [m]", INK);
+    canvas.text(middle, size[1] as i32 - 3 * text / 4, Anchor::Middle, "x [m]", canvas.paper.ink);
     frame
 }
 
@@ -99,7 +95,7 @@ impl Panel<'_> {
     }
 
     fn draw(&self, canvas: &mut Canvas) {
-        canvas.fill(self.area, PANEL, 1.0);
+        canvas.fill(self.area, canvas.paper.panel, 1.0);
         self.shade_covered_cells(canvas);
         self.draw_axes(canvas);
         self.draw_exact(canvas);
@@ -107,9 +103,9 @@ impl Panel<'_> {
         if self.index == 1 {
             self.draw_particles(canvas);
         }
-        canvas.outline(self.area, FAINT);
+        canvas.outline(self.area, canvas.paper.faint);
         let y = self.area.y - 2 * canvas.lettering.line() / 3;
-        canvas.text(self.area.x, y, Anchor::Left, CAPTIONS[self.index], CURVES[self.index]);
+        canvas.text(self.area.x, y, Anchor::Left, CAPTIONS[self.index], canvas.paper.curves[self.index]);
     }
 
     /// Bands where a body or an obstacle takes the place of the gas.
@@ -120,7 +116,7 @@ impl Panel<'_> {
             let (from, to) = (self.x_pixel(low), self.x_pixel(low + f64::from(grid.spacing)));
             let (x, y) = (from.round() as i32, self.area.y);
             let band = Rectangle { x, y, width: (to.round() as i32 - x).max(1), height: self.area.height };
-            canvas.fill(band, if cell == kind::SOLID { [74, 68, 60] } else { [62, 66, 74] }, 1.0);
+            canvas.fill(band, canvas.paper.bands[usize::from(cell != kind::SOLID)], 1.0);
         }
     }
 
@@ -128,14 +124,22 @@ impl Panel<'_> {
         let (line, advance, unit) = (canvas.lettering.line(), canvas.lettering.advance(), canvas.lettering.unit());
         for (value, label) in ticks(self.range, (self.area.height / (2 * line)).clamp(2, 6) as usize) {
             let y = self.y_pixel(value).round() as i32;
-            canvas.fill(Rectangle { x: self.area.x, y, width: self.area.width, height: unit }, GRID_LINE, 0.8);
-            canvas.text(self.area.x - advance / 2 - unit, y, Anchor::Right, &label, INK);
+            canvas.fill(
+                Rectangle { x: self.area.x, y, width: self.area.width, height: unit },
+                canvas.paper.grid_line,
+                0.8,
+            );
+            canvas.text(self.area.x - advance / 2 - unit, y, Anchor::Right, &label, canvas.paper.ink);
         }
         for (value, label) in ticks(self.x_range(), (self.area.width / (10 * advance)).clamp(2, 10) as usize) {
             let x = self.x_pixel(value).round() as i32;
-            canvas.fill(Rectangle { x, y: self.area.y, width: unit, height: self.area.height }, GRID_LINE, 0.8);
+            canvas.fill(
+                Rectangle { x, y: self.area.y, width: unit, height: self.area.height },
+                canvas.paper.grid_line,
+                0.8,
+            );
             if self.index == 2 {
-                canvas.text(x, self.area.bottom() + line * 2 / 3 + unit, Anchor::Middle, &label, INK);
+                canvas.text(x, self.area.bottom() + line * 2 / 3 + unit, Anchor::Middle, &label, canvas.paper.ink);
             }
         }
     }
@@ -151,10 +155,10 @@ impl Panel<'_> {
             // A break in the curve is a point without place.
             points.push(if gas { [x, self.y_pixel(value.into())] } else { [f32::NAN; 2] });
         }
-        canvas.curve(&points, self.area, CURVES[self.index], width);
+        canvas.curve(&points, self.area, canvas.paper.curves[self.index], width);
         if self.area.width >= 8 * values.len() as i32 {
             for point in points.into_iter().filter(|point| point[0].is_finite()) {
-                canvas.dot(point, self.area, CURVES[self.index], 2.6 * width);
+                canvas.dot(point, self.area, canvas.paper.curves[self.index], 2.6 * width);
             }
         }
     }
@@ -164,9 +168,9 @@ impl Panel<'_> {
         let Some(lines) = &self.line.exact else { return };
         let points: Vec<[f32; 2]> =
             lines[self.index].iter().map(|[x, value]| [self.x_pixel(*x), self.y_pixel(*value)]).collect();
-        canvas.curve(&points, self.area, INK, canvas.lettering.unit() as f32);
+        canvas.curve(&points, self.area, canvas.paper.ink, canvas.lettering.unit() as f32);
         let y = self.area.y - 2 * canvas.lettering.line() / 3;
-        canvas.text(self.area.right(), y, Anchor::Right, "exact", INK);
+        canvas.text(self.area.right(), y, Anchor::Right, "exact", canvas.paper.ink);
     }
 
     fn draw_particles(&self, canvas: &mut Canvas) {

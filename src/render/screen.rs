@@ -68,12 +68,15 @@ struct Skin {
     samples: u64,
     depth: Buffer<u32>,
     nearest: Buffer<u32>,
+    /// The same for a smooth surface, whose balls are larger and drawn back.
+    kept: Buffer<u32>,
     /// Number and list of the rays that meet particles.
     covered: Buffer<u32>,
     /// Workgroups for them.
     groups: Buffer<u32>,
     splat_depth: Bound,
     splat_nearest: Bound,
+    draw_back: Bound,
     smooth_depth: [Bound; 2],
     list_skin: Bound,
     shade_skin: Bound,
@@ -155,7 +158,7 @@ impl Screen {
             bind_with(gpu, "solids.wgsl", "trace_solids", &key.switches(), &[&shade[..], &own].concat())
         };
         let skin = shared.particles.map(|own| Skin::new(shared, own, (view, &key), band_rows, &surface)).transpose()?;
-        let samples = skin.as_ref().map(|skin| [&skin.depth, &skin.nearest]);
+        let samples = skin.as_ref().map(|skin| [&skin.depth, if key.smooth { &skin.kept } else { &skin.nearest }]);
         let layered = || LayerKernel::new(shared, pixels.len(), [drawn[2], ("solid", solid.raw())], samples);
         let optics = || Optics::new(shared, width as usize * height as usize, &surface, &solid, &gathered);
         Ok(Self {
@@ -255,7 +258,9 @@ impl Skin {
         let smooth: Buffer<u32> = Buffer::new(gpu, "smooth depths", samples)?;
         let nearest: Buffer<u32> = Buffer::new(gpu, "sample particles", samples)?;
         let of_view = ("view", gas.view.raw());
+        let kept: Buffer<u32> = Buffer::new(gpu, "kept particles", if key.smooth { samples } else { 1 })?;
         let of_nearest = ("nearest", nearest.raw());
+        let of_shown = ("nearest", if key.smooth { kept.raw() } else { nearest.raw() });
         let balls = ("balls", own.balls.raw());
         let rays = view.size[0] as usize * rows as usize;
         let covered: Buffer<u32> = Buffer::new(gpu, "covered rays", 1 + rays)?;
@@ -265,27 +270,30 @@ impl Skin {
         let splat =
             |entry: &str, own: &[(&str, &wgpu::Buffer)]| bind(gpu, "points.wgsl", entry, &[&of_splat, own].concat());
         let smoothed = |from: &Buffer<u32>, to: &Buffer<u32>| {
-            let own = [of_view, of_nearest, balls, ("depth_in", from.raw()), ("depth_out", to.raw())];
+            let own = [of_view, of_shown, balls, ("depth_in", from.raw()), ("depth_out", to.raw())];
             bind(gpu, "skin.wgsl", "smooth_depth", &own)
         };
+        let back = [("depth_in", depth.raw()), ("depth_out", smooth.raw()), ("kept", kept.raw())];
         let shade = light.of_surfaces();
-        let result = [of_view, of_nearest, balls, of_covered, ("depth_in", depth.raw()), ("surface", surface.raw())];
+        let result = [of_view, of_shown, balls, of_covered, ("depth_in", depth.raw()), ("surface", surface.raw())];
         let switches = key.switches();
         Ok(Self {
             count: own.count,
             samples: samples as u64,
             splat_depth: splat("splat_depth", &[])?,
             splat_nearest: splat("splat_nearest", &[of_nearest])?,
-            smooth_depth: [smoothed(&depth, &smooth)?, smoothed(&smooth, &depth)?],
+            draw_back: bind(gpu, "skin.wgsl", "draw_back", &[&[of_view, of_nearest, balls][..], &back].concat())?,
+            smooth_depth: [smoothed(&smooth, &depth)?, smoothed(&depth, &smooth)?],
             list_skin: bind(
                 gpu,
                 "skin.wgsl",
                 "list_skin",
-                &[of_view, of_nearest, of_covered, ("skin_groups", groups.raw())],
+                &[of_view, of_shown, of_covered, ("skin_groups", groups.raw())],
             )?,
             shade_skin: bind_with(gpu, "skin.wgsl", "shade_skin", &switches, &[&shade[..], &result].concat())?,
             depth,
             nearest,
+            kept,
             covered,
             groups,
         })
@@ -299,7 +307,9 @@ impl Skin {
         pass.dispatch(&self.splat_depth, &Extent::Threads(self.count));
         pass.dispatch(&self.splat_nearest, &Extent::Threads(self.count));
         if view.smooth_skin == 1 {
-            for smooth_depth in [&self.smooth_depth, &self.smooth_depth].into_iter().flatten() {
+            pass.dispatch(&self.draw_back, &Extent::Threads(self.samples));
+            let [first, second] = &self.smooth_depth;
+            for smooth_depth in [first, second, first] {
                 pass.dispatch(smooth_depth, &Extent::Threads(self.samples));
             }
         }

@@ -5,6 +5,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use super::camera::{Eye, middle_of};
 use super::kernels::LIGHT_CELLS;
+use super::paper::Paper;
 use crate::scene::{RenderSettings, Scene};
 use crate::state::Grid;
 
@@ -129,6 +130,8 @@ pub struct View {
     pub contour_count: u32,
     /// Velocity arrows along x and y.
     pub arrows: [u32; 2],
+    /// Light behind everything in 3D, at the top and the bottom of the picture.
+    pub background: [[f32; 4]; 2],
     /// Slices: the points x with dot(xyz, x) = w.
     pub slices: [[f32; 4]; 4],
     /// Values of the contour lines, as fractions of the range.
@@ -168,6 +171,7 @@ impl View {
             particle_high: 1.0,
             exposure: look.exposure as f32,
             gain: 1.0,
+            background: Paper::sky(look).map(|[red, green, blue]| [red, green, blue, 1.0]),
             ..Self::zeroed()
         };
         view.set_light(grid, look);

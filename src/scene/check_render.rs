@@ -68,6 +68,9 @@ impl Check<'_> {
         self.count(key("supersampling"), render.supersampling, 1, 4);
         self.count(key("arrows"), render.arrows, 0, 200);
         self.positive(key("exposure"), render.exposure, "");
+        if !(0.5..=4.0).contains(&render.text_size) {
+            self.add(key("text_size"), format!("{} is out of range", render.text_size), "give a number from 0.5 to 4");
+        }
         if let Some(depth) = render.optical_depth {
             self.positive(key("optical_depth"), depth, "");
         }

@@ -65,9 +65,9 @@ impl Scene {
             return Scene::parse(text, scene_file, &all);
         }
         Scene::parse(text, &folder.join("scene.toml").display().to_string(), &all).map_err(|error| match error {
-            Error::Scene(text) if text.contains(".mesh.path") => {
-                let hint = "nothing outside of the folder of the run is read; --allow-outside reads meshes where the run \
-                            found them";
+            Error::Scene(text) if text.contains(".mesh.path") || text.contains("render.font") => {
+                let hint = "nothing outside of the folder of the run is read; --allow-outside reads meshes and fonts where the \
+                            run found them";
                 Error::Scene(format!("{text}\n{hint}"))
             }
             error => error,

@@ -14,6 +14,8 @@ pub enum Look {
     /// Fields with scales, bodies as particles: the defaults of all keys.
     #[default]
     Lab,
+    /// Black on white for paper, files with 300 pixels per inch, bodies with smooth surfaces, four rays per pixel.
+    Print,
     /// Gas as a grey veil, bodies with smooth surfaces, sun, filmic tone, four rays per pixel, nothing written.
     Film,
 }
@@ -33,9 +35,17 @@ const FILM_IN_THE_PLANE: &str = r#"
 overlays = { title = false, time = false, color_bar = false, scale_bar = false }
 "#;
 
+/// What [`Look::Print`] means in 3D; elsewhere it changes the colours around the picture alone.
+const PRINT: &str = r#"
+surface = "smooth"
+supersampling = 2
+overlays = { edges = false }
+"#;
+
 fn meaning(look: &str, dimension: i64) -> Option<&'static str> {
     match (look, dimension) {
         ("film", 3) => Some(FILM),
+        ("print", 3) => Some(PRINT),
         ("film", _) => Some(FILM_IN_THE_PLANE),
         _ => None,
     }

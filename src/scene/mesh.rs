@@ -169,7 +169,7 @@ impl MeshFolder<'_> {
     }
 
     /// The bytes of a file.
-    fn bytes(&self, within: &Path, path: &str, most: u64) -> Result<Vec<u8>, (String, String)> {
+    pub(super) fn bytes(&self, within: &Path, path: &str, most: u64) -> Result<Vec<u8>, (String, String)> {
         let file = self.file(within, path)?;
         let name = file.display();
         let unreadable = |error: std::io::Error| {

@@ -25,6 +25,7 @@ mod estimate;
 mod expectation;
 mod extent;
 mod fill;
+mod font;
 mod fracture;
 mod gauge;
 mod integrator;
@@ -79,6 +80,7 @@ pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidU
 pub use cut::{CutCell, CutGeometry};
 pub use estimate::{Estimate, IMPLICIT_COURANT};
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
+pub use font::Font;
 pub use fracture::Breaking;
 pub use gauge::{Gauge, GaugePlace, Side};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};

@@ -146,6 +146,7 @@ impl Scene {
         for (path, shape) in self.placed_shapes().into_iter().chain(self.patch_shapes()) {
             library.resolve(&path, shape);
         }
+        library.findings.extend(self.render.font.as_ref().and_then(|font| font.resolve(meshes)));
         library.findings
     }
 }

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::camera::{Camera, CameraPath};
+use super::font::Font;
 use super::look::Look;
 use super::shot::ShotKeys;
 
@@ -146,6 +147,11 @@ pub struct RenderSettings {
     pub arrows: u32,
     /// What is written over and around the picture.
     pub overlays: Overlays,
+    /// Size of what is written, 0.5 to 4; at 1 a line takes a 36th of the picture's height.
+    pub text_size: f64,
+    /// A font for letters that the program's own lack; they have Latin, Greek and Cyrillic.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub font: Option<Font>,
     /// Further pictures of every frame, by name: what each changes of the keys above, and its `fields`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(with = "BTreeMap<String, ShotKeys>")]
@@ -180,6 +186,8 @@ impl Default for RenderSettings {
             contours: Contours::default(),
             arrows: 0,
             overlays: Overlays::default(),
+            text_size: 1.0,
+            font: None,
             views: BTreeMap::new(),
         }
     }

@@ -109,6 +109,9 @@ impl Scene {
         if changes.contains_key("views") {
             return Err(("views".to_owned(), "a view has no views of its own".to_owned()));
         }
+        if changes.contains_key("font") {
+            return Err(("font".to_owned(), "one font serves all views: give it as render.font".to_owned()));
+        }
         let mut merged = Table::try_from(self.own_look()).map_err(|error| nowhere(&error))?;
         if CAMERAS.iter().any(|key| changes.contains_key(*key)) {
             for key in CAMERAS {
@@ -116,7 +119,7 @@ impl Scene {
             }
         }
         merge(&mut merged, changes);
-        let settings = located(Value::Table(merged))?;
+        let settings = RenderSettings { font: self.render.font.clone(), ..located(Value::Table(merged))? };
         Ok(Shot { name: name.to_owned(), fields, settings })
     }
 }

@@ -6,7 +6,7 @@ use brisance::export;
 use brisance::render::{Frame, Picture, Renderer};
 use brisance::scene::Field;
 
-use crate::synthetic::{State, brightness, every_cell, gpu, pixel, scene};
+use crate::synthetic::{State, brightness, every_cell, gpu, pixel, render, scene};
 
 /// Mean difference of a channel that drivers may make, of 255.
 const MEAN_ERROR: f64 = 1.0;
@@ -238,5 +238,30 @@ fn time_of_a_large_picture() {
         let start = std::time::Instant::now();
         renderer.draw(&scene.render, Field::Density, 0.0).unwrap();
         println!("{:.2} s per picture on {}", start.elapsed().as_secs_f64(), gpu.info.name);
+    }
+}
+
+/// What is written is larger or smaller as asked; for print it is black on white, and files say how large they are on paper.
+#[test]
+fn print_is_black_on_white_and_letters_have_the_size_that_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    for dimension in 1..=3 {
+        let draw = |keys: &str| render(dimension, 12, [640, 400], keys).swap_remove(0);
+        let dark = |picture: &Picture| {
+            let header = (0..640).flat_map(|x| (0..24).map(move |y| (x, y)));
+            header.filter(|&(x, y)| brightness(pixel(picture, x, y)) < 450).count()
+        };
+        let [plain, large] =
+            ["", "\nrender.text_size = 1.6"].map(|more| draw(&format!("render.look = \"print\"{more}")));
+        assert_eq!([pixel(&plain, 0, 0), pixel(&plain, 639, 399)], [[255; 3]; 2], "{dimension}D");
+        assert!(dark(&plain) > 20 && dark(&large) > dark(&plain), "{dimension}D: {} {}", dark(&plain), dark(&large));
+        assert!(brightness(pixel(&draw(""), 0, 0)) < 120, "{dimension}D");
+
+        let path = folder.path().join(format!("{dimension}.png"));
+        plain.save(&path).unwrap();
+        let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
+        let reader = png::Decoder::new(file).read_info().unwrap();
+        let size = reader.info().pixel_dims.unwrap();
+        assert_eq!((size.xppu, size.yppu, size.unit), (11811, 11811, png::Unit::Meter), "300 pixels per inch");
     }
 }
