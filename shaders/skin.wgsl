@@ -47,6 +47,8 @@ fn samples_across(length: f32, depth: f32) -> f32 {
 
 // Depths that differ by more than so many radii belong to different sheets.
 const SHEET: f32 = 6.0;
+// Of sixteen places around, how many beyond a sheet tell its side from a small hole.
+const SIDE: u32 = 4u;
 
 @compute @workgroup_size(WORKGROUP)
 fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
@@ -65,24 +67,29 @@ fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
     let radius = balls[2u * (FARTHEST - nearest[i])].w;
     let excess = (splat_growth() - 1.0) * radius;
     let reach = clamp(samples_across(excess, depth), 1.0, f32(SAMPLE_MARGIN) / 3.0);
-    // What is farthest on a ring around: the sheet itself, one behind it, or nothing.
+    // On a ring around: what of the sheet is farthest, and what lies behind it where it ends.
     var farthest = depth;
+    var behind = NOTHING;
+    var beyond = 0u;
     for (var k = 0u; k < 16u; k++) {
         let angle = f32(k) * 0.39269908;
         let near = clamp(place + vec2i(round(reach * vec2f(cos(angle), sin(angle)))), vec2i(0), vec2i(grid) - 1);
         let j = u32(near.x) + grid.x * u32(near.y);
-        if (nearest[j] == NOTHING) {
-            kept[i] = NOTHING;
-            depth_out[i] = NOTHING;
-            return;
-        }
-        let own = bitcast<f32>(FARTHEST - depth_in[j]);
-        if (own > farthest) {
-            farthest = own;
-            kept[i] = select(nearest[i], nearest[j], own - depth > SHEET * radius);
+        let own = select(bitcast<f32>(FARTHEST - depth_in[j]), 1e30, nearest[j] == NOTHING);
+        if (own - depth <= SHEET * radius) {
+            farthest = max(farthest, own);
+        } else {
+            beyond += 1u;
+            behind = select(behind, j + 1u, nearest[j] != NOTHING);
         }
     }
-    depth_out[i] = FARTHEST - bitcast<u32>(farthest + excess);
+    if (beyond >= SIDE && behind != NOTHING) {
+        kept[i] = nearest[behind - 1u];
+        farthest = bitcast<f32>(FARTHEST - depth_in[behind - 1u]);
+    } else if (beyond >= SIDE) {
+        kept[i] = NOTHING;
+    }
+    depth_out[i] = select(FARTHEST - bitcast<u32>(farthest + excess), NOTHING, kept[i] == NOTHING);
 }
 
 @compute @workgroup_size(WORKGROUP)
