@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use brisance::export;
 use brisance::render::{Frame, Picture, Renderer};
 use brisance::scene::Field;
+use brisance::simulation::Simulation;
 
 use crate::synthetic::{State, brightness, every_cell, gpu, pixel, render, scene};
 
@@ -264,4 +265,36 @@ fn print_is_black_on_white_and_letters_have_the_size_that_is_asked_for() {
         let size = reader.info().pixel_dims.unwrap();
         assert_eq!((size.xppu, size.yppu, size.unit), (11811, 11811, png::Unit::Meter), "300 pixels per inch");
     }
+}
+
+/// Light that differs from that of most pixels around, where a ball looks at the camera: holes, and gas that shines through.
+#[test]
+fn a_thin_shell_around_hot_gas_has_no_holes_and_no_specks() {
+    let gpu = gpu();
+    let more = "render.surface = \"smooth\"\nrender.overlays = { title = false, time = false, edges = false }\n\
+                render.emission = { ambient_kelvin = 360.0 }\nrender.tone = \"aces\"\nrender.colormap = \"gray\"\n\
+                render.camera = { eye = [3.0, 0.4, 0.6], target = [0.5, 0.5, 0.5], height = 0.7 }\n\
+                materials.tin.von_mises = { young_modulus = 1e3, poisson_ratio = 0.3, yield_stress = 30 }\n\
+                [[gas.regions]]\nshape.sphere = { center = [0.5, 0.5, 0.5], radius = 0.25 }\ndensity = 4\npressure = 40\n\
+                [[bodies]]\nname = \"shell\"\nmaterial = \"tin\"\ndensity = 10\n[[bodies.shape.difference]]\n\
+                shell = { thickness = 0.05, shape.sphere = { center = [0.5, 0.5, 0.5], radius = 0.25 } }\n\
+                [[bodies.shape.difference]]\n\
+                torus = { center = [0.5, 0.5, 0.5], axis = [0, 0, 1], major = 0.25, minor = 0.024 }\n";
+    let scene = scene(3, 24, [320, 320], more);
+    let simulation = Simulation::new(&gpu, &scene).unwrap();
+    let picture = Renderer::of(&simulation, &scene).unwrap().draw(&scene.render, Field::Schlieren, 0.0).unwrap();
+    let light = |x: i32, y: i32| brightness(pixel(&picture, x as u32, y as u32));
+    let mut odd = Vec::new();
+    for (x, y) in (70..250).flat_map(|x| (70..250).map(move |y| (x, y))) {
+        if (x - 160_i32).pow(2) + (y - 160_i32).pow(2) > 85 * 85 {
+            continue;
+        }
+        let mut around: Vec<i32> = (-3..=3).flat_map(|i| (-3..=3).map(move |j| light(x + i, y + j))).collect();
+        around.sort_unstable();
+        if (light(x, y) - around[24]).abs() > 90 {
+            odd.push((x, y));
+        }
+    }
+    export::png::write(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("thin_shell.png"), &picture.frame, &[]).unwrap();
+    assert!(odd.len() < 5, "{} pixels: {odd:?}", odd.len());
 }
