@@ -10,11 +10,12 @@ use super::vdb::VdbExporter;
 use crate::Result;
 use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::quantity::{self, Place, Values};
+use crate::scene::{Camera, CameraKey};
 use crate::snapshot::Snapshot;
 
 /// Frames a second of the stage.
 const RATE: u32 = 25;
-/// Height of the camera's film \[tenths of a unit\]; only its ratio to the focal length counts.
+/// Height of a pinhole's film \[tenths of a unit\]; only its ratio to the focal length counts. Parallel rays fill the film.
 const APERTURE: f64 = 24.0;
 /// Quantities of the points beside velocity, and their types.
 const PRIMVARS: [(&str, &str); 6] = [
@@ -140,24 +141,34 @@ impl UsdExporter {
         text.push_str("    }\n");
     }
 
-    /// The camera of `[render]`, where the scene has one.
+    /// The camera of `[render]` and its path, where the scene has one.
     fn camera(&self, text: &mut String, moment: &Moment) {
         let look = &moment.origin.source.render;
-        let Some(camera) = look.camera.as_ref() else { return };
+        let first = || look.path.as_ref()?.keys.first().map(CameraKey::camera);
+        let Some(base) = look.camera.or_else(first) else { return };
         let aspect = f64::from(look.size[0]) / f64::from(look.size[1].max(1));
-        let focal = 0.5 * APERTURE / (0.5 * camera.fov_degrees.to_radians()).tan();
+        let at = |time: f64| look.path.as_ref().map_or(base, |path| path.at(time, &base));
+        let lens = |camera: &Camera| match camera.height {
+            Some(height) => (10.0 * height, APERTURE),
+            None => (APERTURE, 0.5 * APERTURE / (0.5 * camera.fov_degrees.to_radians()).tan()),
+        };
+        let projection = if base.height.is_some() { "orthographic" } else { "perspective" };
         let _ = writeln!(
             text,
-            "    def Camera \"camera\"\n    {{\n        float horizontalAperture = {:?}\n        float verticalAperture = {APERTURE:?}\n        \
-             float focalLength = {focal:?}\n        float2 clippingRange = (0.01, 1000000)\n        \
-             matrix4d xformOp:transform.timeSamples = {{",
-            aspect * APERTURE
+            "    def Camera \"camera\"\n    {{\n        token projection = \"{projection}\"\n        float2 clippingRange = (0.01, 1000000)"
         );
-        for (index, time) in &self.frames {
-            let at = look.path.as_ref().map_or(*camera, |path| path.at(*time, camera));
-            let _ = writeln!(text, "            {index}: {},", looking(at.eye, at.target, at.up));
-        }
-        text.push_str("        }\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n");
+        let mut samples = |name: &str, value: &dyn Fn(&Camera) -> String| {
+            let _ = writeln!(text, "        {name}.timeSamples = {{");
+            for (index, time) in &self.frames {
+                let _ = writeln!(text, "            {index}: {},", value(&at(*time)));
+            }
+            text.push_str("        }\n");
+        };
+        samples("float horizontalAperture", &|camera| format!("{:?}", aspect * lens(camera).0));
+        samples("float verticalAperture", &|camera| format!("{:?}", lens(camera).0));
+        samples("float focalLength", &|camera| format!("{:?}", lens(camera).1));
+        samples("matrix4d xformOp:transform", &|camera| looking(camera.eye, camera.target, camera.up));
+        text.push_str("        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n");
     }
 }
 

@@ -159,9 +159,11 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// [`Error::Scene`] with every mistake: key, what is wrong, what is allowed.
-    pub fn build(self) -> Result<Scene> {
+    pub fn build(mut self) -> Result<Scene> {
         let dimension = self.scene.domain.dimension;
-        let shapes = self.scene.resolve_shapes(MeshFolder { folder: Path::new(""), outside: true, dimension });
+        let place = MeshFolder { folder: Path::new(""), outside: true, dimension };
+        let mut shapes = self.scene.resolve_shapes(place);
+        shapes.extend(self.scene.resolve_cameras(place));
         if !shapes.is_empty() {
             return Err(refused(&self.scene.title, &shapes));
         }

@@ -4,6 +4,8 @@ use glam::{DQuat, DVec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::camera_file::CameraFile;
+
 /// A camera: a pinhole, or parallel rays where `height` is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -41,6 +43,9 @@ pub struct CameraPath {
     /// Where the camera is at given times; in between it moves smoothly through them, before and after it stands still.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub keys: Vec<CameraKey>,
+    /// A camera of a glTF file, instead of keys.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<CameraFile>,
 }
 
 /// A key frame: the camera at a time. The eye stands at `eye`, or where `azimuth`, `elevation` and `distance` from the target lead.
@@ -193,7 +198,7 @@ mod tests {
     #[test]
     fn the_path_passes_through_its_keys_and_rests_at_its_ends() {
         let keys = vec![key(1.0, [0.0, 1.0, 2.0]), key(2.0, [4.0, -1.0, 2.5]), key(4.0, [5.0, 7.0, 0.0])];
-        let path = CameraPath { orbit: 0.0, keys: keys.clone() };
+        let path = CameraPath { keys: keys.clone(), ..CameraPath::default() };
         for key in &keys {
             let found = DVec3::from(path.at(key.time, &base()).eye);
             assert!(found.distance(key.eye.unwrap().into()) < 1e-12, "{found}");
@@ -206,14 +211,14 @@ mod tests {
     #[test]
     fn motion_is_smooth() {
         let even = [0.0, 0.3, 1.0, 1.1, 2.0];
-        let path = CameraPath { orbit: 0.0, keys: even.map(|t| key(t, [3.0 * t, 1.0 - t, 2.0])).to_vec() };
+        let path = CameraPath { keys: even.map(|t| key(t, [3.0 * t, 1.0 - t, 2.0])).to_vec(), ..CameraPath::default() };
         for n in 0..=20 {
             let t = 0.1 * f64::from(n);
             let expected = DVec3::new(3.0 * t, 1.0 - t, 2.0);
             assert!(DVec3::from(path.at(t, &base()).eye).distance(expected) < 1e-12, "t = {t}");
         }
         let keys = vec![key(0.0, [1.0, 0.0, 0.0]), key(0.5, [0.0, 1.0, 0.5]), key(2.0, [-1.0, 0.0, 1.0])];
-        let path = CameraPath { orbit: 0.0, keys };
+        let path = CameraPath { keys, ..CameraPath::default() };
         let eye = |t: f64| DVec3::from(path.at(t, &base()).eye);
         let (step, at) = (1e-6, 0.5);
         let [before, after] = [(eye(at) - eye(at - step)) / step, (eye(at + step) - eye(at)) / step];
@@ -224,7 +229,7 @@ mod tests {
     #[test]
     fn a_parabola_stays_a_parabola() {
         let fall = |t: f64| [t, 0.0, 3.0 - t * t];
-        let path = CameraPath { orbit: 0.0, keys: [0.0, 0.3, 1.3, 1.5].map(|t| key(t, fall(t))).to_vec() };
+        let path = CameraPath { keys: [0.0, 0.3, 1.3, 1.5].map(|t| key(t, fall(t))).to_vec(), ..CameraPath::default() };
         for t in [0.4, 0.7, 1.2] {
             let eye = DVec3::from(path.at(t, &base()).eye);
             assert!(eye.distance(fall(t).into()) < 1e-12, "{eye} at {t}");
@@ -234,7 +239,7 @@ mod tests {
     /// Keys on a circle keep their distance in between, which keys by their places would not.
     #[test]
     fn keys_around_a_target_stay_around_it() {
-        let path = CameraPath { orbit: 0.0, keys: vec![around(0.0, 0.0, 5.0), around(1.0, 180.0, 5.0)] };
+        let path = CameraPath { keys: vec![around(0.0, 0.0, 5.0), around(1.0, 180.0, 5.0)], ..CameraPath::default() };
         for t in [0.0, 0.2, 0.5, 0.9] {
             let camera = path.at(t, &base());
             let arm = DVec3::from(camera.eye) - DVec3::from(camera.target);
@@ -246,20 +251,21 @@ mod tests {
 
     #[test]
     fn an_orbit_turns_around_up() {
-        let path = CameraPath { orbit: 90.0, keys: Vec::new() };
+        let path = CameraPath { orbit: 90.0, ..CameraPath::default() };
         let eye = DVec3::from(path.at(1.0, &base()).eye);
         assert!(eye.distance(DVec3::new(0.0, 2.0, 1.0)) < 1e-12, "{eye}");
         assert_eq!(path.at(0.0, &base()), base());
         // with keys it comes on top of them
         let keys = vec![key(0.0, [2.0, 0.0, 1.0]), key(2.0, [4.0, 0.0, 1.0])];
-        let eye = DVec3::from(CameraPath { orbit: 90.0, keys }.at(1.0, &base()).eye);
+        let eye = DVec3::from(CameraPath { orbit: 90.0, keys, file: None }.at(1.0, &base()).eye);
         assert!(eye.distance(DVec3::new(0.0, 3.0, 1.0)) < 1e-12, "{eye}");
     }
 
     #[test]
     fn the_opening_angle_stays_possible() {
         let wide = |time: f64, fov_degrees: f64| CameraKey { fov_degrees, ..key(time, [1.0; 3]) };
-        let path = CameraPath { orbit: 0.0, keys: vec![wide(0.0, 100.0), wide(1.0, 169.0), wide(2.0, 169.0)] };
+        let path =
+            CameraPath { keys: vec![wide(0.0, 100.0), wide(1.0, 169.0), wide(2.0, 169.0)], ..CameraPath::default() };
         assert!((0..20).all(|n| path.at(0.1 * f64::from(n), &base()).fov_degrees <= 170.0));
     }
 }

@@ -89,7 +89,11 @@ impl Check<'_> {
         if let Some(camera_path) = &render.path {
             self.camera_path(&key("path"), camera_path);
             if render.camera.is_some() && !camera_path.keys.is_empty() {
-                self.add(key("camera"), "both a camera and key frames of one", "leave out `camera` or `path.keys`");
+                self.add(
+                    key("camera"),
+                    "both a camera and key frames of one",
+                    "leave out `camera`, or `path.keys` and `path.file`",
+                );
             }
         }
     }

@@ -199,7 +199,9 @@ pub(super) fn read(source: &mut Source, most_values: u64) -> std::result::Result
     scene.resolve();
     let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
     let dimension = scene.domain.dimension;
-    let shapes = scene.resolve_shapes(MeshFolder { folder, outside, dimension });
+    let meshes = MeshFolder { folder, outside, dimension };
+    let mut shapes = scene.resolve_shapes(meshes);
+    shapes.extend(scene.resolve_cameras(meshes));
     let concerning =
         |mended: &Mended, found: Vec<Finding>| found.into_iter().filter(|own| mended.concerns(own)).collect();
     let shapes: Vec<Finding> = concerning(&mended, shapes);

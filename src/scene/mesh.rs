@@ -3,6 +3,7 @@
 //! The sign of the distance comes from the generalised winding number, which is 1 inside, 0 outside, and degrades gracefully at holes.
 //! [Jacobson et al. 2013, Barill et al. 2018]
 
+mod camera;
 #[cfg(test)]
 mod corpus;
 mod gltf;
@@ -22,6 +23,7 @@ use super::named::{one, placed_bounds, unplaced};
 use super::source::Finding;
 use super::{shape, vector};
 use crate::input;
+pub(super) use camera::{FileCamera, Sight, camera};
 use tree::Tree;
 
 /// Bytes that a mesh file may have.
@@ -75,12 +77,12 @@ pub enum Up {
 
 impl Up {
     /// The direction that is up in a scene of so many axes.
-    fn of_scene(dimension: u32) -> Self {
+    pub(super) fn of_scene(dimension: u32) -> Self {
         if dimension == 3 { Up::Z } else { Up::Y }
     }
 
     /// A quarter turn about x, where two directions differ.
-    fn turned(self, to: Up, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub(super) fn turned(self, to: Up, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match (self, to) {
             (Up::Y, Up::Z) => [x, -z, y],
             (Up::Z, Up::Y) => [x, z, -y],

@@ -12,6 +12,7 @@ mod boundary;
 mod budget;
 mod build;
 mod camera;
+mod camera_file;
 mod check;
 mod check_body;
 mod check_boundary;
@@ -74,6 +75,7 @@ pub use boundary::{
 pub use budget::MOST_PARTICLES;
 pub use build::SceneBuilder;
 pub use camera::{Camera, CameraKey, CameraPath};
+pub use camera_file::CameraFile;
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
 pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidUpdate};

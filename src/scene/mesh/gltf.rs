@@ -14,7 +14,7 @@ use super::{MAX_BYTES, MAX_TRIANGLES, MeshFolder, Surface};
 use crate::spelling::did_you_mean;
 
 /// Nodes below nodes at most.
-const DEEPEST: usize = 64;
+pub(super) const DEEPEST: usize = 64;
 /// Nodes at most, each counted as often as others use it.
 const MOST_NODES: usize = 100_000;
 /// Buffers at most.
@@ -41,7 +41,7 @@ pub(super) fn read(bytes: &[u8], path: &str, wanted: Option<&str>, place: MeshFo
 }
 
 /// The file as the standard wants it. The check of `gltf` reads the accessors of positions before it knows that they are there.
-fn valid(bytes: &[u8]) -> Result<Gltf, String> {
+pub(super) fn valid(bytes: &[u8]) -> Result<Gltf, String> {
     let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(|error| error.to_string())?;
     let root = document.into_json();
     let parts = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
@@ -54,7 +54,7 @@ fn valid(bytes: &[u8]) -> Result<Gltf, String> {
 }
 
 /// The bytes of all buffers; those of other files count, too, and all together are limited.
-fn buffers<'b>(file: &'b Gltf, path: &str, place: MeshFolder<'_>) -> Result<Vec<Cow<'b, [u8]>>, Problem> {
+pub(super) fn buffers<'b>(file: &'b Gltf, path: &str, place: MeshFolder<'_>) -> Result<Vec<Cow<'b, [u8]>>, Problem> {
     let within = place.folder.join(path).parent().map_or_else(|| place.folder.to_owned(), Path::to_owned);
     let count = file.document.buffers().len();
     if count > MOST_BUFFERS {
@@ -179,7 +179,7 @@ fn index(bytes: &[u8]) -> Option<u32> {
 const NOTHING: [u8; 64] = [0; 64];
 
 /// The bytes of each element of an accessor; those of its sparse part replace others.
-fn elements<'b>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]) -> Result<Vec<&'b [u8]>, String> {
+pub(super) fn elements<'b>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]) -> Result<Vec<&'b [u8]>, String> {
     let (size, count) = (accessor.size(), accessor.count());
     let mut all = match accessor.view() {
         Some(view) => in_view(&view, buffers, accessor.offset(), (size, count))?,

@@ -1,5 +1,6 @@
 //! Tests of scenes: reading and its errors, geometry, the shipped files and their documentation.
 
+mod cameras;
 mod errors;
 mod files;
 mod foreign;
