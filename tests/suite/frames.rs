@@ -162,7 +162,7 @@ fn a_path_moves_the_camera_of_its_view_only() {
     };
     let no_words = |pictures: &[Picture], k: usize| -> Vec<u8> {
         // below the time stamp
-        pictures[k].frame.rgba[4 * 48 * 12..].to_vec()
+        pictures[k].frame.rgba[4 * 48 * 20..].to_vec()
     };
     let (first, later) = (at(&mut renderer, 0.0), at(&mut renderer, 1.0));
     for (k, moves) in [(0, false), (1, true), (4, true)] {

@@ -229,7 +229,9 @@ fn includes_are_taken_once_and_wrong_ones_are_errors() {
     let given = files.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect();
     let shader = Shader::load("main.wgsl", "const A: u32 = 1u;", &Folder::Given(given)).unwrap();
     assert!(
-        shader.text.starts_with("enable f16;\nconst WORKGROUP: u32 = 64u; const MAX_GROUPS: u32 = 65535u;\nconst A"),
+        shader.text.starts_with(
+            "enable f16;\nconst WORKGROUP: u32 = 64u; const MAX_GROUPS: u32 = 65535u; const OCTET: u32 = 8u;\nconst A"
+        ),
         "{}",
         shader.text
     );
