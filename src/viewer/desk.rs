@@ -157,7 +157,8 @@ impl Desk {
             return;
         }
         let (start, step) = (self.now(), self.session.as_ref().map_or(0, Session::step_count));
-        let outcome = self.advance().and_then(|()| self.draw());
+        // The start is shown before the first step, for which some drivers compile for long.
+        let outcome = if self.shown.is_none() { Ok(()) } else { self.advance() }.and_then(|()| self.draw());
         if self.playing && step > 0 {
             let steps = self.session.as_ref().map_or(step, Session::step_count) - step;
             self.ran = (self.ran.0 + steps, self.ran.1 + (self.now() - self.turned.max(start - LONGEST_LAG)));
