@@ -208,11 +208,10 @@ fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     let thread = thread_index(group, lane);
     let first = march_start(thread);
     if first >= params.slots { return; }
-    let awake = awake_rows(thread);
-    let moving = row_span(select(moving_rows(thread), awake, SOLVED));
+    let moving = moving_rows(thread, SOLVED);
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
-        if slot < params.slots && ((awake >> k) & 1u) == 1u && (k < moving.x || k >= moving.y) { node[slot] = vec4f(0.0); }
+        if slot < params.slots && (k < moving.x || k >= moving.y) { node[slot] = vec4f(0.0); }
     }
     if moving.x == moving.y { return; }
     let begin = first + moving.x * s;

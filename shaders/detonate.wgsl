@@ -1,9 +1,8 @@
 // detonate: energy for the gas in a ball, evenly over its volume: pressure rises, density and velocity stay. Cells of a cut cluster
-// share one state, so the centre of their first one decides for all. Reads cells, extra. Writes partials, energy. Wakes all gas.
+// share one state, so the centre of their first one decides for all. Reads cells, extra. Writes partials, energy.
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/cut.wgsl"
-#include "shared/control.wgsl"
 #include "shared/reduce.wgsl"
 
 // Mirror of Blast in src/stage/detonate.rs.
@@ -15,7 +14,6 @@ struct Blast {
 }
 
 @group(0) @binding(1) var<uniform> blast: Blast;
-@group(0) @binding(6) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
 @group(0) @binding(4) var<storage, read_write> partials: array<vec4f>;
@@ -44,6 +42,5 @@ fn detonate_volume(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
 fn detonate_heat(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
-    if slot == 0u { control.woken = 1u; }    // the gas there was asleep, perhaps
     if share_in_ball(slot) > 0.0 { energy[slot] += blast.rise; }
 }

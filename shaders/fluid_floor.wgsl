@@ -64,7 +64,7 @@ fn book_loss(slot: u32, momentum: vec3f, heat: f32) {
 
 @compute @workgroup_size(WORKGROUP)
 fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = busy_slot(thread_index(group, lane));
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     if !LISTED && !has(cells[slot], INTERIOR) { return; }
     let kind = kind_of(cells[slot]);

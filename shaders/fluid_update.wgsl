@@ -91,7 +91,7 @@ fn interior_heat(slot: u32, here: vec4f) -> f32 {
 // Calls with c in GAS; slots of other kinds see the same face from the other side.
 @compute @workgroup_size(WORKGROUP)
 fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = busy_slot(thread_index(group, lane));
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     if !LISTED {
         if has(cells[slot], INTERIOR) {

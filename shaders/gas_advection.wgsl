@@ -216,11 +216,10 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let first = march_start(thread);
     let last = params.slots - 1u;
     if first > last { return; }
-    let awake = awake_rows(thread);
-    let moving = row_span(select(moving_rows(thread), awake, ARS && STAGE > 0u));
+    let moving = moving_rows(thread, ARS && STAGE > 0u);
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
-        if slot <= last && ((awake >> k) & 1u) == 1u && (k < moving.x || k >= moving.y) { stay(slot); }
+        if slot <= last && (k < moving.x || k >= moving.y) { stay(slot); }
     }
     if moving.x == moving.y { return; }
     let begin = first + moving.x * s;

@@ -4,9 +4,8 @@
 // behind, so that the kernel which reads the direction anyway takes it along: what has converged is solution + alpha direction.
 // Joined, where the diagonal is all: the operator leaves q . D^-1 q beside p . q, so that beta is known with alpha and one kernel
 // takes everything along; r . z for step length and tolerance is still summed from the residual itself. [Meurant 1987]
-// Unknowns that are zero in all vectors and stay so may be left out: then the caller lists the others in runs of up to eight next to each
-// other, as many lists as there are octets of lanes, so that a sum has the same terms in the same order whatever is left out.
 #include "shared/thread.wgsl"
+#include "shared/octets.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/pcg.wgsl"
 
@@ -18,7 +17,6 @@
 @group(0) @binding(6) var<storage, read> inverse_diagonal: array<f32>;
 @group(0) @binding(7) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> pcg_extents: array<vec4u>;
-@group(0) @binding(9) var<storage, read> runs: array<u32>;
 
 fn takes_joined() -> bool { return pcg.joined != 0u && pcg.levels == 0u; }
 
@@ -44,19 +42,10 @@ fn total_from(first: u32, lane: u32) -> vec4f {
 
 fn total(lane: u32) -> vec4f { return total_from(0u, lane); }
 
-// First run of the octet that a thread is in, and the one after its last.
-fn runs_of(thread: u32) -> vec2u {
-    if pcg.runs == 0u { return vec2u(0u); }
-    let octet = pcg.runs + thread / OCTET;
-    return vec2u(runs[octet], runs[octet + 1u]);
-}
-
-// Unknown of a lane in a run, pcg.length if it has none.
-fn unknown_in(run: u32, thread: u32) -> u32 {
-    let at = pcg.runs + pcg.groups_partial * (WORKGROUP / OCTET) + 1u + 2u * run;
-    let lane = thread % OCTET;
-    return select(pcg.length, runs[at] + lane, ((runs[at + 1u] >> (8u + lane)) & 1u) == 1u);
-}
+// The unknowns of a thread: octets in turn, and in each one unknown or none.
+fn first_unknowns(thread: u32) -> Octet { return first_octet(thread, pcg.groups_partial, pcg.row); }
+fn are_left(octet: Octet) -> bool { return octet.at.y * pcg.row < pcg.length; }
+fn unknown_in(octet: Octet, thread: u32) -> u32 { return element_in(octet, thread, pcg.row, pcg.length); }
 
 fn begin(i: u32) -> vec4f {
     let z = inverse_diagonal[i] * residual[i];
@@ -68,13 +57,11 @@ fn begin(i: u32) -> vec4f {
 @compute @workgroup_size(WORKGROUP)
 fn pcg_begin(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, lane);
-    let own = runs_of(thread);
     var sum = vec4f(0.0);
-    for (var run = own.x; run < own.y; run++) {
-        let i = unknown_in(run, thread);
+    for (var octet = first_unknowns(thread); are_left(octet); octet = next_octet(octet)) {
+        let i = unknown_in(octet, thread);
         if i < pcg.length { sum += begin(i); }
     }
-    for (var i = pcg.apart + thread; i < pcg.length; i += pcg.groups_partial * WORKGROUP) { sum += begin(i); }
     let part = workgroup_sum4(lane, sum);
     if lane == 0u { partials[thread / WORKGROUP] = part; }
 }
@@ -107,10 +94,6 @@ fn decide() {
     open_iteration(pcg.outcome == PCG_RUNNING);
 }
 
-// The caller's lists have changed between two iterations.
-@compute @workgroup_size(1)
-fn pcg_reopen() { open_iteration(pcg.outcome == PCG_RUNNING); }
-
 @compute @workgroup_size(WORKGROUP)
 fn pcg_alpha(@builtin(local_invocation_index) lane: u32) {
     let sum = total(lane);
@@ -131,13 +114,11 @@ fn update(i: u32, alpha: f32) -> f32 {
 fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, lane);
     let alpha = pcg.alpha;
-    let own = runs_of(thread);
     var sum = vec4f(0.0);
-    for (var run = own.x; run < own.y; run++) {
-        let i = unknown_in(run, thread);
+    for (var octet = first_unknowns(thread); are_left(octet); octet = next_octet(octet)) {
+        let i = unknown_in(octet, thread);
         if i < pcg.length { sum.x += update(i, alpha); }
     }
-    for (var i = pcg.apart + thread; i < pcg.length; i += pcg.groups_partial * WORKGROUP) { sum.x += update(i, alpha); }
     let part = workgroup_sum4(lane, sum);
     if lane == 0u { partials[thread / WORKGROUP] = part; }
 }
@@ -166,12 +147,10 @@ fn pcg_direction(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     let thread = thread_index(group, lane);
     let alpha = pcg.alpha;
     let beta = pcg.beta;
-    let own = runs_of(thread);
-    for (var run = own.x; run < own.y; run++) {
-        let i = unknown_in(run, thread);
+    for (var octet = first_unknowns(thread); are_left(octet); octet = next_octet(octet)) {
+        let i = unknown_in(octet, thread);
         if i < pcg.length { turn(i, alpha, beta); }
     }
-    for (var i = pcg.apart + thread; i < pcg.length; i += pcg.groups_partial * WORKGROUP) { turn(i, alpha, beta); }
 }
 
 // Update and direction at once, joined.
@@ -190,13 +169,11 @@ fn pcg_step(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index
     let thread = thread_index(group, lane);
     let alpha = pcg.alpha;
     let beta = pcg.beta;
-    let own = runs_of(thread);
     var sum = vec4f(0.0);
-    for (var run = own.x; run < own.y; run++) {
-        let i = unknown_in(run, thread);
+    for (var octet = first_unknowns(thread); are_left(octet); octet = next_octet(octet)) {
+        let i = unknown_in(octet, thread);
         if i < pcg.length { sum.x += step(i, alpha, beta); }
     }
-    for (var i = pcg.apart + thread; i < pcg.length; i += pcg.groups_partial * WORKGROUP) { sum.x += step(i, alpha, beta); }
     let part = workgroup_sum4(lane, sum);
     if lane == 0u { partials[thread / WORKGROUP] = part; }
 }

@@ -197,7 +197,7 @@ fn mean_pressure(c: vec3i) -> f32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn load_faces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = busy_slot(thread_index(group, lane));
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     let owners = atomicLoad(&loads[owner_at(slot)]);

@@ -155,7 +155,7 @@ fn mixed_squares(v: vec3i, apart: bool, count: u32) -> Squares {
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = busy_slot(thread_index(group, lane));
+    let slot = listed_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     if !LISTED && !has(word, INTERIOR) { return; }

@@ -5,13 +5,13 @@
 #include "shared/index.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
-#include "shared/runs.wgsl"
+#include "shared/octets.wgsl"
 #include "shared/control.wgsl"
 #include "shared/reduce4.wgsl"
 #include "shared/interior_mass.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
-@group(0) @binding(2) var<storage, read> extra: array<u32>;     // the runs of slots; without SLEEPS the buffer cells
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(4) var<storage, read> energy: array<f32>;
 @group(0) @binding(5) var<storage, read> x: array<f32>;
@@ -72,21 +72,13 @@ fn divergence(at: u32) -> f32 {
     return sum / f32(1u << (DIM - 1u));
 }
 
-fn deep_slot(run: u32, thread: u32) -> RunSlot {
-    var own = run_slot(run, thread);
-    if !SLEEPS && own.any { own.deep = has(extra[own.slot], INTERIOR); }
-    return own;
-}
-
 // Right-hand side dt C^T (V* - dt M^-1 C X*).
 @compute @workgroup_size(WORKGROUP)
 fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, lane);
-    if SLEEPS && thread / OCTET >= extra[params.runs_at + octets()] { return; }
-    let own = deep_slot(thread / OCTET, thread);
-    if !own.deep { return; }
+    let slot = thread_index(group, lane);
+    if slot >= params.slots || !has(cells[slot], INTERIOR) { return; }
     let scale = control.dt * face_area();
-    y[own.slot] = scale * (divergence(own.slot) - scale * operator_at(own.slot, x[own.slot]));
+    y[slot] = scale * (divergence(slot) - scale * operator_at(slot, x[slot]));
 }
 
 // y = S^-1 x + dt^2 C^T M^-1 C x; adds to the partial sums of x . y that the listed form has left. Without bodies also those of
@@ -95,14 +87,12 @@ fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
 fn interior_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let scale = control.dt * face_area();
     let thread = thread_index(group, lane);
-    let runs = runs_of(thread);
     var product = 0.0;
     var image = 0.0;
-    for (var run = runs.first; run < runs.end; run += runs.step) {
-        let own = deep_slot(run, thread);
-        if !own.any { continue; }
-        let slot = own.slot;
-        if !own.deep {
+    for (var octet = first_octet(thread, params.groups, params.row); octet.at.y * params.row < params.slots; octet = next_octet(octet)) {
+        let slot = element_in(octet, thread, params.row, params.slots);
+        if slot >= params.slots { continue; }
+        if !has(cells[slot], INTERIOR) {
             if !SOLIDS {
                 let listed = y[slot];
                 image += listed * listed * inverse_diagonal[slot];

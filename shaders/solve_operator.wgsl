@@ -23,10 +23,8 @@ fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     let scale = control.dt * control.dt * face_area();
     var product = 0.0;
     let thread = thread_index(group, lane);
-    let runs = listed_runs(thread);
-    for (var run = runs.first; run < runs.end; run += runs.step) {
-        let slot = slot_in(run, thread);
-        if slot >= params.slots { continue; }
+    for (var k = thread; k < listed_threads(); k += striding_threads()) {
+        let slot = listed_slot(k);
         let word = cells[slot];
         if !LISTED && !has(word, INTERIOR) { continue; }
         let rows = gather_rows(slot, word);

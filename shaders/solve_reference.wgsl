@@ -1,5 +1,5 @@
 // coupled_solve, before the iteration: the size of the full right-hand side S^-1 X* + r, r that of the increment form, which the tolerance
-// refers to; and on the way the inverse diagonal deep inside the gas with B1B0. Both depend on dt, so that sleepers take part.
+// refers to; and on the way the inverse diagonal deep inside the gas with B1B0.
 // Reads stiffness, X*, r, inverse node masses. Writes the inverse diagonal, and partial sums behind those of the iteration.
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"

@@ -24,13 +24,16 @@ fn control_start() {
 fn control_listed() {
     control.listed = extra[part(LENGTHS, LENGTH_LISTED)];
     control.frontier = extra[part(LENGTHS, LENGTH_FRONTIER)];
+    let listed = groups_for(control.listed);
     let frontier = groups_for(control.frontier);
+    pcg.listed_wide = listed.x;
+    pcg.listed_high = listed.y;
     pcg.frontier_wide = frontier.x;
     pcg.frontier_high = frontier.y;
     pcg.groups_block = surface_groups().x;
     let keep = extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x;
     extents[PHASE_BEGIN_EXTENTS + EXTENT_SURFACE] = surface_groups() * keep;
-    extents[PHASE_BEGIN_EXTENTS + EXTENT_LISTED] = groups_for(control.listed) * keep;
+    extents[PHASE_BEGIN_EXTENTS + EXTENT_LISTED] = listed * keep;
     extents[PHASE_BEGIN_EXTENTS + EXTENT_FRONTIER] = frontier * keep;
 }
 
@@ -57,28 +60,10 @@ fn control_solved() {
     }
     let done = solving && pcg.outcome == PCG_CONVERGED && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_UPDATE_EXTENTS, done);
-    control.reach = 1u;     // a solve that goes on in the next recording wakes all
     if !done { return; }
     control.iterations = select(0u, control.iterations, control.stage > 0u) + pcg.iterations;
     control.residual = select(0.0, sqrt(max(pcg.size, 0.0) / pcg.reference), pcg.reference > 0.0);
     control.phase = select(select(PHASE_SUBSTEP, PHASE_ELASTIC, IMPLICIT), PHASE_BETWEEN, ARS && control.stage == 0u);
-}
-
-// After the lists of what is awake: their lengths rule the AWAKE dispatches, and those of the solve.
-@compute @workgroup_size(1)
-fn control_awake() {
-    open_awake(PHASE_BEGIN_EXTENTS);
-    let listed = groups_for(select(control.listed, OCTET * control.list_runs, SLEEPS));
-    pcg.listed_wide = listed.x;
-    pcg.listed_high = listed.y;
-}
-
-// Between iterations: if there are more than some may sleep through, all wake up.
-@compute @workgroup_size(1)
-fn control_wake() {
-    let due = control.phase == PHASE_SOLVE && pcg.outcome == PCG_RUNNING && pcg.iterations >= control.reach && control.woken == 0u;
-    open_phase(PHASE_WAKE_EXTENTS, due);
-    if due { control.woken = 1u; }
 }
 
 // After the first of two solves and its updates: opens the second advection and solve.

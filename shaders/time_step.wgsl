@@ -71,15 +71,9 @@ fn listed_rate(c: vec3i, gas: Gas, p: f32) -> f32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let total = striding_threads();
-    // The runs are of the step before: what slept in it stands still, and control.sound knows how fast sound is there.
-    let all = control.woken == 1u;
-    let end = select(awake_threads(), select(params.slots, list_length(), LISTED), all);
     var bound = vec2f(0.0);
-    for (var k = thread_index(group, lane); k < end; k += total) {
-        var slot = 0u;
-        if all { slot = every_slot(k); } else { slot = listed_slot(k); }
-        if slot >= params.slots { continue; }
+    for (var k = thread_index(group, lane); k < listed_threads(); k += striding_threads()) {
+        let slot = listed_slot(k);
         let word = cells[slot];
         if LISTED != !has(word, INTERIOR) { continue; }
         let c = cell_of(slot);
@@ -135,7 +129,7 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     for (var k = lane; k < params.groups; k += WORKGROUP) { bound = max(bound, maxima[k]); }
     let largest = workgroup_max4(lane, bound);
     if lane != 0u { return; }
-    let sound = select(max(largest.y, control.sound), largest.y, control.woken == 1u);
+    let sound = max(largest.y, control.sound); // with that of gas which a body has covered since
     let start = control.phase == PHASE_IDLE && control.remaining > 0.0 && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_BEGIN_EXTENTS, start);
     open_sort(start);
@@ -158,9 +152,6 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     control.dt_previous = dt; // growth counts from the step as taken: steps that alternate between short and long blow up
     control.dt = select(dt, ARS_SHARE * dt, ARS);
     control.stage = 0u;
-    control.reach = select(LONG_REACH, SHORT_REACH, control.iterations < SHORT_REACH);
-    control.woken_before = control.woken;
-    control.woken = 0u;
     control.substeps = 0u;
     if SOLIDS { control.substeps = select(u32(ceil(max(1.0, dt / elastic_step - 1e-4))), 1u, IMPLICIT); }
     control.rounds = 0u;

@@ -22,8 +22,7 @@ use crate::stage::{
     GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven, P2g, ParticleSort,
     Parts, Still, Supports, TimeStep, Totals, Transfer,
 };
-use crate::state::constants::{NO_FAULT, REACHES};
-use crate::state::params::STILL_ASLEEP;
+use crate::state::constants::NO_FAULT;
 use crate::state::{Control, State};
 use least_step::LeastStep;
 pub use live::Blast;
@@ -174,7 +173,6 @@ impl Simulation {
         self.record_force(pass);
         self.time_step.record_listed(pass);
         self.still.record(pass, state);
-        self.time_step.record_awake(pass);
         self.record_advection(pass, 0, Carried::Now, "BEGIN"); // (3) eqs. 10-12
         if self.solves == 1 {
             self.record_advection(pass, 1, Carried::First, "BEGIN");
@@ -218,30 +216,13 @@ impl Simulation {
             elastic_reaction.record_before(pass, state, phase);
         }
         self.coupled_solve.record_setup(pass, state, phase);
-        self.record_iterations(pass); // (5) eq. 37
+        self.coupled_solve.record_iterations(pass, self.recorded.iterations); // (5) eq. 37
         self.time_step.record_solved(pass);
         self.coupled_solve.record_solution(pass, state);
         if let Some(elastic_reaction) = &self.elastic_reaction {
             elastic_reaction.record_aside(pass, state);
         }
         self.fluid_update.record(pass, state, &self.carrier, &self.time_step); // eqs. 14 and 3, local gradients
-    }
-
-    /// Iterations of the solve; where some slots sleep, a long one wakes them.
-    fn record_iterations(&self, pass: &mut Pass) {
-        let mut done = 0;
-        if self.state.params.still == STILL_ASLEEP {
-            for reach in [0, REACHES[0], REACHES[1]] {
-                let reach = reach.min(self.recorded.iterations);
-                self.coupled_solve.record_iterations(pass, reach - done);
-                self.time_step.record_wake(pass);
-                self.still.record_wake(pass, &self.state);
-                self.time_step.record_awake(pass);
-                self.coupled_solve.pcg.reopen(pass);
-                done = reach;
-            }
-        }
-        self.coupled_solve.record_iterations(pass, self.recorded.iterations - done);
     }
 
     fn record_totals(&self, pass: &mut Pass) {

@@ -25,12 +25,7 @@ struct Control {
     residual: f32,              // Relative residual of the last solve
     listed: u32,                // Slots that are not INTERIOR
     frontier: u32,              // INTERIOR slots whose nodes listed vertices rest on
-    runs: u32,                  // Runs of slots that are awake
-    list_runs: u32,             // Runs of the list of the other slots, as far as they are awake
     sound: f32,                 // Largest speed of sound at the end of the step [m s^-1]
-    reach: u32,                 // Iterations that the solve of this step may take while some sleep
-    woken: u32,                 // 1 if all slots are awake, because the solve of this step took many iterations or the host has changed the gas
-    woken_before: u32,          // The same in the step before
     time: f32,                  // Simulated time at the start of the step [s]
     time_error: f32,            // What rounding has taken from it so far [s]
     rounds: u32,                // Rounds of Newton's method in the elastic solve, this step

@@ -17,13 +17,6 @@ fn surface_groups() -> vec4u {
     return vec4u(min(groups_of(rows), params.groups), 1u, 1u, 0u);
 }
 
-// Opens the dispatches over slots that are awake in a phase that is open.
-fn open_awake(first: u32) {
-    let keep = extents[first + EXTENT_SINGLE].x;
-    extents[first + EXTENT_AWAKE] = groups_for(select(params.slots, OCTET * control.runs, SLEEPS)) * keep;
-    extents[first + EXTENT_LIST_AWAKE] = groups_for(select(control.listed, OCTET * control.list_runs, SLEEPS)) * keep;
-}
-
 // Switches the dispatches of one phase on or off. Needs the binding control.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
@@ -36,7 +29,6 @@ fn open_phase(first: u32, on: bool) {
     extents[first + EXTENT_MARCHED] = groups_for(marches()) * keep;
     extents[first + EXTENT_COLOR] = groups_for(color_marches()) * keep;
     extents[first + EXTENT_SINGLE] = vec4u(keep);
-    open_awake(first);
     for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
 }
 

@@ -22,7 +22,6 @@ override RULES_USED: u32;        // rules of open sides in the scene, as bits
 override PERIODIC: u32;          // axes whose ends meet, as bits
 override MIRRORED: u32;         // sides that are planes of symmetry: walls, as bits; gas only
 override JOINED: u32;           // open sides whose nodes go with the cells before them, as bits; B1B0 only
-override SLEEPS: bool;          // gas that nothing reaches in a step may be left out of it, see still.wgsl
 override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
 override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE
 
@@ -58,11 +57,10 @@ struct Params {
     blending: u32,              // 1 if faces of partly filled cells are blocked by their share
     least_entropy: f32,         // p / rho^gamma that no gas falls below
     surface_rows: u32,          // Vertices whose interface pressure has a row in the preconditioner
-    still: u32,                 // What is left out where nothing moves, with the same result: STILL_NONE, STILL_ADVECTION, STILL_ASLEEP
-    runs_at: u32,               // Place of the runs of slots that are awake in super::Interface::extra
-    still_at: u32,              // Place of the rows of blocks there
+    still: u32,                 // 1 if the advection leaves out what motion does not reach by the solve, with the same result
+    still_at: u32,              // Place of the rows of blocks in super::Interface::extra
     table_at: u32,              // Place of the table of cut cells there
-    list_runs_at: u32,          // Place of the runs of the list there
+    row: u32,                   // Slots of a row, as sums take them (shaders/shared/octets.wgsl)
     scan: array<vec4u, SCAN_DISPATCHES>, // Groups of each dispatch of a prefix sum over all slots and one more
 }
 // End of what is generated.

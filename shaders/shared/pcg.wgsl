@@ -23,8 +23,7 @@ struct Pcg {
     most: f32,                  // A solve that begins with a larger one is not worth it: it ends with nothing done
     levels: u32,                // Coarse levels in use
     joined: u32,                // 1 for Dots::Both
-    runs: u32,                  // Place of the lists of runs in the binding runs, 0 without: where the runs of each octet begin, and the end of the last; then per run its first unknown and, from bit 8 on, which of eight it has
-    apart: u32,                 // First unknown that no run has, 0 without runs
+    row: u32,                   // Unknowns of a row, as sums take them
     reference_at: u32,          // Place of the partial sums for the reference, 0 if pcg_begin makes them from product
     level_groups: array<u32, PCG_LEVELS>, // Groups, at most as many as leave partial sums, of the kernels of each level, the finest first; 0 without
 }

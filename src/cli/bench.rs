@@ -63,9 +63,6 @@ struct Measurement {
     particle_substeps_per_second: f64,
     pcg_iterations_per_step: f64,
     substeps_per_step: f64,
-    /// Share of the slots that are awake, mean of the timed steps.
-    #[serde(default = "all_awake")]
-    awake_share: f64,
     bytes_allocated: u64,
     bytes_per_cell_planned: f64,
     bytes_per_particle_planned: f64,
@@ -136,14 +133,13 @@ fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Resul
     let start = Instant::now();
     let whole = summary(&run_steps(&mut simulation, options.steps)?);
     let seconds = start.elapsed().as_secs_f64();
-    let (records, times, awake) = timed_steps(&mut simulation, options.steps, options.detail())?;
+    let (records, times) = timed_steps(&mut simulation, options.steps, options.detail())?;
     let timed = summary(&records);
     let drift = Budget::read(&simulation, scene, timed.stored_energy())?.drift_since(&books);
     let [mass_drift, energy_drift] = ["gas_mass", "energy"].map(|name| drift[name].abs());
     sound(mass_drift, energy_drift)?;
     let load = Load {
         slots: simulation.state.grid.slots() as u64,
-        awake: (awake * simulation.state.grid.slots() as f64).round() as u64,
         particles: plan.particles,
         steps: timed.steps,
         iterations: timed.iterations,
@@ -167,7 +163,6 @@ fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Resul
         particle_substeps_per_second: plan.particles as f64 * whole.substeps as f64 / seconds,
         pcg_iterations_per_step: whole.iterations as f64 / whole.steps as f64,
         substeps_per_step: whole.substeps as f64 / whole.steps as f64,
-        awake_share: awake,
         bytes_allocated: gpu.allocated_bytes(),
         bytes_per_cell_planned: plan.per_cell(),
         bytes_per_particle_planned: plan.per_particle(),
@@ -227,24 +222,16 @@ fn run_steps(simulation: &mut Simulation, steps: u32) -> Result<Vec<StepRecord>>
     Ok(records)
 }
 
-/// In measurements of versions in which nothing slept.
-fn all_awake() -> f64 {
-    1.0
-}
-
-/// Runs at least `steps` steps one by one and adds up the milliseconds of each stage or kernel, and the mean share of slots awake.
-fn timed_steps(simulation: &mut Simulation, steps: u32, detail: Detail) -> Result<(Vec<StepRecord>, Times, f64)> {
+/// Runs at least `steps` steps one by one and adds up the milliseconds of each stage or kernel.
+fn timed_steps(simulation: &mut Simulation, steps: u32, detail: Detail) -> Result<(Vec<StepRecord>, Times)> {
     let mut records = Vec::new();
     let mut sums = Times::new();
-    let mut awake = Vec::new();
     while records.len() < steps as usize {
         stop_if_asked()?;
         let (_, times) = simulation.advance_timed(&mut records, detail)?;
         times.iter().for_each(|(stage, time)| add_time(&mut sums, stage, *time));
-        awake.push(simulation.awake_share()?);
     }
-    let mean = awake.iter().sum::<f64>() / awake.len() as f64;
-    Ok((records, sums, mean))
+    Ok((records, sums))
 }
 
 fn stop_if_asked() -> Result<()> {

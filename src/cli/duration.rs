@@ -21,7 +21,7 @@ const LAUNCHES: f64 = 1e-3;
 pub(super) struct Duration {
     /// Name of the device.
     pub(super) device: String,
-    /// Time of the steps, if all slots are awake `[s]`.
+    /// Time of the steps `[s]`.
     pub(super) seconds: f64,
     /// Why a run would not begin there.
     pub(super) refused: Option<String>,
@@ -36,7 +36,6 @@ impl Duration {
         let slots = scene.domain.cells.map(ring).iter().product();
         let load = Load {
             slots,
-            awake: slots,
             particles: plan.particles,
             steps: 1,
             iterations: ITERATIONS,

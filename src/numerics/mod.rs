@@ -6,6 +6,6 @@ mod reduce;
 mod scan;
 
 pub use copy::{Rounds, copy_bandwidth};
-pub use pcg::{Block, Dots, Layout, Levels, Pcg, PcgControl, PcgVectors, Runs, Width};
+pub use pcg::{Block, Dots, Layout, Levels, Pcg, PcgControl, PcgVectors, Width};
 pub use reduce::{Operator, Reduce};
 pub use scan::Scan;

@@ -106,11 +106,8 @@ structure! {
         levels: u32,
         /// 1 for [`Dots::Both`].
         joined: u32,
-        /// Place of the lists of runs in the binding `runs`, 0 without: where the runs of each octet begin, and the end of the last; then per
-        /// run its first unknown and, from bit 8 on, which of eight it has.
-        runs: u32,
-        /// First unknown that no run has, 0 without runs.
-        apart: u32,
+        /// Unknowns of a row, as sums take them.
+        row: u32,
         /// Place of the partial sums for the reference, 0 if `pcg_begin` makes them from `product`.
         reference_at: u32,
         /// Groups, at most as many as leave partial sums, of the kernels of each level, the finest first; 0 without.
@@ -126,7 +123,6 @@ pub struct Pcg {
     /// Group counts of an iteration: per slot, partial sums, single.
     extents: Buffer<u32>,
     begin: [Bound; 2],
-    reopen: Bound,
     alpha: Bound,
     update: Bound,
     beta: Bound,
@@ -144,21 +140,9 @@ pub enum Dots {
     Both,
 }
 
-/// Which unknowns take part: those that are left out are zero in all vectors and stay so.
-#[derive(Clone, Copy, Debug)]
-pub struct Runs<'a> {
-    /// Holds the lists: for each octet of lanes where its runs begin, and the end of the last; then per run of up to eight unknowns next to
-    /// each other the first one and, from bit 8 on, which of the eight there are.
-    pub words: &'a Buffer<u32>,
-    /// Place of the lists, above 0.
-    pub at: u32,
-    /// Unknowns from here on are in no run and take part always.
-    pub apart: u32,
-}
-
 /// How the kernels share the unknowns out.
 #[derive(Clone, Copy, Debug)]
-pub struct Layout<'a> {
+pub struct Layout {
     /// Threads of operators with one per slot.
     pub threads: usize,
     /// Groups of the kernels that leave partial sums.
@@ -168,8 +152,8 @@ pub struct Layout<'a> {
     /// Place above 0 in the partial sums where the caller leaves, in the second component, those of the squared norm that the
     /// tolerance refers to; with 0 the first kernel makes them from [`PcgVectors::product`].
     pub reference_at: u32,
-    /// The runs that take part, if not all do.
-    pub runs: Option<Runs<'a>>,
+    /// Unknowns of a row, as sums take them (`shaders/shared/octets.wgsl`); all make one row without it.
+    pub row: Option<u32>,
 }
 
 /// A block of unknowns with a preconditioner of its own; their inverse diagonal is 0. The caller sets
@@ -238,7 +222,7 @@ impl Pcg {
         vectors: &PcgVectors,
         partials: &Buffer<[f32; 4]>,
         limits: (f32, u32),
-        layout: &Layout<'_>,
+        layout: &Layout,
     ) -> Result<Self> {
         let dots = layout.dots;
         let length = vectors.solution.len();
@@ -254,8 +238,7 @@ impl Pcg {
             outcome: 1,
             most: f32::MAX,
             joined: u32::from(dots == Dots::Both),
-            runs: layout.runs.map_or(0, |runs| runs.at),
-            apart: layout.runs.map_or(0, |runs| runs.apart),
+            row: layout.row.unwrap_or(length as u32),
             reference_at: layout.reference_at,
             ..PcgControl::default()
         };
@@ -270,7 +253,6 @@ impl Pcg {
             ("inverse_diagonal", vectors.inverse_diagonal.raw()),
             ("partials", partials.raw()),
             ("pcg_extents", extents.raw()),
-            ("runs", layout.runs.map_or(extents.raw(), |runs| runs.words.raw())),
         ];
         let constants = source();
         let bound = |entry: &str| -> Result<Bound> {
@@ -282,7 +264,6 @@ impl Pcg {
         };
         Ok(Self {
             begin: [bound("pcg_begin")?, bound("pcg_begin_choose")?],
-            reopen: bound("pcg_reopen")?,
             alpha: bound("pcg_alpha")?,
             update: bound("pcg_update")?,
             beta: bound("pcg_beta")?,
@@ -316,11 +297,6 @@ impl Pcg {
         if let Some((table, first)) = levels.opened {
             levels.record_up(pass, table, first);
         }
-    }
-
-    /// Takes the lengths of the caller's lists anew, between two iterations.
-    pub fn reopen(&self, pass: &mut Pass) {
-        pass.dispatch(&self.reopen, &Extent::Groups([1, 1, 1]));
     }
 
     /// Records one iteration: nothing happens on the device once the solve is done.

@@ -6,7 +6,6 @@ use crate::error::{Error, Result};
 use crate::scene::{Boundary, Scene};
 use crate::stage::{Detonate, Parts};
 use crate::state::Openings;
-use crate::state::params::STILL_ADVECTION;
 
 /// Energy to be set free in a ball of gas.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,9 +55,6 @@ impl Simulation {
         params.max_growth = to.time.max_growth as f32;
         params.tolerance = to.numerics.tolerance as f32;
         params.blending = u32::from(to.numerics.blending);
-        if to.gravity != [0.0; 3] {
-            params.still = params.still.min(STILL_ADVECTION); // gravity lets no gas sleep
-        }
         self.coupled_solve.pcg.set_tolerance(&self.gpu, params.tolerance);
         state.params_buffer.write(&self.gpu, 0, &[state.params]);
         state.openings.write(&self.gpu, 0, openings.of_rules());

@@ -79,14 +79,4 @@ impl Simulation {
         }
         Ok(sum)
     }
-
-    /// Share of the slots that the last step computed: the others slept.
-    ///
-    /// # Errors
-    /// Driver errors.
-    pub fn awake_share(&self) -> Result<f64> {
-        let all = self.state.interface.runs;
-        let runs = if self.state.sleeps() { self.control()?.runs as usize } else { all };
-        Ok(runs as f64 / all as f64)
-    }
 }

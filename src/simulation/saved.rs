@@ -11,7 +11,7 @@ use crate::gpu::{Allocation, readback};
 const FROM_SCENE: [&str; 8] =
     ["params", "materials", "knots", "motions", "probe_cells", "probe_history", "gauge_particles", "gauge_history"];
 
-/// Buffers that no step reads before it has written them, wherever nothing sleeps.
+/// Buffers that no step reads before it has written them.
 const SCRATCH: [&str; 9] =
     ["work", "stiffness", "solution", "residual", "direction", "inverse_diagonal", "surface rows", "elastic", "node"];
 
@@ -140,16 +140,16 @@ impl Simulation {
     /// The buffers that carry the state, by names that are unique.
     fn carried(&self) -> Vec<(String, &Allocation)> {
         let mut named: Vec<(String, &Allocation)> = Vec::new();
-        for buffer in self.buffers.iter().filter(|buffer| self.carries(&buffer.label)) {
+        for buffer in self.buffers.iter().filter(|buffer| carries(&buffer.label)) {
             let label = buffer.label.replace(' ', "_");
             let before = named.iter().filter(|(_, other)| other.label == buffer.label).count();
             named.push((if before == 0 { label } else { format!("{label}_{}", before + 1) }, buffer));
         }
         named
     }
+}
 
-    /// Whether a buffer carries the state. Where gas sleeps, every array still holds there what it would get again.
-    fn carries(&self, label: &str) -> bool {
-        !FROM_SCENE.contains(&label) && (self.state.sleeps() || !SCRATCH.contains(&label))
-    }
+/// Whether a buffer carries the state.
+fn carries(label: &str) -> bool {
+    !FROM_SCENE.contains(&label) && !SCRATCH.contains(&label)
 }

@@ -47,11 +47,11 @@ impl CarrierVelocity {
             let plain = if parts.state.grid.dimension == 2 {
                 [Some((bind("carrier_march", 0.0)?, Entry::Marched)), None]
             } else {
-                let slots = |entry: &str| Ok::<_, Error>((bind(entry, 0.0)?, Entry::Awake));
+                let slots = |entry: &str| Ok::<_, Error>((bind(entry, 0.0)?, Entry::Slots));
                 [Some(slots("carrier_average")?), Some(slots("carrier_divergence")?)]
             };
             let [first, second] = plain;
-            let listed = |entry: &str| Ok::<_, Error>((bind(entry, 1.0)?, Entry::ListAwake));
+            let listed = |entry: &str| Ok::<_, Error>((bind(entry, 1.0)?, Entry::Listed));
             let kernels = [first, Some(listed("carrier_average")?), second, Some(listed("carrier_divergence")?)];
             Ok((*source, kernels.into_iter().flatten().collect()))
         };

@@ -9,7 +9,7 @@ use super::time_step::slots;
 use super::{Parts, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::numerics::{Block, Dots, Layout, Levels, Pcg, Runs, Width};
+use crate::numerics::{Block, Dots, Layout, Levels, Pcg, Width};
 use crate::scene::{Scene, SolidUpdate};
 use crate::state::State;
 use crate::state::constants::{Entry, PARTIALS};
@@ -58,18 +58,16 @@ impl Vertices {
         let [residual, listed_residual] = parts.both("solve_setup.wgsl", "solve_residual", &[], &[])?;
         let [diagonal, listed_diagonal] = parts.both("solve_diagonal.wgsl", "solve_diagonal", &[], &[])?;
         let [operator, listed_operator] = parts.both("solve_operator.wgsl", "solve_operator", &direction, &[])?;
-        let listed = [(listed_residual, Entry::ListAwake), (listed_diagonal, Entry::Listed)];
+        let listed = [(listed_residual, Entry::Listed), (listed_diagonal, Entry::Listed)];
         if state.is_quadratic() {
-            let setup = [(residual, Entry::Awake), (diagonal, Entry::Awake)].into_iter().chain(listed).collect();
-            return Ok(Self { setup, operator: [operator, listed_operator], nodes: (Entry::Awake, Width::Slots) });
+            let setup = [(residual, Entry::Slots), (diagonal, Entry::Slots)].into_iter().chain(listed).collect();
+            return Ok(Self { setup, operator: [operator, listed_operator], nodes: (Entry::Slots, Width::Slots) });
         }
         let interior = |entry: &str, vectors: &[(&str, &wgpu::Buffer)]| {
-            let marks = if state.sleeps() { &state.interface.extra } else { &state.interface.cells };
-            let named = [vectors, &[("extra", marks.raw())]].concat();
-            state.bind(parts.gpu, "solve_interior.wgsl", entry, &named, &[])
+            state.bind(parts.gpu, "solve_interior.wgsl", entry, vectors, &[])
         };
         let right = [("x", state.pressure.raw()), ("y", state.pcg.residual.raw())];
-        let setup = [(interior("interior_setup", &right)?, Entry::Awake)].into_iter().chain(listed).collect();
+        let setup = [(interior("interior_setup", &right)?, Entry::Slots)].into_iter().chain(listed).collect();
         let operator = [interior("interior_operator", &direction)?, listed_operator];
         Ok(Self { setup, operator, nodes: (Entry::Frontier, Width::Frontier) })
     }
@@ -85,13 +83,12 @@ impl CoupledSolve {
         let limits = (state.params.tolerance, state.params.max_iterations);
         // Interface pressures have a preconditioner of their own, and the B2B1 operator has no room for another buffer.
         let dots = if state.has_solids() || state.is_quadratic() { Dots::Product } else { Dots::Both };
-        let runs = Runs { words: &state.interface.extra, at: state.params.runs_at, apart: state.params.slots };
         let layout = Layout {
             threads: state.grid.slots(),
             groups: state.params.groups,
             dots,
             reference_at: PARTIALS,
-            runs: state.sleeps().then_some(runs),
+            row: (state.params.row < state.params.slots).then_some(state.params.row),
         };
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, limits, &layout)?;
         let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
@@ -150,7 +147,7 @@ impl CoupledSolve {
             pass.dispatch(kernel, &extent(state, phase, Entry::Reduce));
         }
         pass.stage(Stage::CoupledSolve.name());
-        pass.dispatch(&self.open, &extent(state, phase, Entry::ListAwake));
+        pass.dispatch(&self.open, &extent(state, phase, Entry::Listed));
         record_both(pass, state, phase, &self.masses);
         self.record_nodes(pass, state, phase, &self.forces_of_pressure);
     }
@@ -175,7 +172,7 @@ impl CoupledSolve {
 
     fn record_nodes(&self, pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
         pass.dispatch(plain, &extent(state, phase, self.vertices.nodes.0));
-        pass.dispatch(listed, &extent(state, phase, Entry::ListAwake));
+        pass.dispatch(listed, &extent(state, phase, Entry::Listed));
     }
 
     fn block(&self) -> Block<'_> {
@@ -212,7 +209,7 @@ impl CoupledSolve {
     pub fn record_solution(&self, pass: &mut Pass, state: &State) {
         pass.dispatch(&self.add, &extent(state, "UPDATE", Entry::Reduce));
         if let Some(forces) = &self.forces_on_bodies {
-            pass.dispatch(forces, &extent(state, "UPDATE", Entry::ListAwake));
+            pass.dispatch(forces, &extent(state, "UPDATE", Entry::Listed));
         }
         for kernel in &self.gradient {
             pass.dispatch(kernel, &slots(state, "UPDATE"));

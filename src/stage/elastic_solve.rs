@@ -47,7 +47,7 @@ impl ElasticSolve {
         };
         let limits = (scene.numerics.elastic_tolerance as f32, MAX_ITERATIONS);
         let (threads, groups) = (state.grid.slots(), state.params.groups);
-        let layout = Layout { threads, groups, dots: Dots::Product, reference_at: 0, runs: None };
+        let layout = Layout { threads, groups, dots: Dots::Product, reference_at: 0, row: None };
         let pcg = Pcg::new(gpu, &own.vectors, &state.partials, limits, &layout)?;
         let PcgVectors { solution, residual, direction, product, inverse_diagonal } = &own.vectors;
         let renamed = [

@@ -1,6 +1,6 @@
 //! `fluid_update`: what does the solved pressure do to the gas? Local gradients, flux form. [Kwatra et al. 2009; eqs. 3, 14]
 
-use super::{Carried, CarrierVelocity, Parts, TimeStep, extent, record_both, record_busy};
+use super::{Carried, CarrierVelocity, Parts, TimeStep, extent, record_both};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::scene::Scene;
@@ -47,9 +47,9 @@ impl FluidUpdate {
     pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, control: &TimeStep) {
         pass.stage(Stage::FluidUpdate.name());
         if let Some(late_flux) = &self.late_flux {
-            pass.dispatch(late_flux, &extent(state, "UPDATE", Entry::ListAwake));
+            pass.dispatch(late_flux, &extent(state, "UPDATE", Entry::Listed));
         }
-        record_busy(pass, state, "UPDATE", &self.momentum);
+        record_both(pass, state, "UPDATE", &self.momentum);
         carrier.record(pass, state, Carried::Solved, "UPDATE");
         pass.stage(Stage::FluidUpdate.name());
         if let Some(parting) = &self.parting {
@@ -61,7 +61,7 @@ impl FluidUpdate {
         }
         control.record_cold(pass);
         let [plain, listed] = &self.floor;
-        pass.dispatch(plain, &extent(state, "FLOOR", Entry::Awake));
+        pass.dispatch(plain, &extent(state, "FLOOR", Entry::Slots));
         pass.dispatch(listed, &extent(state, "UPDATE", Entry::Listed));
     }
 }

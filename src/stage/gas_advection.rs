@@ -52,7 +52,7 @@ impl GasAdvection {
         pass.stage(Stage::GasAdvection.name());
         let kernels = &self.stages[stage];
         pass.dispatch(&kernels.interior, &extent(state, phase, Entry::Marched));
-        pass.dispatch(&kernels.listed, &extent(state, phase, Entry::ListAwake));
+        pass.dispatch(&kernels.listed, &extent(state, phase, Entry::Listed));
         if let Some(limited) = &kernels.limited {
             control.record_limiter(pass);
             pass.dispatch(limited, &slots(state, "LIMIT"));

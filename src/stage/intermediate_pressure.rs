@@ -36,7 +36,7 @@ impl IntermediatePressure {
     pub fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.stage(Stage::IntermediatePressure.name());
         record_both(pass, state, phase, &self.cells);
-        pass.dispatch(&self.open_faces, &extent(state, phase, Entry::ListAwake));
+        pass.dispatch(&self.open_faces, &extent(state, phase, Entry::Listed));
         pass.dispatch(&self.clear, &extent(state, phase, Entry::Reduce));
         record_both(pass, state, phase, &self.vertices);
     }

@@ -66,7 +66,7 @@ pub struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// The two forms of a kernel: plain, over the slots deep inside the gas that are awake, and LISTED, over all others.
+    /// The two forms of a kernel: plain, over the slots deep inside the gas, and LISTED, over all others.
     fn both(
         &self,
         shader: &str,
@@ -82,16 +82,10 @@ impl Parts<'_> {
     }
 }
 
-/// Records both forms of a kernel that has something to do in all listed slots, awake or not.
-fn record_busy(pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
-    pass.dispatch(plain, &extent(state, phase, Entry::Awake));
-    pass.dispatch(listed, &extent(state, phase, Entry::Listed));
-}
-
 /// Records both forms of a kernel.
 fn record_both(pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
-    pass.dispatch(plain, &extent(state, phase, Entry::Awake));
-    pass.dispatch(listed, &extent(state, phase, Entry::ListAwake));
+    pass.dispatch(plain, &extent(state, phase, Entry::Slots));
+    pass.dispatch(listed, &extent(state, phase, Entry::Listed));
 }
 
 /// Group counts of a phase, which the device opens and closes.

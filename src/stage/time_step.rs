@@ -20,8 +20,6 @@ pub struct TimeStep {
     limiter: Bound,
     cold: Bound,
     solved: Bound,
-    awake: Bound,
-    wake: Bound,
     second: Bound,
     substep: Bound,
     finish: Bound,
@@ -52,8 +50,6 @@ impl TimeStep {
             limiter: control("control_limiter")?,
             cold: control("control_cold")?,
             solved: control("control_solved")?,
-            awake: control("control_awake")?,
-            wake: control("control_wake")?,
             second: control("control_second")?,
             substep: control("control_substep")?,
             finish: control("control_finish")?,
@@ -94,16 +90,6 @@ impl TimeStep {
     /// Opens the energy floor deep inside the gas where it may have to act.
     pub fn record_cold(&self, pass: &mut Pass) {
         pass.dispatch(&self.cold, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Takes the length of the list of slots that are awake.
-    pub fn record_awake(&self, pass: &mut Pass) {
-        pass.dispatch(&self.awake, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Opens the waking of all slots if the solve goes on for longer than some may sleep through.
-    pub fn record_wake(&self, pass: &mut Pass) {
-        pass.dispatch(&self.wake, &Extent::Groups([1, 1, 1]));
     }
 
     /// Opens the updates if the solve has finished.

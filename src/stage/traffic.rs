@@ -84,8 +84,6 @@ pub const TRAFFIC: [Traffic; 23] = [
 pub struct Load {
     /// Slots of the grid.
     pub slots: u64,
-    /// Of these awake, mean of all steps.
-    pub awake: u64,
     /// Particles.
     pub particles: u64,
     /// Steps.
@@ -99,17 +97,6 @@ pub struct Load {
     /// Whether the element pair is B2B1.
     pub quadratic: bool,
 }
-
-/// Stages that leave out slots that sleep.
-const SLEEPING: [Stage; 7] = [
-    Stage::TimeStep,
-    Stage::Still,
-    Stage::Carrier,
-    Stage::GasAdvection,
-    Stage::IntermediatePressure,
-    Stage::CoupledSolve,
-    Stage::FluidUpdate,
-];
 
 /// Bytes that a stage has moved in a run, by its name.
 #[must_use]
@@ -125,8 +112,7 @@ pub fn bytes(stage: &str, load: &Load) -> u64 {
             + solids * u64::from(row.slot_with_solids)
             + u64::from(load.carrier) * u64::from(row.slot_with_carrier)
             + u64::from(load.quadratic) * u64::from(row.slot_with_quadratic);
-        let slots = if SLEEPING.contains(&row.stage) { load.awake } else { load.slots };
-        times * (slot * slots + u64::from(row.particle) * load.particles)
+        times * (slot * load.slots + u64::from(row.particle) * load.particles)
     };
     TRAFFIC.iter().filter(|row| row.stage.name() == stage).map(of_row).sum()
 }

@@ -37,17 +37,14 @@ pub const NO_FAULT: u32 = u32::MAX;
 pub const SCAN_DISPATCHES: usize = 6;
 /// Columns of a marching kernel that are still together: as many as one instruction of a CPU takes, or a part of a GPU's.
 pub const STILL_BLOCK: u32 = 8;
-/// Iterations that the solve may take while some slots sleep; a longer one wakes them: after few in the step before, and after more.
-pub const REACHES: [u32; 2] = [4, 8];
 /// Entries of a phase in the table of extents.
 pub const PHASE_WIDTH: usize = Entry::Scan as usize + SCAN_DISPATCHES;
 /// Phases whose dispatches are opened and closed together.
-pub const PHASES: [&str; 14] = [
+pub const PHASES: [&str; 13] = [
     "BEGIN",
     "SORT",
     "LIMIT",
     "FLOOR",
-    "WAKE",
     "UPDATE",
     "SECOND",
     "SUBSTEP",
@@ -92,10 +89,6 @@ entries! {
     Color "COLOR"
     /// One thread per row of the preconditioner of interface pressures, in at most as many groups as leave partial results.
     Surface "SURFACE"
-    /// One thread per slot of the runs that are awake.
-    Awake "AWAKE"
-    /// One thread per slot of the runs of the list that are awake.
-    ListAwake "LIST_AWAKE"
     /// First dispatch of a prefix sum.
     Scan "SCAN"
 }
@@ -144,7 +137,7 @@ const COUNTED: [(&str, &[&str]); 4] = [
 ];
 
 /// Single numbers.
-const NUMBERS: [(&str, u32); 27] = [
+const NUMBERS: [(&str, u32); 22] = [
     ("GAS", GAS),
     ("SOLID", SOLID),
     ("WALL", WALL),
@@ -156,14 +149,9 @@ const NUMBERS: [(&str, u32); 27] = [
     ("PARTIALS", PARTIALS),
     ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
     ("STILL_BLOCK", STILL_BLOCK),
-    ("STILL_NONE", 0),
-    ("STILL_ADVECTION", super::params::STILL_ADVECTION),
-    ("STILL_ASLEEP", super::params::STILL_ASLEEP),
     ("SPACES", super::coarse::SPACES as u32),
     ("COUPLINGS", super::surface::COUPLINGS as u32),
     ("STRENGTH_UNIT", super::particles::STRENGTH_UNIT),
-    ("SHORT_REACH", REACHES[0]),
-    ("LONG_REACH", REACHES[1]),
     ("HISTORY_WIDTH", HISTORY_WIDTH),
     ("BLOCKS", BLOCKS),
     ("BLOCK_GIVEN", BLOCK_GIVEN),

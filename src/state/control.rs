@@ -55,18 +55,8 @@ structure! {
         listed: u32,
         /// INTERIOR slots whose nodes listed vertices rest on.
         frontier: u32,
-        /// Runs of slots that are awake.
-        runs: u32,
-        /// Runs of the list of the other slots, as far as they are awake.
-        list_runs: u32,
         /// Largest speed of sound at the end of the step \[m s^-1\].
         sound: f32,
-        /// Iterations that the solve of this step may take while some sleep.
-        reach: u32,
-        /// 1 if all slots are awake, because the solve of this step took many iterations or the host has changed the gas.
-        woken: u32,
-        /// The same in the step before.
-        woken_before: u32,
         /// Simulated time at the start of the step \[s\].
         time: f32,
         /// What rounding has taken from it so far \[s\].

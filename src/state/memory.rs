@@ -50,8 +50,7 @@ impl MemoryPlan {
         let dimension = scene.domain.dimension;
         let padded = |axis: usize| u64::from(scene.domain.cells[axis]) + 2 * u64::from((axis as u32) < dimension);
         let slots = padded(0) * padded(1) * padded(2);
-        let sleeps = super::params::sleeps(scene, particles > 0);
-        let places = super::interface::Places::new([0, 1, 2].map(padded), dimension, sleeps);
+        let places = super::interface::Places::new([0, 1, 2].map(padded), dimension);
         let count = particles as u64;
         let solid = if particles == 0 { 1 } else { slots };
         let parts = |array: &str| super::arrays::parts(array, scene.solves() == 2) as u64 * slots;
@@ -67,7 +66,7 @@ impl MemoryPlan {
         let books = if super::gas::ring_books(scene, particles > 0) { slots - plan.cells } else { slots };
         plan.add("gas", &[("owed_flow", books, 16), ("owed_energy", books, 4)]);
         plan.add("interface", &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4)]);
-        plan.add("interface", &[("extra", places.end + table, 4), ("busy", places.busy, 4)]);
+        plan.add("interface", &[("extra", places.end + table, 4)]);
         plan.add_pressure(slots as usize, extra_capacity(slots as usize, particles, dimension), dimension as usize);
         plan.add("particles", &[("position", count, 16), ("velocity", count, 16), ("affine", 3 * count, 16)]);
         plan.add("particles", &[("deformation", 3 * count, 16), ("stress", 2 * count, 16), ("order", count, 4)]);

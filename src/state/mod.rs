@@ -191,7 +191,7 @@ impl State {
     /// Parameters, control and materials.
     fn fill(&self, gpu: &Gpu, scene: &Scene) {
         self.params_buffer.write(gpu, 0, &[self.params]);
-        self.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, woken: 1, ..Control::default() }]);
+        self.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, ..Control::default() }]);
         self.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
     }
 
@@ -244,12 +244,6 @@ impl State {
     #[must_use]
     pub fn has_solids(&self) -> bool {
         self.particles.count > 0
-    }
-
-    /// Whether gas that nothing reaches may be left out of whole steps.
-    #[must_use]
-    pub fn sleeps(&self) -> bool {
-        self.overrides.contains(&("SLEEPS", 1.0))
     }
 
     /// Whether the gas element pair is B2B1.
@@ -315,7 +309,6 @@ impl State {
         let mut named = self.arrays();
         let own = |array: &str| named.iter().find(|(known, _)| *known == array).map(|(_, buffer)| *buffer);
         let lent = |used: &arrays::Use| match used.name {
-            arrays::Name::Lent("busy") if self.sleeps() => Some(("busy", self.interface.busy.raw())),
             arrays::Name::Lent(name) => own(used.array).map(|buffer| (name, buffer)),
             _ => None,
         };

@@ -75,27 +75,20 @@ structure! {
         least_entropy: f32,
         /// Vertices whose interface pressure has a row in the preconditioner.
         surface_rows: u32,
-        /// What is left out where nothing moves, with the same result: STILL_NONE, STILL_ADVECTION, STILL_ASLEEP.
+        /// 1 if the advection leaves out what motion does not reach by the solve, with the same result.
         still: u32,
-        /// Place of the runs of slots that are awake in [`super::Interface::extra`].
-        runs_at: u32,
-        /// Place of the rows of blocks there.
+        /// Place of the rows of blocks in [`super::Interface::extra`].
         still_at: u32,
         /// Place of the table of cut cells there.
         table_at: u32,
-        /// Place of the runs of the list there.
-        list_runs_at: u32,
+        /// Slots of a row, as sums take them (`shaders/shared/octets.wgsl`).
+        row: u32,
         /// Fills the space before vectors.
-        unused: u32,
+        unused: [u32; 2],
         /// Groups of each dispatch of a prefix sum over all slots and one more.
         scan: [vec4u; SCAN_DISPATCHES],
     }
 }
-
-/// [`Params::still`]: the advection leaves out what motion does not reach by the solve.
-pub const STILL_ADVECTION: u32 = 1;
-/// [`Params::still`]: and all kernels leave out what it does not reach in the whole step.
-pub const STILL_ASLEEP: u32 = 2;
 
 /// What the scene's particles add to the parameters.
 #[derive(Clone, Copy, Debug, Default)]
@@ -198,20 +191,14 @@ impl Params {
             blending: u32::from(numerics.blending),
             least_entropy: 0.0,
             surface_rows: surface::rows(grid.slots(), limits.extra_capacity as usize) as u32,
-            still: if sleeps(scene, solids.particles > 0) { STILL_ASLEEP } else { STILL_ADVECTION },
-            runs_at: 0,
+            still: 1,
             still_at: 0,
             table_at: 0,
-            list_runs_at: 0,
-            unused: 0,
+            row: sum_row(scene, grid, solids.particles > 0),
+            unused: [0; 2],
             scan: [[0; 4]; SCAN_DISPATCHES],
         };
-        let places = super::interface::Places::new(
-            params.stride.map(u64::from),
-            scene.domain.dimension,
-            params.still == STILL_ASLEEP,
-        );
-        (params.runs_at, params.list_runs_at) = (places.runs as u32, places.list_runs as u32);
+        let places = super::interface::Places::new(params.stride.map(u64::from), scene.domain.dimension);
         (params.still_at, params.table_at) = (places.still as u32, places.end as u32);
         for (entry, [x, y, z]) in params.scan.iter_mut().zip(Scan::plan(grid.slots() as u32 + 1)) {
             *entry = [x, y, z, 0];
@@ -248,7 +235,6 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
         ("MIRRORED", f64::from(if solids { 0 } else { whole_walls(scene) })),
         ("JOINED", f64::from(if numerics.pair == Pair::B1b0 { joined_sides(scene) } else { 0 })),
-        ("SLEEPS", flag(sleeps(scene, solids))),
         ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
             "INTERFACE",
@@ -264,13 +250,15 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
     ]
 }
 
-/// Whether gas that nothing reaches in a whole step may be left out: where one solve, without coarse levels, is all that acts at a
-/// distance, and nothing acts on gas at rest.
-pub(super) fn sleeps(scene: &Scene, solids: bool) -> bool {
+/// Slots of a row of sums: those of the grid across its last axis in gas alone with the simplest solve, else all. Either would do; the
+/// last bits of what has been computed with them follow from the choice.
+fn sum_row(scene: &Scene, grid: &Grid, solids: bool) -> u32 {
     let numerics = &scene.numerics;
-    let alone = !solids && scene.obstacles.is_empty() && scene.gravity == [0.0; 3];
-    let short = numerics.pair == Pair::B1b0 && scene.solves() == 1 && super::coarse::plan(scene).is_none();
-    alone && short && scene.filter().is_none()
+    let alone = !solids && scene.obstacles.is_empty() && scene.gravity == [0.0; 3] && scene.filter().is_none();
+    let simplest = numerics.pair == Pair::B1b0 && scene.solves() == 1 && super::coarse::plan(scene).is_none();
+    let across = scene.domain.dimension > 1 && alone && simplest;
+    let last = grid.strides()[scene.domain.axes() - 1];
+    grid.slots() as u32 / if across { last } else { 1 }
 }
 
 /// Sides that are walls and nothing else, as bits.

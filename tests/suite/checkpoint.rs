@@ -13,7 +13,7 @@ use crate::common::gpu_or_skip;
 /// Steps before the state is saved, and behind it.
 const STEPS: u64 = 3;
 
-/// Gas that sleeps, two solves a step, bodies with fragments, the implicit elastic step. scripts/resume-test does all scenes.
+/// Still gas, two solves a step, bodies with fragments, the implicit elastic step. scripts/resume-test does all scenes.
 const SCENES: [(&str, &[&str], u32); 4] = [
     ("gas/sod.toml", &[], 64),
     ("gas/sod.toml", &["numerics.integrator=ars222"], 64),

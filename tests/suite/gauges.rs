@@ -24,7 +24,7 @@ fn advance(text: &str, until: f64) -> Option<(Simulation, Vec<StepRecord>)> {
 }
 
 /// A shock meets the far wall of a closed tube: what both walls bear changes the momentum of the gas, in every step, with one solve a step
-/// and with two; walls of gas that sleeps bear its pressure.
+/// and with two; walls of gas at rest bear its pressure.
 #[test]
 fn the_walls_of_a_tube_bear_what_the_gas_loses() {
     for numerics in ["", "integrator = \"ars222\"\n", "pair = \"b2b1\"\n"] {

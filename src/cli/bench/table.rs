@@ -63,7 +63,6 @@ fn print_totals(m: &Measurement, before: Option<&Measurement>) {
     say!("{:24} {:>14.4e}", "particle sub-steps/s", m.particle_substeps_per_second);
     say!("{:24} {:>14.2}{}", "PCG iterations per step", m.pcg_iterations_per_step, of(|m| m.pcg_iterations_per_step));
     say!("{:24} {:>14.2}", "sub-steps per step", m.substeps_per_step);
-    say!("{:24} {:>14.2}", "share of slots awake", m.awake_share);
     say!("{:24} {:>14}", "bytes allocated", size(m.bytes_allocated));
     say!("{:24} {:>14.1}{}", "planned bytes per cell", m.bytes_per_cell_planned, of(|m| m.bytes_per_cell_planned));
     say!("{:24} {:>14.1}", "... per particle", m.bytes_per_particle_planned);

@@ -71,7 +71,7 @@ impl Surface {
     /// The rows of a solve, in a phase; masses of the nodes must be there.
     pub(super) fn record_rows(&self, pass: &mut Pass, state: &State, phase: &str) {
         pass.dispatch(&self.begin, &extent(state, phase, Entry::Single));
-        pass.dispatch(&self.rows, &extent(state, phase, Entry::ListAwake));
+        pass.dispatch(&self.rows, &extent(state, phase, Entry::Listed));
     }
 
     /// The block that it preconditions.
