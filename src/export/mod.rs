@@ -19,6 +19,7 @@ pub mod states;
 pub mod surface;
 mod units;
 pub mod usd;
+mod usdc;
 pub mod vdb;
 mod vdb_tree;
 pub mod video;
@@ -223,7 +224,7 @@ pub const FORMATS: &[Format] = &[
     },
     Format {
         name: "usd",
-        description: "stage.usda with camera, volumes (vdb/NNNN.vdb) and bodies as points, usd/NNNN.usda",
+        description: "stage.usda with camera, volumes (vdb/NNNN.vdb) and bodies as points, usd/NNNN.usdc",
         open: |folder| Box::new(usd::UsdExporter::new(folder)),
     },
     Format {

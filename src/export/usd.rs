@@ -1,11 +1,12 @@
 //! stage.usda: a run as a USD stage with camera, volumes by reference to their vdb files, and bodies as points that move.
 //!
-//! Points lie in a file a frame, usd/NNNN.usda, which the stage takes as value clips [USD: Sequencable, Re-timeable Animated "Value
-//! Clips"]. Lengths are metres, z is up, a frame of the run is a time code.
+//! Points lie in a binary file a frame, usd/NNNN.usdc, which the stage takes as value clips [USD: Sequencable, Re-timeable Animated
+//! "Value Clips"]. Lengths are metres, z is up, a frame of the run is a time code.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use super::usdc::{Array, Layer};
 use super::vdb::VdbExporter;
 use crate::Result;
 use crate::export::{Exporter, Moment, Needs, atomic};
@@ -27,7 +28,7 @@ const PRIMVARS: [(&str, &str); 6] = [
     ("piece", "int[]"),
 ];
 
-/// Writes `stage.usda`, `usd/NNNN.usda` and `vdb/NNNN.vdb`.
+/// Writes `stage.usda`, `usd/NNNN.usdc` and `vdb/NNNN.vdb`.
 #[derive(Debug)]
 pub struct UsdExporter {
     folder: PathBuf,
@@ -52,9 +53,9 @@ impl Exporter for UsdExporter {
         self.volumes.write(moment)?;
         self.points |= !moment.origin.source.bodies.is_empty();
         if self.points {
-            let text = points(snapshot, moment.index);
-            let path = self.folder.join(format!("usd/{:04}.usda", moment.index));
-            atomic::write(&path, |out| out.write_all(text.as_bytes()))?;
+            let layer = points(snapshot, moment.index);
+            let path = self.folder.join(format!("usd/{:04}.usdc", moment.index));
+            atomic::write(&path, |out| out.write_all(&layer))?;
             let manifest = manifest();
             atomic::write(&self.folder.join("usd/manifest.usda"), |out| out.write_all(manifest.as_bytes()))?;
         }
@@ -126,7 +127,7 @@ impl UsdExporter {
             text,
             "    def Points \"bodies\" (\n        clips = {{\n            dictionary default = {{\n                \
              asset manifestAssetPath = @./usd/manifest.usda@\n                string primPath = \"/bodies\"\n                \
-             string templateAssetPath = \"./usd/####.usda\"\n                double templateStartTime = {first}\n                \
+             string templateAssetPath = \"./usd/####.usdc\"\n                double templateStartTime = {first}\n                \
              double templateEndTime = {last}\n                double templateStride = 1\n            }}\n        }}\n    )\n    {{\n        \
              float3[] extent = {extent}\n        string[] userProperties:bodies = [{}]\n        \
              string[] userProperties:materials = [{}]",
@@ -195,39 +196,28 @@ fn manifest() -> String {
 }
 
 /// The points of a frame.
-fn points(snapshot: &Snapshot, frame: u32) -> String {
+fn points(snapshot: &Snapshot, frame: u32) -> Vec<u8> {
     let particles = &snapshot.particles;
     let axes = snapshot.grid.dimension as f32;
-    let mut text = "#usda 1.0\n(\n    defaultPrim = \"bodies\"\n)\n\ndef Points \"bodies\"\n{\n".to_owned();
-    let mut samples = |kind: &str, name: &str, values: String, primvar: bool| {
-        let about = if primvar { " ( interpolation = \"vertex\" )" } else { "" };
-        if primvar {
-            let _ = writeln!(text, "    {kind} {name}{about}");
-        }
-        let _ = writeln!(text, "    {kind} {name}.timeSamples = {{ {frame}: [{values}] }}");
-    };
-    let all = |each: &dyn Fn(&crate::snapshot::ParticleSample) -> String| {
-        particles.iter().map(each).collect::<Vec<_>>().join(", ")
-    };
-    samples("point3f[]", "points", all(&|p| vector(p.position)), false);
-    samples("vector3f[]", "velocities", all(&|p| vector(p.velocity)), false);
-    samples(
-        "float[]",
-        "widths",
-        all(&|p| format!("{:?}", (p.volume0 * p.volume_ratio()).abs().powf(1.0 / axes))),
-        false,
-    );
-    samples("int64[]", "ids", all(&|p| p.index.to_string()), false);
+    let mut layer = Layer::new(f64::from(frame));
+    let positions: Vec<_> = particles.iter().map(|p| p.position).collect();
+    layer.attribute("points", "point3f[]", false, Array::Vectors(&positions));
+    let velocities: Vec<_> = particles.iter().map(|p| p.velocity).collect();
+    layer.attribute("velocities", "vector3f[]", false, Array::Vectors(&velocities));
+    let widths: Vec<_> = particles.iter().map(|p| (p.volume0 * p.volume_ratio()).abs().powf(1.0 / axes)).collect();
+    layer.attribute("widths", "float[]", false, Array::Reals(&widths));
+    let ids: Vec<_> = particles.iter().map(|p| i64::from(p.index)).collect();
+    layer.attribute("ids", "int64[]", false, Array::Long(&ids));
     for (name, kind) in PRIMVARS {
         let values = quantity::find(Place::Particle, name).map(|quantity| quantity.of(snapshot));
-        let values = match values {
-            Some(Values::Real(values)) => values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>(),
-            Some(Values::Whole(values)) => values.iter().map(ToString::to_string).collect(),
-            None => continue,
-        };
-        samples(kind, &format!("primvars:{name}"), values.join(", "), true);
+        let name = format!("primvars:{name}");
+        match &values {
+            Some(Values::Real(values)) => layer.attribute(&name, kind, true, Array::Reals(values)),
+            Some(Values::Whole(values)) => layer.attribute(&name, kind, true, Array::Whole(values)),
+            None => {}
+        }
     }
-    text + "}\n"
+    layer.finish("bodies", "Points")
 }
 
 fn vector([x, y, z]: [f32; 3]) -> String {
