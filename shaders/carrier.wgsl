@@ -5,7 +5,7 @@
 // much the velocity of the face, as the last solve saw it, exceeds that of the cell before it.
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -114,16 +114,16 @@ fn surplus_beyond(c: vec3i, slot: u32) -> vec4f {
 
 @compute @workgroup_size(WORKGROUP)
 fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if LISTED && SOURCE == 0u && kind_of(word) == GHOST { node[slot] = surplus_beyond(cell_of(slot), slot); }
-    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) { return; }
+    if SWEEP == OVER_LISTED && SOURCE == 0u && kind_of(word) == GHOST { node[slot] = surplus_beyond(cell_of(slot), slot); }
+    if kind_of(word) != GAS { return; }
     if stays(slot) {
         node[slot] = vec4f(0.0);
         return;
     }
-    if LISTED {
+    if SWEEP == OVER_LISTED {
         node[slot] = vec4f(average(cell_of(slot), slot), 0.0);
         return;
     }
@@ -163,12 +163,12 @@ fn cut_divergence(slot: u32) -> f32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if kind_of(word) != GAS || (!LISTED && !has(word, INTERIOR)) || stays(slot) { return; }
+    if kind_of(word) != GAS || stays(slot) { return; }
     var sum = 0.0;
-    if LISTED {
+    if SWEEP == OVER_LISTED {
         let c = cell_of(slot);
         if CUT { sum = cut_divergence(slot); }
         else { for (var n = 0u; n < DIM; n++) { sum += rounded(face_mean(c, slot, n, true) - face_mean(c, slot, n, false)); } }
@@ -206,7 +206,7 @@ fn mean_of(a: f32, u: f32, b: f32, v: f32) -> f32 { return (a * u + b * v) / (a 
 fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let s = params.stride.x;
     let thread = thread_index(group, lane);
-    let first = march_start(thread);
+    let first = swept_slot(thread);
     if first >= params.slots { return; }
     let moving = moving_rows(thread, SOLVED);
     for (var k = 0u; k < params.march; k++) {

@@ -5,7 +5,7 @@
 // The plain form runs only if fluid_energy has found a cell that may need it.
 // What has crossed the boundary goes from the slot where it was collected to the ledger, where all of it is.
 #include "shared/index.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/control.wgsl"
@@ -64,9 +64,8 @@ fn book_loss(slot: u32, momentum: vec3f, heat: f32) {
 
 @compute @workgroup_size(WORKGROUP)
 fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
-    if !LISTED && !has(cells[slot], INTERIOR) { return; }
     let kind = kind_of(cells[slot]);
     // Between two solves of a step the second still builds upon what the first collected.
     if (kind == GHOST || kind == WALL) && !(ARS && control.stage == 0u) { keep_crossed(slot); }

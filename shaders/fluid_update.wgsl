@@ -3,7 +3,7 @@
 // from the other, so their sums are conserved. WALL and GHOST slots collect the impulse and work that leaves through them.
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -91,12 +91,10 @@ fn interior_heat(slot: u32, here: vec4f) -> f32 {
 // Calls with c in GAS; slots of other kinds see the same face from the other side.
 @compute @workgroup_size(WORKGROUP)
 fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
-    if !LISTED {
-        if has(cells[slot], INTERIOR) {
-            conserved[slot] += vec4f(0.0, interior_impulse(slot) * control.dt / params.spacing);
-        }
+    if SWEEP != OVER_LISTED {
+        conserved[slot] += vec4f(0.0, interior_impulse(slot) * control.dt / params.spacing);
         return;
     }
     let kind = kind_of(cells[slot]);
@@ -192,15 +190,13 @@ fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
 
 @compute @workgroup_size(WORKGROUP)
 fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
-    if !LISTED {
-        if has(cells[slot], INTERIOR) {
-            let flow = in_space(conserved[slot]);
-            let total = energy[slot] + interior_heat(slot, flow) * control.dt / params.spacing;
-            if may_be_cold(slot, flow, total) { atomicStore(&control.cold, 1u); }
-            energy[slot] = total;
-        }
+    if SWEEP != OVER_LISTED {
+        let flow = in_space(conserved[slot]);
+        let total = energy[slot] + interior_heat(slot, flow) * control.dt / params.spacing;
+        if may_be_cold(slot, flow, total) { atomicStore(&control.cold, 1u); }
+        energy[slot] = total;
         return;
     }
     let kind = kind_of(cells[slot]);

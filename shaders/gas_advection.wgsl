@@ -6,7 +6,7 @@
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -193,7 +193,7 @@ fn is_served(c: vec3i) -> bool {
 // One slot of the list.
 @compute @workgroup_size(WORKGROUP)
 fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     let beyond = !inside(c);
@@ -213,7 +213,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let n = DIM - 1u;
     let s = step_of(n);
     let thread = thread_index(group, lane);
-    let first = march_start(thread);
+    let first = swept_slot(thread);
     let last = params.slots - 1u;
     if first > last { return; }
     let moving = moving_rows(thread, ARS && STAGE > 0u);

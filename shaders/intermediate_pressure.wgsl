@@ -4,7 +4,7 @@
 // pressure, or the step is flagged. [Cao et al. 2022, eqs. 9, 17, 22, 24]
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -67,14 +67,14 @@ fn cut_divergence(slot: u32, own: f32) -> f32 {
 // What the divergence of the carrier falls short of its mean around a cell, summed over the faces between GAS cells: as much of it as the
 // faces have back [shared/carrier.wgsl] adds to the divergence.
 fn carried_shortfall(slot: u32, own: f32) -> f32 {
-    if LISTED && CUT { return cut_divergence(slot, own) / cluster_share(slot); }
+    if SWEEP == OVER_LISTED && CUT { return cut_divergence(slot, own) / cluster_share(slot); }
     var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
         var along = 0.0;
         for (var side = 0u; side < 2u; side++) {
             var other = select(slot - step_of(n), slot + step_of(n), side == 1u);
-            if LISTED && PERIODIC != 0u { other = slot_of(cell_of(slot) + select(-1, 1, side == 1u) * axis(n)); }
-            if !LISTED || kind_of(cells[other]) == GAS { along += node[other].w - own; }
+            if SWEEP == OVER_LISTED && PERIODIC != 0u { other = slot_of(cell_of(slot) + select(-1, 1, side == 1u) * axis(n)); }
+            if SWEEP != OVER_LISTED || kind_of(cells[other]) == GAS { along += node[other].w - own; }
         }
         sum += along;
     }
@@ -85,7 +85,7 @@ fn carried_shortfall(slot: u32, own: f32) -> f32 {
 fn plain_divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
     var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
-        if LISTED {
+        if SWEEP == OVER_LISTED {
             for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
                 let member = cell_of(at);
                 sum += (aperture(at, n, true) * face_velocity(member, n, true, here)
@@ -119,12 +119,10 @@ fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
-    let word = cells[slot];
-    if !LISTED && !has(word, INTERIOR) { return; }
     let here = advected(slot);
-    if kind_of(word) != GAS {
+    if kind_of(cells[slot]) != GAS {
         conserved[slot] = here.flow;
         energy[slot] = here.energy;
         return;

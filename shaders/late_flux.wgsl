@@ -1,7 +1,7 @@
 // fluid_update, before it: gas that follows the bodies, as their slots get it; fluid_momentum takes it from the cells.
 // Reads node, the kick of the solve, the advected gas. Writes what slots of bodies owe.
 #include "shared/index.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/late_flux.wgsl"
@@ -16,7 +16,7 @@
 
 @compute @workgroup_size(WORKGROUP)
 fn late_flux(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots || kind_of(cells[slot]) != SOLID || !has(cells[slot], NODE_GAS) { return; }
     let c = cell_of(slot);
     var flow = vec4f(0.0);

@@ -5,7 +5,7 @@
 // What a body gets is what the gas beside it has lost at their faces; of an obstacle or wall what its slots have collected, and the surface in cut
 // cells. Sums are integers, whose order does not matter: numbers of 64 bits, the low half first, in 2^-32 of a unit.
 #include "shared/index.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/ars.wgsl"
@@ -197,7 +197,7 @@ fn mean_pressure(c: vec3i) -> f32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn load_faces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     let owners = atomicLoad(&loads[owner_at(slot)]);

@@ -2,7 +2,7 @@
 // the pressure of a vertex is many times that of the thin cell behind it. The sum goes to all gas cells around the vertex in proportion to their
 // pressures. Reads pressure, cells, gas, nodes. Writes the sum over the sum of these pressures behind the pressures: 0 nearly everywhere.
 #include "shared/index.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
@@ -28,8 +28,8 @@ fn least_around(v: vec3i) -> f32 {
     var least = 3.4e38;
     for (var k = 0u; k < corner_count(); k++) {
         let slot = slot_of(v - corner_offset(k));
-        if LISTED && kind_of(cells[slot]) != GAS { continue; }
-        if LISTED && cut_entry(slot) != 0u { return -1.0; }
+        if SWEEP == OVER_LISTED && kind_of(cells[slot]) != GAS { continue; }
+        if SWEEP == OVER_LISTED && cut_entry(slot) != 0u { return -1.0; }
         least = min(least, own_pressure(slot));
     }
     return least;
@@ -53,9 +53,8 @@ fn surplus(v: vec3i) -> f32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn parting_surplus(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
-    if !LISTED && !has(cells[slot], INTERIOR) { return; }
     let v = cell_of(slot);
     if !is_vertex(v) || is_alias(v) { return; }
     let least = least_around(v);

@@ -80,7 +80,7 @@ fn coarse_measure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
 // One workgroup, dispatched always: opens the table of the preparation, or closes it outside of the phase.
 @compute @workgroup_size(WORKGROUP)
 fn coarse_choose(@builtin(local_invocation_index) lane: u32) {
-    let on = extents[PHASE_AT + EXTENT_SINGLE].x > 0u;
+    let on = extents[PHASE_AT + OVER_SINGLE].x > 0u;
     var bound = vec4f(0.0);
     for (var k = lane; k < pcg.groups_partial; k += WORKGROUP) { bound = max(bound, partials[k]); }
     let courant = sqrt(workgroup_max4(lane, bound).xy);

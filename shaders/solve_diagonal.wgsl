@@ -2,7 +2,7 @@
 // vertex on one node are summed before they are squared. Unused unknowns get the inverse 0 and stay 0.
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
@@ -155,25 +155,24 @@ fn mixed_squares(v: vec3i, apart: bool, count: u32) -> Squares {
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if !LISTED && !has(word, INTERIOR) { return; }
-    if LISTED && !has(word, VERTEX_GAS | VERTEX_SOLID) {
+    if SWEEP == OVER_LISTED && !has(word, VERTEX_GAS | VERTEX_SOLID) {
         inverse_diagonal[slot] = 0.0;
         return;
     }
     let scale = control.dt * face_area() * control.dt * face_area();
     let v = cell_of(slot);
-    let regular = !LISTED || has(word, VERTEX_REGULAR);
-    if CUT && LISTED && !regular {
+    let regular = SWEEP != OVER_LISTED || has(word, VERTEX_REGULAR);
+    if CUT && SWEEP == OVER_LISTED && !regular {
         inverse_diagonal[slot] = inverse(stiffness[slot] + scale * cut_square(v));
         return;
     }
-    let deep = SOLIDS && LISTED && has(word, VERTEX_DEEP);
+    let deep = SOLIDS && SWEEP == OVER_LISTED && has(word, VERTEX_DEEP);
     let apart = interface_index(slot) != slot;
     var squares: Squares;
-    if LISTED { squares = mixed_squares(v, apart, select(corner_count(), 0u, regular || deep)); }
+    if SWEEP == OVER_LISTED { squares = mixed_squares(v, apart, select(corner_count(), 0u, regular || deep)); }
     for (var turn = 0u; turn < u32(regular); turn++) { squares.own = regular_square(v); }
     for (var turn = 0u; turn < u32(deep); turn++) { squares.own = wide_square(v, SOLID_NODE, true); }
     inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);

@@ -2,7 +2,7 @@
 // Reads x, cells, masses. Writes work: gas nodes, then solid nodes; w keeps the inverse mass of the gas node.
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/element.wgsl"
 #include "shared/system.wgsl"
@@ -209,14 +209,14 @@ fn mixed_force(c: vec3i, count: u32) -> Forces {
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = frontier_slot(spread_index(group, lane, frontier_threads()));
+    let slot = swept_slot(spread_index(group, lane, swept_threads()));
     if slot >= params.slots { return; }
     let word = cells[slot];
     let c = cell_of(slot);
     var inverse_mass = work[part(GAS_NODE, slot)].w;
-    if !LISTED {
+    if SWEEP != OVER_LISTED {
         if !QUADRATIC { inverse_mass = energy[part(INVERSE_MASS, slot)]; }
-        if has(word, INTERIOR) { work[part(GAS_NODE, slot)] = vec4f(regular_force(slot, c) * face_area() * inverse_mass, inverse_mass); }
+        work[part(GAS_NODE, slot)] = vec4f(regular_force(slot, c) * face_area() * inverse_mass, inverse_mass);
         return;
     }
     let regular = !BODIES_ONLY && has(word, NODE_REGULAR);

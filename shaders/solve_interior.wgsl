@@ -3,6 +3,7 @@
 //   (C^T M^-1 C x)_v = 1 / (M 4^(DIM-1)) sum over u of (axes on which u and v lie on the same side - axes on which not) x_u.
 // Reads x, inverse node masses, stiffness, diagonal. Writes right-hand side or product.
 #include "shared/index.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/octets.wgsl"
@@ -19,6 +20,7 @@
 @group(0) @binding(7) var<storage, read_write> y: array<f32>;
 @group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(9) var<storage, read> inverse_diagonal: array<f32>;
+@group(0) @binding(10) var<storage, read> extra: array<u32>;
 
 // The four values around `at` in a plane, at (-x, -y), (+x, -y), (-x, +y), (+x, +y).
 fn diagonals(at: u32) -> vec4f {
@@ -75,8 +77,8 @@ fn divergence(at: u32) -> f32 {
 // Right-hand side dt C^T (V* - dt M^-1 C X*).
 @compute @workgroup_size(WORKGROUP)
 fn interior_setup(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, lane);
-    if slot >= params.slots || !has(cells[slot], INTERIOR) { return; }
+    let slot = swept_slot(thread_index(group, lane));
+    if slot >= params.slots { return; }
     let scale = control.dt * face_area();
     y[slot] = scale * (divergence(slot) - scale * operator_at(slot, x[slot]));
 }

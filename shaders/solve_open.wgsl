@@ -2,7 +2,7 @@
 // faces that it belongs to; and their admittance, which resists the increment like a stiffness.
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -50,7 +50,7 @@ fn note_open_face(c: vec3i, slot: u32) {
 // While `pressure` still holds what the last solve left.
 @compute @workgroup_size(WORKGROUP)
 fn open_faces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot < params.slots && kind_of(cells[slot]) == GHOST { note_open_face(cell_of(slot), slot); }
 }
 
@@ -64,7 +64,7 @@ fn along_face(corner: vec3i, n: u32) -> vec3f {
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let v = cell_of(slot);
     var flow = 0.0;

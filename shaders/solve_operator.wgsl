@@ -1,6 +1,6 @@
 // coupled_solve, second half of the operator: y = S^-1 x + dt^2 C^T (M^-1 C x), and the partial sums of x . y.
 #include "shared/index.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
@@ -23,15 +23,14 @@ fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     let scale = control.dt * control.dt * face_area();
     var product = 0.0;
     let thread = thread_index(group, lane);
-    for (var k = thread; k < listed_threads(); k += striding_threads()) {
-        let slot = listed_slot(k);
-        let word = cells[slot];
-        if !LISTED && !has(word, INTERIOR) { continue; }
-        let rows = gather_rows(slot, word);
+    for (var k = thread; k < swept_threads(); k += striding_threads()) {
+        let slot = swept_slot(k);
+        if slot >= params.slots { continue; }
+        let rows = gather_rows(slot, cells[slot]);
         let own = stiffness[slot] * x[slot] + scale * rows.own;
         y[slot] = own;
         product += x[slot] * own;
-        if !LISTED { continue; }
+        if SWEEP != OVER_LISTED { continue; }
         let i = interface_index(slot);
         if i != slot {
             let j = ghost_index(slot);
@@ -46,5 +45,5 @@ fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     if lane != 0u { return; }
     // The listed form comes first; the plain one adds to what it left.
     let at = thread / WORKGROUP;
-    if LISTED { partials[at] = sum; } else { partials[at] += sum; }
+    if SWEEP == OVER_LISTED { partials[at] = sum; } else { partials[at] += sum; }
 }

@@ -3,7 +3,7 @@
 // which keeps float32 from losing a small increment in a large pressure. b: what inlets and outlets let through (solve_open).
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -72,11 +72,11 @@ fn interior_mass(at: u32) -> f32 {
 // Lumped mass of a gas node from the gas cells around it.
 @compute @workgroup_size(WORKGROUP)
 fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
-    if slot >= params.slots || (!LISTED && !has(cells[slot], INTERIOR)) { return; }
+    let slot = swept_slot(thread_index(group, lane));
+    if slot >= params.slots { return; }
     var mass = 0.0;
     let c = cell_of(slot);
-    if !LISTED { mass = interior_mass(slot); }
+    if SWEEP != OVER_LISTED { mass = interior_mass(slot); }
     else if beside_obstacle(cells[slot]) {
         if kind_of(cells[slot]) == GAS { mass = conserved[slot].x * cluster_share(slot); }
     } else if has(cells[slot], NODE_GAS) && !is_image(c) && !is_joined(c) {
@@ -90,7 +90,7 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
         mass = weighed(around);
     }
     let inverse = select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0);
-    if LISTED || QUADRATIC { work[part(GAS_NODE, slot)] = vec4f(0.0, 0.0, 0.0, inverse); }
+    if SWEEP == OVER_LISTED || QUADRATIC { work[part(GAS_NODE, slot)] = vec4f(0.0, 0.0, 0.0, inverse); }
     if kind_of(cells[slot]) != GHOST { energy[part(INVERSE_MASS, slot)] = inverse; }
 }
 
@@ -128,11 +128,10 @@ fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
 // work: M^-1 C X* becomes V* - dt M^-1 C X*.
 @compute @workgroup_size(WORKGROUP)
 fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = frontier_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if !LISTED {
-        if !has(word, INTERIOR) { return; }
+    if SWEEP != OVER_LISTED {
         let gas = work[part(GAS_NODE, slot)];
         work[part(GAS_NODE, slot)] = vec4f(velocity_of(in_space(conserved[slot])) - control.dt * gas.xyz, gas.w);
         return;
@@ -149,14 +148,13 @@ fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if !LISTED && !has(word, INTERIOR) { return; }
     let rows = gather_rows(slot, word);
     let scale = control.dt * face_area();
     var own = rows.own;
-    if !LISTED { residual[slot] = scale * own; return; }
+    if SWEEP != OVER_LISTED { residual[slot] = scale * own; return; }
     let v = cell_of(slot);
     let at_side = any(((v == vec3i(0)) | (v == vec3i(params.cells))) & (reach() == vec3i(1)));
     if at_side && has(word, VERTEX_GAS) { own -= residual[slot]; } // b, from solve_open

@@ -6,7 +6,7 @@
 // between bodies is small; the polynomial is positive below its upper bound, so the preconditioner is positive definite all the same.
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/control.wgsl"
 #include "shared/element.wgsl"
@@ -120,7 +120,7 @@ fn surface_begin() { atomicStore(&bound, 0u); }
 
 @compute @workgroup_size(WORKGROUP)
 fn surface_rows(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let row = extra[slot];
     let v = cell_of(slot);

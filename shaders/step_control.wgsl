@@ -19,7 +19,7 @@ fn control_start() {
     open_phase(PHASE_SORT_EXTENTS, true);
 }
 
-// After the lists of slots: their lengths rule the LISTED and FRONTIER dispatches.
+// After the lists of slots: their lengths rule the dispatches over them.
 @compute @workgroup_size(1)
 fn control_listed() {
     control.listed = extra[part(LENGTHS, LENGTH_LISTED)];
@@ -31,10 +31,10 @@ fn control_listed() {
     pcg.frontier_wide = frontier.x;
     pcg.frontier_high = frontier.y;
     pcg.groups_block = surface_groups().x;
-    let keep = extents[PHASE_BEGIN_EXTENTS + EXTENT_SINGLE].x;
-    extents[PHASE_BEGIN_EXTENTS + EXTENT_SURFACE] = surface_groups() * keep;
-    extents[PHASE_BEGIN_EXTENTS + EXTENT_LISTED] = listed * keep;
-    extents[PHASE_BEGIN_EXTENTS + EXTENT_FRONTIER] = frontier * keep;
+    let keep = extents[PHASE_BEGIN_EXTENTS + OVER_SINGLE].x;
+    extents[PHASE_BEGIN_EXTENTS + OVER_SURFACE] = surface_groups() * keep;
+    extents[PHASE_BEGIN_EXTENTS + OVER_LISTED] = listed * keep;
+    extents[PHASE_BEGIN_EXTENTS + OVER_FRONTIER] = frontier * keep;
 }
 
 // After an advection stage: did the limiter act?

@@ -44,7 +44,7 @@ fn rests(slot: u32) -> bool {
 fn still_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let total = striding_threads();
     for (var block = thread_index(group, lane); block < blocks(); block += total) {
-        let corner = march_start(STILL_BLOCK * block);
+        let corner = corner_of(block);
         let width = min(STILL_BLOCK, columns() - corner % columns());
         var rows = 0u;
         for (var k = 0u; k < params.march; k++) {

@@ -3,7 +3,7 @@
 // rate = max over cells of sum over axes of (a + sqrt(a^2 + 4 b)) / 2, a = |u| / dx, b = |dp| / (dx^2 rho)
 // [Kwatra et al. 2009, eq. 20]; also dt <= cfl dx / |v_particle|, dt <= max_courant dx / c and dt <= max_growth dt_previous.
 #include "shared/index.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/gas.wgsl"
 #include "shared/boundary.wgsl"
@@ -72,23 +72,22 @@ fn listed_rate(c: vec3i, gas: Gas, p: f32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var bound = vec2f(0.0);
-    for (var k = thread_index(group, lane); k < listed_threads(); k += striding_threads()) {
-        let slot = listed_slot(k);
-        let word = cells[slot];
-        if LISTED != !has(word, INTERIOR) { continue; }
+    for (var k = thread_index(group, lane); k < swept_threads(); k += striding_threads()) {
+        let slot = swept_slot(k);
+        if slot >= params.slots { continue; }
         let c = cell_of(slot);
-        if LISTED && (kind_of(word) != GAS || !inside(c)) { continue; }
+        if SWEEP == OVER_LISTED && (kind_of(cells[slot]) != GAS || !inside(c)) { continue; }
         let gas = gas_at(slot);
         let p = pressure_of(gas);
         var rate: f32;
-        if LISTED { rate = listed_rate(c, gas, p); } else { rate = interior_rate(slot, gas, p); }
+        if SWEEP == OVER_LISTED { rate = listed_rate(c, gas, p); } else { rate = interior_rate(slot, gas, p); }
         bound = max(bound, vec2f(rate, sound_speed(gas.flow.x, p)));
     }
     let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
     if lane != 0u { return; }
     // The listed form comes first; the plain one adds to what it left.
     let at = group_index(group);
-    if LISTED { maxima[at] = largest; } else { maxima[at] = max(maxima[at], largest); }
+    if SWEEP == OVER_LISTED { maxima[at] = largest; } else { maxima[at] = max(maxima[at], largest); }
 }
 
 // What limits the elastic sub-steps at a particle, as a speed: the wave in the deformed body, and the velocity gradient, since a

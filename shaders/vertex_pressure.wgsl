@@ -3,7 +3,7 @@
 // S^-1_v = sum of (cell volume / 2^DIM) / (stiffness of the cell). Where gas and solid share a pressure both add.
 #include "shared/index.wgsl"
 #include "shared/arrays.wgsl"
-#include "shared/listed.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/cell.wgsl"
 #include "shared/cut.wgsl"
 
@@ -122,13 +122,13 @@ fn meets_free_node(v: vec3i) -> bool {
 
 @compute @workgroup_size(WORKGROUP)
 fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = listed_slot(thread_index(group, lane));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
-    let word = cells[slot];
-    if !LISTED {
-        if has(word, INTERIOR) { interior_vertex(slot); }
+    if SWEEP != OVER_LISTED {
+        interior_vertex(slot);
         return;
     }
+    let word = cells[slot];
     if CUT && !has(word, VERTEX_REGULAR) {
         cut_vertex(slot);
         return;

@@ -20,10 +20,10 @@ use crate::snapshot::Snapshot;
 use crate::stage::{
     Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate, G2p,
     GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven, P2g, ParticleSort,
-    Parts, Still, Supports, TimeStep, Totals, Transfer,
+    Still, Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::NO_FAULT;
-use crate::state::{Control, State};
+use crate::state::{Control, Phase, State};
 use least_step::LeastStep;
 pub use live::Blast;
 use pace::Pace;
@@ -96,32 +96,31 @@ impl Simulation {
 
     fn build(gpu: &Gpu, scene: &Scene) -> Result<Simulation> {
         let state = State::new(gpu, scene)?;
-        let parts = Parts { gpu, state: &state };
         let solids = state.has_solids();
         let transfer = Transfer::of(scene.numerics.transfer, gpu.settings);
-        let coupled_solve = CoupledSolve::new(parts, scene)?;
+        let coupled_solve = CoupledSolve::new(&state, scene)?;
         let simulation = Simulation {
-            time_step: TimeStep::new(parts, scene, coupled_solve.pcg.control.raw())?,
-            particle_sort: solids.then(|| ParticleSort::new(parts)).transpose()?,
-            p2g: solids.then(|| P2g::new(parts, transfer)).transpose()?,
-            supports: scene.has_supports().then(|| Supports::new(parts)).transpose()?,
-            interface: InterfaceStage::new(parts)?,
-            still: Still::new(parts)?,
-            carrier: CarrierVelocity::new(parts, scene.consistent(), scene.solves())?,
-            gas_advection: GasAdvection::new(parts, scene.numerics.limiter, scene.solves())?,
-            intermediate_pressure: IntermediatePressure::new(parts)?,
-            elastic_reaction: ElasticReaction::new(parts, scene)?,
-            elastic_first: ElasticFirst::new(parts, scene)?,
-            elastic_solve: ElasticSolve::new(parts, scene, transfer)?,
+            time_step: TimeStep::new(&state, scene, coupled_solve.pcg.control.raw())?,
+            particle_sort: solids.then(|| ParticleSort::new(&state)).transpose()?,
+            p2g: solids.then(|| P2g::new(&state, transfer)).transpose()?,
+            supports: scene.has_supports().then(|| Supports::new(&state)).transpose()?,
+            interface: InterfaceStage::new(&state)?,
+            still: Still::new(&state)?,
+            carrier: CarrierVelocity::new(&state, scene.consistent(), scene.solves())?,
+            gas_advection: GasAdvection::new(&state, scene.numerics.limiter, scene.solves())?,
+            intermediate_pressure: IntermediatePressure::new(&state)?,
+            elastic_reaction: ElasticReaction::new(&state, scene)?,
+            elastic_first: ElasticFirst::new(&state, scene)?,
+            elastic_solve: ElasticSolve::new(&state, scene, transfer)?,
             coupled_solve,
-            fluid_update: FluidUpdate::new(parts, scene)?,
-            mpm_grid_update: solids.then(|| MpmGridUpdate::new(parts)).transpose()?,
-            g2p: solids.then(|| G2p::new(parts, transfer)).transpose()?,
-            odd_even: scene.filter().map(|filter| OddEven::new(parts, filter.share)).transpose()?,
-            totals: Totals::new(parts)?,
-            loads: Loads::new(parts)?,
-            gauges: Gauges::new(parts)?,
-            maps: Maps::new(parts)?,
+            fluid_update: FluidUpdate::new(&state, scene)?,
+            mpm_grid_update: solids.then(|| MpmGridUpdate::new(&state)).transpose()?,
+            g2p: solids.then(|| G2p::new(&state, transfer)).transpose()?,
+            odd_even: scene.filter().map(|filter| OddEven::new(&state, filter.share)).transpose()?,
+            totals: Totals::new(&state)?,
+            loads: Loads::new(&state)?,
+            gauges: Gauges::new(&state)?,
+            maps: Maps::new(&state)?,
             detonate: None,
             gamma: scene.gas.gamma,
             given: [0.0; 4],
@@ -169,20 +168,20 @@ impl Simulation {
         if let Some(loads) = &self.loads {
             loads.record_owners(pass, state);
         }
-        self.record_held(pass, "BEGIN");
+        self.record_held(pass, Phase::Begin);
         self.record_force(pass);
         self.time_step.record_listed(pass);
         self.still.record(pass, state);
-        self.record_advection(pass, 0, Carried::Now, "BEGIN"); // (3) eqs. 10-12
+        self.record_advection(pass, 0, Carried::Now, Phase::Begin); // (3) eqs. 10-12
         if self.solves == 1 {
-            self.record_advection(pass, 1, Carried::First, "BEGIN");
-            self.record_pressure(pass, "BEGIN");
+            self.record_advection(pass, 1, Carried::First, Phase::Begin);
+            self.record_pressure(pass, Phase::Begin);
         } else {
-            self.record_pressure(pass, "BEGIN");
+            self.record_pressure(pass, Phase::Begin);
             self.time_step.record_second(pass); // [Ascher, Ruuth & Spiteri 1997; Wicker & Skamarock 2002]
-            self.gas_advection.record(pass, state, &self.time_step, 1, "SECOND"); // the carrier is that of the last power
-            self.record_advection(pass, 2, Carried::Middle, "SECOND");
-            self.record_pressure(pass, "SECOND");
+            self.gas_advection.record(pass, state, &self.time_step, 1, Phase::Second); // the carrier is that of the last power
+            self.record_advection(pass, 2, Carried::Middle, Phase::Second);
+            self.record_pressure(pass, Phase::Second);
         }
         self.coupled_solve.record_solid(pass, state); // eq. 36
         if let Some(elastic_reaction) = &self.elastic_reaction {
@@ -196,13 +195,13 @@ impl Simulation {
     }
 
     /// One stage of the advection.
-    fn record_advection(&self, pass: &mut Pass, stage: usize, source: Carried, phase: &str) {
+    fn record_advection(&self, pass: &mut Pass, stage: usize, source: Carried, phase: Phase) {
         self.carrier.record(pass, &self.state, source, phase);
         self.gas_advection.record(pass, &self.state, &self.time_step, stage, phase);
     }
 
     /// The implicit part: solve and update of the gas.
-    fn record_pressure(&self, pass: &mut Pass, phase: &str) {
+    fn record_pressure(&self, pass: &mut Pass, phase: Phase) {
         let state = &self.state;
         if self.solves == 1 {
             self.carrier.record(pass, state, Carried::Star, phase);
@@ -239,7 +238,7 @@ impl Simulation {
     }
 
     /// Clamped and driven nodes, friction at walls.
-    fn record_held(&self, pass: &mut Pass, phase: &str) {
+    fn record_held(&self, pass: &mut Pass, phase: Phase) {
         if let Some(supports) = &self.supports {
             supports.record_nodes(pass, &self.state, phase);
         }

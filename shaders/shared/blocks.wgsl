@@ -7,9 +7,7 @@ fn blocks_across() -> u32 { return (columns() + STILL_BLOCK - 1u) / STILL_BLOCK;
 
 fn layers() -> u32 { return (params.stride[DIM - 1u] + params.march - 1u) / params.march; }
 
-// First slot of a thread's column; params.slots if it has none.
-fn march_start(thread: u32) -> u32 {
-    let block = thread / STILL_BLOCK;
-    let column = (block % blocks_across()) * STILL_BLOCK + thread % STILL_BLOCK;
-    return select(params.slots, (block / blocks_across()) * params.march * columns() + column, column < columns());
+// Slot at the corner of a block.
+fn corner_of(block: u32) -> u32 {
+    return (block / blocks_across()) * params.march * columns() + (block % blocks_across()) * STILL_BLOCK;
 }

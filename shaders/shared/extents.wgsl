@@ -20,16 +20,17 @@ fn surface_groups() -> vec4u {
 // Switches the dispatches of one phase on or off. Needs the binding control.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
-    extents[first + EXTENT_SLOTS] = groups_for(params.slots) * keep;
-    extents[first + EXTENT_PARTICLES] = groups_for(params.particles) * keep;
-    extents[first + EXTENT_REDUCE] = vec4u(params.groups, 1u, 1u, 0u) * keep;
-    extents[first + EXTENT_LISTED] = groups_for(control.listed) * keep;
-    extents[first + EXTENT_FRONTIER] = groups_for(control.frontier) * keep;
-    extents[first + EXTENT_SURFACE] = surface_groups() * keep;
-    extents[first + EXTENT_MARCHED] = groups_for(marches()) * keep;
-    extents[first + EXTENT_COLOR] = groups_for(color_marches()) * keep;
-    extents[first + EXTENT_SINGLE] = vec4u(keep);
-    for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + EXTENT_SCAN + k] = params.scan[k] * keep; }
+    extents[first + OVER_SLOTS] = groups_for(params.slots) * keep;
+    extents[first + OVER_INTERIOR] = groups_for(params.slots) * keep;
+    extents[first + OVER_PARTICLES] = groups_for(params.particles) * keep;
+    extents[first + OVER_REDUCE] = vec4u(params.groups, 1u, 1u, 0u) * keep;
+    extents[first + OVER_LISTED] = groups_for(control.listed) * keep;
+    extents[first + OVER_FRONTIER] = groups_for(control.frontier) * keep;
+    extents[first + OVER_SURFACE] = surface_groups() * keep;
+    extents[first + OVER_MARCHES] = groups_for(marches()) * keep;
+    extents[first + OVER_COLOR] = groups_for(color_marches()) * keep;
+    extents[first + OVER_SINGLE] = vec4u(keep);
+    for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + OVER_SCAN + k] = params.scan[k] * keep; }
 }
 
 // Particles that are all in the cells where they were need no sorting.

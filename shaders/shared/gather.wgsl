@@ -1,6 +1,7 @@
 // Transpose of the forces: C^T of a node field, at one vertex. Needs the bindings cells, extra and work.
 
 #include "shared/arrays.wgsl"
+#include "shared/sweep.wgsl"
 #include "shared/mixed.wgsl"
 
 // Rows of one vertex: its own unknown, and h and Q where they are apart.
@@ -137,9 +138,9 @@ fn cut_rows(v: vec3i) -> f32 {
 fn gather_rows(slot: u32, word: u32) -> Rows {
     var rows: Rows;
     let v = cell_of(slot);
-    let regular = !LISTED || has(word, VERTEX_REGULAR);
+    let regular = SWEEP != OVER_LISTED || has(word, VERTEX_REGULAR);
     for (var turn = 0u; turn < u32(regular); turn++) { rows.own = regular_rows(slot, v); }
-    if !LISTED { return rows; }
+    if SWEEP != OVER_LISTED { return rows; }
     if CUT {
         if has(word, VERTEX_GAS) && !regular { rows.own = cut_rows(v); }
         return rows;

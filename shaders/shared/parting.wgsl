@@ -5,6 +5,7 @@
 // In gas alone shares are those by mass: by pressure, tubes would have errors 2 to 10 % larger.
 // Needs element, system, body_power and the bindings control, cells, extra, pressure, conserved, energy, node and work.
 #include "shared/arrays.wgsl"
+#include "shared/sweep.wgsl"
 
 // Pressure of a gas cell before the solve.
 fn own_pressure(slot: u32) -> f32 { return max(energy[part(PREDICTED_PRESSURE, slot)], 0.0); }
@@ -60,7 +61,7 @@ fn beyond_cap(v: vec3i, c: vec3i, slot: u32, n: u32) -> f32 {
     let far = slot_of(other);
     let at = slot_of(v);
     var kind = GAS;
-    if LISTED { kind = kind_of(cells[far]); }
+    if SWEEP == OVER_LISTED { kind = kind_of(cells[far]); }
     if kind == GHOST { return 0.0; }
     var there = 0.0;
     var excess: f32;
@@ -84,7 +85,7 @@ fn beyond_caps(v: vec3i, c: vec3i, slot: u32) -> f32 {
 
 // Whether a cell takes part in what a vertex shares out: gas with gas beside it there. One that is alone pays for its faces itself.
 fn shares_at(v: vec3i, c: vec3i) -> bool {
-    if !LISTED { return true; }
+    if SWEEP != OVER_LISTED { return true; }
     if kind_of(cells[slot_of(c)]) != GAS { return false; }
     for (var n = 0u; n < DIM; n++) {
         let other = select(c - axis(n), c + axis(n), v[n] > c[n]);

@@ -20,9 +20,6 @@ pub const OCTET: u32 = 8;
 /// Workgroups along one axis at most, on every device; every shader sees it as `const MAX_GROUPS`.
 pub const MAX_GROUPS: u32 = 65_535;
 
-/// The override that tells the two forms of a kernel apart, in its name too.
-const LISTED: &str = "LISTED";
-
 /// What is fixed when a shader is compiled.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Constants<'a> {
@@ -51,6 +48,14 @@ pub struct Bound {
     pub(super) threads_per_group: u32,
     /// Entry point, with its form where there are several.
     pub(super) name: Arc<str>,
+}
+
+impl Bound {
+    /// With the form in its name.
+    #[must_use]
+    pub fn in_form(self, form: &str) -> Self {
+        Bound { name: format!("{} ({form})", self.name).into(), ..self }
+    }
 }
 
 /// How many threads a dispatch runs.
@@ -87,7 +92,7 @@ impl Kernel {
         let (compiled, module) = compiled(gpu, shader, constants.source)?;
         let mut read = String::new();
         for (name, value) in constants.overrides {
-            if *name == LISTED || compiled.reads_override(entry, name)? {
+            if compiled.reads_override(entry, name)? {
                 let _ = write!(read, " {name} {value}");
             }
         }
@@ -122,8 +127,6 @@ impl Kernel {
         });
         let overrides: Vec<_> =
             constants.overrides.iter().copied().filter(|(name, _)| compiled.has_override(name)).collect();
-        let listed = overrides.iter().any(|&(name, value)| name == LISTED && value != 0.0);
-        let name = if listed { format!("{entry} (listed)") } else { entry.to_owned() };
         gpu.check()?;
         let missing = compiled.missing_overrides(entry, &overrides)?;
         if !missing.is_empty() {
@@ -133,10 +136,10 @@ impl Kernel {
             super::written::write(folder, compiled, entry, &overrides)?;
         }
         let overrides = overrides.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        let (module, entry) = (module.clone(), entry.to_owned());
+        let (module, entry, name) = (module.clone(), entry.to_owned(), entry.into());
         let recipe = Recipe { label: label.clone(), layout: pipeline_layout, module, entry, overrides };
         let pipeline = Pipeline::queue(gpu, recipe);
-        Ok(Kernel { label, pipeline, layout, bindings, threads_per_group, name: name.into() })
+        Ok(Kernel { label, pipeline, layout, bindings, threads_per_group, name })
     }
 
     /// The variables of group 0 this entry point uses, by binding number.

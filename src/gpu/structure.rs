@@ -41,6 +41,36 @@ macro_rules! structure {
 }
 pub(crate) use structure;
 
+/// Declares names that count from 0, in Rust and as constants of WGSL.
+macro_rules! numbers {
+    ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])+ $variant:ident,)+ }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(u32)]
+        pub enum $name {
+            $($(#[$doc])+ $variant),+
+        }
+
+        impl $name {
+            /// All names, in order.
+            pub const NAMES: &'static [&'static str] = &[$(stringify!($variant)),+];
+
+            /// The numbers as WGSL, behind a prefix.
+            #[must_use]
+            pub fn wgsl(prefix: &str) -> String {
+                $crate::gpu::structure::wgsl_numbers(prefix, Self::NAMES)
+            }
+        }
+    };
+}
+pub(crate) use numbers;
+
+/// Constants that count from 0, as WGSL.
+pub(crate) fn wgsl_numbers(prefix: &str, names: &[&str]) -> String {
+    let line = |(number, name): (usize, &&str)| format!("const {prefix}_{} = {number}u;\n", name.to_uppercase());
+    names.iter().enumerate().map(line).collect()
+}
+
 /// A structure as WGSL, from names, types and comments.
 pub(crate) fn wgsl(name: &str, members: &[(&str, &str, &str)]) -> String {
     let mut text = format!("struct {name} {{\n");

@@ -6,6 +6,6 @@ mod reduce;
 mod scan;
 
 pub use copy::{Rounds, copy_bandwidth};
-pub use pcg::{Block, Dots, Layout, Levels, Pcg, PcgControl, PcgVectors, Width};
+pub use pcg::{Block, Dots, Groups, Layout, Levels, Pcg, PcgControl, PcgVectors};
 pub use reduce::{Operator, Reduce};
 pub use scan::Scan;

@@ -8,26 +8,41 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::error::Result;
-use crate::gpu::structure::structure;
+use crate::gpu::structure::{numbers, structure, wgsl_numbers};
 use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP, group_counts};
 
 /// Levels at most, the finest included.
 pub const LEVELS: usize = 12;
 use self::LEVELS as PCG_LEVELS;
-/// Entries of the group counts of an iteration, from 0; the last is that of the finest level.
-const ENTRIES: [&str; 9] = ["SLOTS", "PARTIAL", "SINGLE", "LISTED", "FRONTIER", "BLOCK", "APART", "JOINED", "LEVEL"];
-/// One group.
-const SINGLE: u64 = 2;
-/// The block of a preconditioner of its own.
-const BLOCK: u64 = 5;
-/// Residual and direction, one after the other or at once.
-const APART: u64 = 6;
-const JOINED: u64 = 7;
-const LEVEL: u64 = 8;
+
+numbers! {
+    /// Whose group counts an iteration has.
+    Groups {
+        /// One thread per slot.
+        Slots,
+        /// Groups that stride and leave partial sums.
+        Partial,
+        /// One group.
+        Single,
+        /// One thread per entry of the caller's list.
+        Listed,
+        /// One thread per entry of the caller's second list.
+        Frontier,
+        /// [`super::Block`].
+        Block,
+        /// Residual and direction, one after the other.
+        Apart,
+        /// Both at once.
+        Joined,
+        /// The finest level; the others follow.
+        Level,
+    }
+}
+
 /// What a solve may have come to, from 0.
 const OUTCOMES: [&str; 3] = ["RUNNING", "CONVERGED", "STALLED"];
 /// Numbers of the group counts of an iteration.
-pub(crate) const EXTENTS: usize = 4 * (LEVEL as usize + LEVELS);
+pub(crate) const EXTENTS: usize = 4 * (Groups::Level as usize + LEVELS);
 
 /// The vectors of one system.
 #[derive(Debug)]
@@ -191,21 +206,6 @@ impl Levels<'_> {
     }
 }
 
-/// Which extents of an iteration an operator kernel runs with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Width {
-    /// One thread per slot.
-    Slots,
-    /// Groups that stride and leave partial sums.
-    Partial,
-    /// One group.
-    Single,
-    /// One thread per entry of the caller's list.
-    Listed,
-    /// One thread per entry of the caller's second list.
-    Frontier,
-}
-
 impl Pcg {
     /// Changes the relative tolerance, from the next solve on.
     pub fn set_tolerance(&self, gpu: &Gpu, tolerance: f32) {
@@ -300,39 +300,38 @@ impl Pcg {
     }
 
     /// Records one iteration: nothing happens on the device once the solve is done.
-    pub fn iterate(&self, pass: &mut Pass, operator: &[(&Bound, Width)], block: &Block<'_>, levels: &Levels<'_>) {
-        let extent = |entry: u64| Extent::Indirect(&self.extents, entry * 16);
-        for (kernel, width) in operator {
-            pass.dispatch(kernel, &extent(*width as u64));
+    pub fn iterate(&self, pass: &mut Pass, operator: &[(&Bound, Groups)], block: &Block<'_>, levels: &Levels<'_>) {
+        let extent = |groups: Groups| Extent::Indirect(&self.extents, 16 * groups as u64);
+        for (kernel, groups) in operator {
+            pass.dispatch(kernel, &extent(*groups));
         }
-        pass.dispatch(&self.alpha, &extent(SINGLE));
+        pass.dispatch(&self.alpha, &extent(Groups::Single));
         if let Some(step) = &self.step {
-            pass.dispatch(step, &extent(JOINED));
+            pass.dispatch(step, &extent(Groups::Joined));
         }
         let apart = self.step.is_none() || levels.opened.is_some();
         if apart {
-            pass.dispatch(&self.update, &extent(APART));
+            pass.dispatch(&self.update, &extent(Groups::Apart));
         }
         for term in &block.terms {
-            pass.dispatch(term, &extent(BLOCK));
+            pass.dispatch(term, &extent(Groups::Block));
         }
-        levels.record_down(pass, &self.extents, LEVEL);
+        levels.record_down(pass, &self.extents, Groups::Level as u64);
         pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
         if apart {
-            pass.dispatch(&self.direction, &extent(APART));
+            pass.dispatch(&self.direction, &extent(Groups::Apart));
         }
         if let Some(direction) = block.direction {
-            pass.dispatch(direction, &extent(BLOCK));
+            pass.dispatch(direction, &extent(Groups::Block));
         }
-        levels.record_up(pass, &self.extents, LEVEL);
+        levels.record_up(pass, &self.extents, Groups::Level as u64);
     }
 }
 
 /// WGSL constants that other shaders need to read the outcome of a solve.
 #[must_use]
 pub fn source() -> String {
-    let counted = OUTCOMES.iter().enumerate().chain(ENTRIES.iter().enumerate());
-    let mut text: String = counted.map(|(value, name)| format!("const PCG_{name} = {value}u;\n")).collect();
+    let mut text = wgsl_numbers("PCG", &OUTCOMES) + &Groups::wgsl("PCG");
     text.push_str(&format!("const PCG_LEVELS = {LEVELS}u;\n"));
     text
 }

@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use crate::gpu::Pass;
+use crate::state::Phase;
 
 impl Simulation {
     /// Elastic force of the present stress, for what the pressure solve knows of it.
@@ -49,7 +50,7 @@ impl Simulation {
         }
         particle_sort.record(pass, state);
         p2g.record_substep(pass, state, false);
-        self.record_held(pass, "AGAIN");
+        self.record_held(pass, Phase::Again);
         if let Some(elastic_reaction) = &self.elastic_reaction {
             elastic_reaction.record_substep(pass, state);
         }

@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
 use crate::scene::{Boundary, Scene};
-use crate::stage::{Detonate, Parts};
+use crate::stage::Detonate;
 use crate::state::Openings;
 
 /// Energy to be set free in a ball of gas.
@@ -76,7 +76,7 @@ impl Simulation {
         }
         self.settle(records)?;
         if self.detonate.is_none() {
-            self.detonate = Some(Detonate::new(Parts { gpu: &self.gpu, state: &self.state })?);
+            self.detonate = Some(Detonate::new(&self.state)?);
         }
         let Some(kernels) = &self.detonate else { return Ok(0.0) };
         let energy = kernels.run(&self.gpu, &self.state, center, radius, energy)?;

@@ -1,11 +1,10 @@
 //! `carrier`: which velocity carries the gas through its faces? One that compresses only what the pressure solve can see.
 
-use super::{Parts, extent};
-use crate::error::{Error, Result};
-use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
+use super::sweep::Form;
+use crate::error::Result;
+use crate::gpu::Pass;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// The state whose velocity carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +24,7 @@ pub enum Carried {
 /// Kernels of the stage in order, for each state that carries; none where the cells' own velocities do.
 #[derive(Debug)]
 pub struct CarrierVelocity {
-    kernels: Vec<(Carried, Vec<(Bound, Entry)>)>,
+    kernels: Vec<(Carried, Vec<Form>)>,
 }
 
 impl CarrierVelocity {
@@ -33,27 +32,29 @@ impl CarrierVelocity {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, wanted: bool, solves: u32) -> Result<Self> {
-        let of = |source: &Carried| {
-            let bind = |entry: &str, listed: f64| {
-                let (state, solved) = match *source {
-                    Carried::Solved => (Carried::Now, 1.0),
-                    Carried::Middle => (Carried::First, 1.0),
-                    unsolved => (unsolved, 0.0),
-                };
-                let switches = [("SOURCE", f64::from(state as u32)), ("LISTED", listed), ("SOLVED", solved)];
-                parts.state.bind(parts.gpu, "carrier.wgsl", entry, &[], &switches)
+    pub fn new(state: &State, wanted: bool, solves: u32) -> Result<Self> {
+        let of = |carried: &Carried| {
+            let (source, solved) = match *carried {
+                Carried::Solved => (Carried::Now, 1.0),
+                Carried::Middle => (Carried::First, 1.0),
+                unsolved => (unsolved, 0.0),
             };
-            let plain = if parts.state.grid.dimension == 2 {
-                [Some((bind("carrier_march", 0.0)?, Entry::Marched)), None]
-            } else {
-                let slots = |entry: &str| Ok::<_, Error>((bind(entry, 0.0)?, Entry::Slots));
-                [Some(slots("carrier_average")?), Some(slots("carrier_divergence")?)]
+            let form = |over: Over, entry: &str| {
+                Form::new(
+                    state,
+                    over,
+                    ["carrier.wgsl", entry],
+                    &[],
+                    &[("SOURCE", f64::from(source as u32)), ("SOLVED", solved)],
+                )
             };
-            let [first, second] = plain;
-            let listed = |entry: &str| Ok::<_, Error>((bind(entry, 1.0)?, Entry::Listed));
-            let kernels = [first, Some(listed("carrier_average")?), second, Some(listed("carrier_divergence")?)];
-            Ok((*source, kernels.into_iter().flatten().collect()))
+            let [average, divergence] = ["carrier_average", "carrier_divergence"];
+            let march = state.grid.dimension == 2;
+            let plain = |entry: &str| (!march).then(|| form(Over::Interior, entry)).transpose();
+            let first = if march { Some(form(Over::Marches, "carrier_march")?) } else { plain(average)? };
+            let kernels =
+                [first, Some(form(Over::Listed, average)?), plain(divergence)?, Some(form(Over::Listed, divergence)?)];
+            Ok((*carried, kernels.into_iter().flatten().collect()))
         };
         let carrying: &[Carried] = match (wanted, solves) {
             (false, _) => &[],
@@ -64,10 +65,10 @@ impl CarrierVelocity {
     }
 
     /// Carrier of a state, in a phase.
-    pub fn record(&self, pass: &mut Pass, state: &State, source: Carried, phase: &str) {
+    pub fn record(&self, pass: &mut Pass, state: &State, source: Carried, phase: Phase) {
         pass.stage(Stage::Carrier.name());
-        for (kernel, entry) in self.kernels.iter().filter(|(carried, _)| *carried == source).flat_map(|(_, all)| all) {
-            pass.dispatch(kernel, &extent(state, phase, *entry));
+        for form in self.kernels.iter().filter(|(carried, _)| *carried == source).flat_map(|(_, all)| all) {
+            form.record(pass, state, phase);
         }
     }
 }

@@ -5,15 +5,14 @@
 mod coarse;
 mod surface;
 
-use super::time_step::slots;
-use super::{Parts, extent, record_both};
+use super::sweep::{Form, Sweep};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::numerics::{Block, Dots, Layout, Levels, Pcg, Width};
+use crate::numerics::{Block, Dots, Groups, Layout, Levels, Pcg};
 use crate::scene::{Scene, SolidUpdate};
-use crate::state::State;
-use crate::state::constants::{Entry, PARTIALS};
+use crate::state::constants::PARTIALS;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 use coarse::Coarse;
 use surface::Surface;
 
@@ -24,16 +23,16 @@ pub struct CoupledSolve {
     pub pcg: Pcg,
     film: Vec<Bound>,
     predictor: Vec<Bound>,
-    masses: [Bound; 2],
-    open: Bound,
-    forces_of_pressure: [Bound; 2],
-    forces_on_bodies: Option<Bound>,
-    velocities: [Bound; 2],
+    masses: Sweep,
+    open: Form,
+    forces_of_pressure: Sweep,
+    forces_on_bodies: Option<Form>,
+    velocities: Sweep,
     vertices: Vertices,
     surface: Option<Surface>,
     coarse: Option<Coarse>,
     reference: Bound,
-    forces: [Bound; 2],
+    forces: Sweep,
     add: Bound,
     /// The other update of the solid.
     gradient: Vec<Bound>,
@@ -43,33 +42,33 @@ pub struct CoupledSolve {
 /// Kernels over the vertices: right-hand side and diagonal, operator.
 #[derive(Debug)]
 struct Vertices {
-    setup: Vec<(Bound, Entry)>,
+    setup: Vec<Form>,
     /// The plain and the listed form.
     operator: [Bound; 2],
     /// Nodes whose velocities the plain forms compute: all for B2B1; for B1B0, whose operator deep inside the gas stores none,
     /// those that listed vertices rest on.
-    nodes: (Entry, Width),
+    nodes: Over,
 }
 
 impl Vertices {
-    fn new(parts: Parts<'_>) -> Result<Self> {
-        let state = parts.state;
+    fn new(state: &State) -> Result<Self> {
         let direction = [("x", state.pcg.direction.raw()), ("y", state.pcg.product.raw())];
-        let [residual, listed_residual] = parts.both("solve_setup.wgsl", "solve_residual", &[], &[])?;
-        let [diagonal, listed_diagonal] = parts.both("solve_diagonal.wgsl", "solve_diagonal", &[], &[])?;
-        let [operator, listed_operator] = parts.both("solve_operator.wgsl", "solve_operator", &direction, &[])?;
-        let listed = [(listed_residual, Entry::Listed), (listed_diagonal, Entry::Listed)];
+        let residual = Sweep::new(state, "solve_setup.wgsl", "solve_residual")?;
+        let diagonal = Sweep::new(state, "solve_diagonal.wgsl", "solve_diagonal")?;
+        let operator = Sweep::over(state, Over::Interior, ["solve_operator.wgsl", "solve_operator"], &direction)?;
+        let listed = [residual.listed, diagonal.listed];
         if state.is_quadratic() {
-            let setup = [(residual, Entry::Slots), (diagonal, Entry::Slots)].into_iter().chain(listed).collect();
-            return Ok(Self { setup, operator: [operator, listed_operator], nodes: (Entry::Slots, Width::Slots) });
+            let setup = [residual.plain, diagonal.plain].into_iter().chain(listed).collect();
+            let operator = [operator.plain.kernel, operator.listed.kernel];
+            return Ok(Self { setup, operator, nodes: Over::Interior });
         }
         let interior = |entry: &str, vectors: &[(&str, &wgpu::Buffer)]| {
-            state.bind(parts.gpu, "solve_interior.wgsl", entry, vectors, &[])
+            Form::new(state, Over::Interior, ["solve_interior.wgsl", entry], vectors, &[])
         };
         let right = [("x", state.pressure.raw()), ("y", state.pcg.residual.raw())];
-        let setup = [(interior("interior_setup", &right)?, Entry::Slots)].into_iter().chain(listed).collect();
-        let operator = [interior("interior_operator", &direction)?, listed_operator];
-        Ok(Self { setup, operator, nodes: (Entry::Frontier, Width::Frontier) })
+        let setup = [interior("interior_setup", &right)?].into_iter().chain(listed).collect();
+        let operator = [interior("interior_operator", &direction)?.kernel, operator.listed.kernel];
+        Ok(Self { setup, operator, nodes: Over::Frontier })
     }
 }
 
@@ -78,8 +77,8 @@ impl CoupledSolve {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, scene: &Scene) -> Result<Self> {
-        let Parts { gpu, state } = parts;
+    pub fn new(state: &State, scene: &Scene) -> Result<Self> {
+        let gpu = &state.gpu;
         let limits = (state.params.tolerance, state.params.max_iterations);
         // Interface pressures have a preconditioner of their own, and the B2B1 operator has no room for another buffer.
         let dots = if state.has_solids() || state.is_quadratic() { Dots::Product } else { Dots::Both };
@@ -91,15 +90,18 @@ impl CoupledSolve {
             row: (state.params.row < state.params.slots).then_some(state.params.row),
         };
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, limits, &layout)?;
-        let setup = |entry: &str| parts.both("solve_setup.wgsl", entry, &[], &[]);
-        let forces = |x: &wgpu::Buffer| parts.both("solve_forces.wgsl", "solve_forces", &[("x", x)], &[]);
+        let vertices = Vertices::new(state)?;
+        let over_nodes = |shader: &str, entry: &str, renamed: &[(&str, &wgpu::Buffer)]| {
+            Sweep::over(state, vertices.nodes, [shader, entry], renamed)
+        };
+        let forces = |x: &wgpu::Buffer| over_nodes("solve_forces.wgsl", "solve_forces", &[("x", x)]);
         let on_bodies = || {
-            let named = [("x", state.pressure.raw())];
-            state.bind(gpu, "solve_forces.wgsl", "solve_forces", &named, &[("LISTED", 1.0), ("BODIES_ONLY", 1.0)])
+            let (source, named) = (["solve_forces.wgsl", "solve_forces"], [("x", state.pressure.raw())]);
+            Form::new(state, Over::Listed, source, &named, &[("BODIES_ONLY", 1.0)])
         };
         let solid = |shader: &str, entries: &[&str]| -> Result<Vec<Bound>> {
             let entries = if state.has_solids() { entries } else { &[] };
-            entries.iter().map(|entry| state.bind(gpu, shader, entry, &[], &[])).collect()
+            entries.iter().map(|entry| state.bind(shader, entry, &[], &[])).collect()
         };
         Ok(Self {
             film: [
@@ -108,71 +110,66 @@ impl CoupledSolve {
             ]
             .concat(),
             predictor: solid("solid_predictor.wgsl", &["solid_predictor"])?,
-            masses: setup("solve_masses")?,
-            open: state.bind(gpu, "solve_open.wgsl", "solve_open", &[], &[("LISTED", 1.0)])?,
+            masses: Sweep::new(state, "solve_setup.wgsl", "solve_masses")?,
+            open: Form::listed(state, "solve_open.wgsl", "solve_open")?,
             forces_of_pressure: forces(state.pressure.raw())?,
             forces_on_bodies: state.has_solids().then(on_bodies).transpose()?,
-            velocities: setup("solve_velocities")?,
-            vertices: Vertices::new(parts)?,
-            surface: Surface::new(parts)?,
-            coarse: Coarse::new(parts, scene, pcg.control.raw())?,
-            reference: state.bind(gpu, "solve_reference.wgsl", "solve_reference", &[], &[])?,
+            velocities: over_nodes("solve_setup.wgsl", "solve_velocities", &[])?,
+            surface: Surface::new(state)?,
+            coarse: Coarse::new(state, scene, pcg.control.raw())?,
+            reference: state.bind("solve_reference.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
-            add: state.bind(gpu, "solve_finish.wgsl", "solve_add", &[("pcg", pcg.control.raw())], &[])?,
+            add: state.bind("solve_finish.wgsl", "solve_add", &[("pcg", pcg.control.raw())], &[])?,
             gradient: match scene.numerics.solid_update {
                 SolidUpdate::Forces => Vec::new(),
                 SolidUpdate::Gradients => solid("solid_gradient.wgsl", &["solid_gradient"])?,
             },
-            kick: Self::kick(parts, scene)?,
+            kick: Self::kick(state, scene)?,
+            vertices,
             pcg,
         })
     }
 
-    fn kick(Parts { gpu, state }: Parts<'_>, scene: &Scene) -> Result<Vec<Bound>> {
+    fn kick(state: &State, scene: &Scene) -> Result<Vec<Bound>> {
         if !state.has_solids() {
             return Ok(Vec::new());
         }
         let aside = f64::from(u8::from(scene.late_flux()));
         let entries = ["solid_kick", "solid_kick_left", "solid_kick_share", "solid_kick_spread"];
-        entries.iter().map(|entry| state.bind(gpu, "solid_kick.wgsl", entry, &[], &[("ASIDE", aside)])).collect()
+        entries.iter().map(|entry| state.bind("solid_kick.wgsl", entry, &[], &[("ASIDE", aside)])).collect()
     }
 
     /// What the nodes bear before the solve: films, gravity, forces of the pressure so far. In a phase.
-    pub fn record_loads(&self, pass: &mut Pass, state: &State, phase: &str) {
+    pub fn record_loads(&self, pass: &mut Pass, state: &State, phase: Phase) {
         pass.stage(Stage::SolidPredictor.name());
         for kernel in &self.film {
-            pass.dispatch(kernel, &slots(state, phase));
+            pass.dispatch(kernel, &state.extent(phase, Over::Slots));
         }
         for kernel in &self.predictor {
-            pass.dispatch(kernel, &extent(state, phase, Entry::Reduce));
+            pass.dispatch(kernel, &state.extent(phase, Over::Reduce));
         }
         pass.stage(Stage::CoupledSolve.name());
-        pass.dispatch(&self.open, &extent(state, phase, Entry::Listed));
-        record_both(pass, state, phase, &self.masses);
-        self.record_nodes(pass, state, phase, &self.forces_of_pressure);
+        self.open.record(pass, state, phase);
+        self.masses.record(pass, state, phase);
+        self.forces_of_pressure.record(pass, state, phase);
     }
 
     /// Velocities, right-hand side and diagonal; opens the iteration. In a phase.
-    pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str) {
+    pub fn record_setup(&self, pass: &mut Pass, state: &State, phase: Phase) {
         pass.stage(Stage::CoupledSolve.name());
-        self.record_nodes(pass, state, phase, &self.velocities);
-        for (kernel, entry) in &self.vertices.setup {
-            pass.dispatch(kernel, &extent(state, phase, *entry));
+        self.velocities.record(pass, state, phase);
+        for form in &self.vertices.setup {
+            form.record(pass, state, phase);
         }
-        pass.dispatch(&self.reference, &extent(state, phase, Entry::Reduce));
+        pass.dispatch(&self.reference, &state.extent(phase, Over::Reduce));
         if let Some(surface) = &self.surface {
             surface.record_rows(pass, state, phase);
         }
         if let Some(coarse) = &self.coarse {
             coarse.record_setup(pass, state, phase, &self.forces);
         }
-        let extents = [Entry::Reduce, Entry::Single, Entry::Surface].map(|entry| extent(state, phase, entry));
+        let extents = [Over::Reduce, Over::Single, Over::Surface].map(|entry| state.extent(phase, entry));
         self.pcg.begin(pass, &extents, &self.block(), &self.levels());
-    }
-
-    fn record_nodes(&self, pass: &mut Pass, state: &State, phase: &str, [plain, listed]: &[Bound; 2]) {
-        pass.dispatch(plain, &extent(state, phase, self.vertices.nodes.0));
-        pass.dispatch(listed, &extent(state, phase, Entry::Listed));
     }
 
     fn block(&self) -> Block<'_> {
@@ -186,18 +183,18 @@ impl CoupledSolve {
     /// Iterations; those after convergence do nothing.
     pub fn record_iterations(&self, pass: &mut Pass, count: u32) {
         pass.stage(Stage::CoupledSolve.name());
-        let [forces, listed_forces] = &self.forces;
+        let nodes = if self.vertices.nodes == Over::Frontier { Groups::Frontier } else { Groups::Slots };
         let [operator, listed_operator] = &self.vertices.operator;
         let (block, levels) = (self.block(), self.levels());
         for _ in 0..count {
             self.pcg.iterate(
                 pass,
                 &[
-                    (forces, self.vertices.nodes.1),
-                    (listed_forces, Width::Listed),
+                    (&self.forces.plain.kernel, nodes),
+                    (&self.forces.listed.kernel, Groups::Listed),
                     // The listed form leaves its partial sums first, the plain form adds to them.
-                    (listed_operator, Width::Partial),
-                    (operator, Width::Partial),
+                    (listed_operator, Groups::Partial),
+                    (operator, Groups::Partial),
                 ],
                 &block,
                 &levels,
@@ -207,12 +204,12 @@ impl CoupledSolve {
 
     /// X = X* + D, and with bodies the forces that belong to it.
     pub fn record_solution(&self, pass: &mut Pass, state: &State) {
-        pass.dispatch(&self.add, &extent(state, "UPDATE", Entry::Reduce));
+        pass.dispatch(&self.add, &state.extent(Phase::Update, Over::Reduce));
         if let Some(forces) = &self.forces_on_bodies {
-            pass.dispatch(forces, &extent(state, "UPDATE", Entry::Listed));
+            forces.record(pass, state, Phase::Update);
         }
         for kernel in &self.gradient {
-            pass.dispatch(kernel, &slots(state, "UPDATE"));
+            pass.dispatch(kernel, &state.extent(Phase::Update, Over::Slots));
         }
     }
 
@@ -220,7 +217,7 @@ impl CoupledSolve {
     pub fn record_solid(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::SolidKick.name());
         for kernel in &self.kick {
-            pass.dispatch(kernel, &slots(state, "UPDATE"));
+            pass.dispatch(kernel, &state.extent(Phase::Update, Over::Slots));
         }
     }
 }

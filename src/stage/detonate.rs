@@ -2,7 +2,6 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::Parts;
 use crate::error::{Error, Result};
 use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
 use crate::state::State;
@@ -30,10 +29,10 @@ impl Detonate {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
-        let Parts { gpu, state } = parts;
+    pub fn new(state: &State) -> Result<Self> {
+        let gpu = &state.gpu;
         let ball = Buffer::uniform(gpu, "blast", 1)?;
-        let bind = |entry: &str| state.bind(gpu, "detonate.wgsl", entry, &[("blast", ball.raw())], &[]);
+        let bind = |entry: &str| state.bind("detonate.wgsl", entry, &[("blast", ball.raw())], &[]);
         let (volume, heat) = (bind("detonate_volume")?, bind("detonate_heat")?);
         Ok(Self { ball, volume, heat })
     }

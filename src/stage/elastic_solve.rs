@@ -1,15 +1,14 @@
 //! `elastic_solve`: which node velocities balance the elastic force at the end of the step? Backward Euler by Newton's method, each of
 //! its linear systems matrix-free by conjugate gradients: `numerics.elasticity = "implicit"`. [Gast et al. 2015]
 
+use super::Transfer;
 use super::p2g::Force;
-use super::{Parts, Transfer, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
-use crate::numerics::{Block, Dots, Layout, Levels, Pcg, PcgVectors, Width};
+use crate::numerics::{Block, Dots, Groups, Layout, Levels, Pcg, PcgVectors};
 use crate::scene::{Elasticity, Scene};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Iterations of one linear system at most: a system that needs more is left where it is, and the next round goes on from there.
 pub const MAX_ITERATIONS: u32 = 300;
@@ -39,8 +38,8 @@ impl ElasticSolve {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, scene: &Scene, transfer: Transfer) -> Result<Option<Self>> {
-        let Parts { gpu, state } = parts;
+    pub fn new(state: &State, scene: &Scene, transfer: Transfer) -> Result<Option<Self>> {
+        let gpu = &state.gpu;
         let Some(own) = state.elastic_solve.as_ref().filter(|_| scene.numerics.elasticity == Elasticity::Implicit)
         else {
             return Ok(None);
@@ -61,7 +60,7 @@ impl ElasticSolve {
             ("missing", own.missing.raw()),
             ("pcg", pcg.control.raw()),
         ];
-        let bind = |shader: &str, entry: &str| state.bind(gpu, shader, entry, &renamed, &[]);
+        let bind = |shader: &str, entry: &str| state.bind(shader, entry, &renamed, &[]);
         let solve = |entry: &str| bind("elastic_solve.wgsl", entry);
         let operator = |entry: &str| bind("elastic_operator.wgsl", entry);
         let control = |entry: &str| bind("elastic_control.wgsl", entry);
@@ -71,11 +70,11 @@ impl ElasticSolve {
             keep: solve("elastic_keep")?,
             ghost: solve("elastic_ghost")?,
             trial: solve("elastic_trial")?,
-            force: Force::new(parts, transfer, state.particles.stress.raw())?,
+            force: Force::new(state, transfer, state.particles.stress.raw())?,
             diagonal: solve("elastic_diagonal")?,
             residual: solve("elastic_residual")?,
             strain: operator("elastic_strain")?,
-            change: Force::new(parts, transfer, own.change.raw())?,
+            change: Force::new(state, transfer, own.change.raw())?,
             operator: operator("elastic_operator")?,
             add: operator("elastic_add")?,
             finish: solve("elastic_finish")?,
@@ -91,36 +90,36 @@ impl ElasticSolve {
         let single = Extent::Groups([1, 1, 1]);
         let [round, iteration, balanced] = &self.round;
         pass.dispatch(round, &single);
-        pass.dispatch(&self.keep, &extent(state, "FIRST", Entry::Slots));
-        pass.dispatch(&self.ghost, &extent(state, "FIRST", Entry::Particles));
-        pass.dispatch(&self.trial, &extent(state, "ROUND", Entry::Particles));
-        self.force.record(pass, state, "ROUND");
-        pass.dispatch(&self.diagonal, &extent(state, "ROUND", Entry::Slots));
-        pass.dispatch(&self.residual, &extent(state, "ROUND", Entry::Slots));
-        let extents = [Entry::Reduce, Entry::Single, Entry::Surface].map(|entry| extent(state, "ROUND", entry));
+        pass.dispatch(&self.keep, &state.extent(Phase::First, Over::Slots));
+        pass.dispatch(&self.ghost, &state.extent(Phase::First, Over::Particles));
+        pass.dispatch(&self.trial, &state.extent(Phase::Round, Over::Particles));
+        self.force.record(pass, state, Phase::Round);
+        pass.dispatch(&self.diagonal, &state.extent(Phase::Round, Over::Slots));
+        pass.dispatch(&self.residual, &state.extent(Phase::Round, Over::Slots));
+        let extents = [Over::Reduce, Over::Single, Over::Surface].map(|entry| state.extent(Phase::Round, entry));
         self.pcg.begin(pass, &extents, &Block::default(), &Levels::default());
         for _ in 0..iterations {
             pass.dispatch(iteration, &single);
-            pass.dispatch(&self.strain, &extent(state, "ITERATION", Entry::Particles));
-            self.change.record(pass, state, "ITERATION");
-            self.pcg.iterate(pass, &[(&self.operator, Width::Partial)], &Block::default(), &Levels::default());
+            pass.dispatch(&self.strain, &state.extent(Phase::Iteration, Over::Particles));
+            self.change.record(pass, state, Phase::Iteration);
+            self.pcg.iterate(pass, &[(&self.operator, Groups::Partial)], &Block::default(), &Levels::default());
         }
         pass.dispatch(balanced, &single);
-        pass.dispatch(&self.add, &extent(state, "ROUND", Entry::Slots));
+        pass.dispatch(&self.add, &state.extent(Phase::Round, Over::Slots));
     }
 
     /// Walls and the books, once the velocities are found; and what is missing from the momentum of bodies.
     pub fn record_finish(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::ElasticSolve.name());
         let [missing, bodies, _] = &self.balance;
-        pass.dispatch(&self.finish, &extent(state, "SUBSTEP", Entry::Reduce));
-        pass.dispatch(missing, &extent(state, "SUBSTEP", Entry::Reduce));
-        pass.dispatch(bodies, &extent(state, "SUBSTEP", Entry::Single));
+        pass.dispatch(&self.finish, &state.extent(Phase::Substep, Over::Reduce));
+        pass.dispatch(missing, &state.extent(Phase::Substep, Over::Reduce));
+        pass.dispatch(bodies, &state.extent(Phase::Substep, Over::Single));
     }
 
     /// That momentum, to the particles once they have moved.
     pub fn record_balance(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::ElasticSolve.name());
-        pass.dispatch(&self.balance[2], &extent(state, "SUBSTEP", Entry::Particles));
+        pass.dispatch(&self.balance[2], &state.extent(Phase::Substep, Over::Particles));
     }
 }

@@ -1,25 +1,25 @@
 //! `fluid_update`: what does the solved pressure do to the gas? Local gradients, flux form. [Kwatra et al. 2009; eqs. 3, 14]
 
-use super::{Carried, CarrierVelocity, Parts, TimeStep, extent, record_both};
+use super::sweep::{Form, Sweep};
+use super::{Carried, CarrierVelocity, TimeStep};
 use crate::error::Result;
-use crate::gpu::{Bound, Pass};
+use crate::gpu::Pass;
 use crate::scene::Scene;
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Phase, State};
 
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct FluidUpdate {
     /// Gas that follows the bodies, as their slots get it.
-    late_flux: Option<Bound>,
-    momentum: [Bound; 2],
+    late_flux: Option<Form>,
+    momentum: Sweep,
     /// In scenes with bodies.
-    parting: Option<[Bound; 2]>,
-    energy: [Bound; 2],
+    parting: Option<Sweep>,
+    energy: Sweep,
     /// What faces of bodies, obstacles and walls bear.
-    loads: Option<Bound>,
-    floor: [Bound; 2],
+    loads: Option<Form>,
+    floor: Sweep,
 }
 
 impl FluidUpdate {
@@ -27,19 +27,18 @@ impl FluidUpdate {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, scene: &Scene) -> Result<Self> {
-        let Parts { gpu, state } = parts;
+    pub fn new(state: &State, scene: &Scene) -> Result<Self> {
         let follows = state.has_solids() && scene.late_flux();
-        let late_flux = || state.bind(gpu, "late_flux.wgsl", "late_flux", &[], &[("LISTED", 1.0)]);
-        let loads = || state.bind(gpu, "loads.wgsl", "load_faces", &[], &[("LISTED", 1.0)]);
-        let parting = || parts.both("parting.wgsl", "parting_surplus", &[], &[]);
+        let late_flux = || Form::listed(state, "late_flux.wgsl", "late_flux");
+        let loads = || Form::listed(state, "loads.wgsl", "load_faces");
+        let parting = || Sweep::new(state, "parting.wgsl", "parting_surplus");
         Ok(Self {
             late_flux: follows.then(late_flux).transpose()?,
-            momentum: parts.both("fluid_update.wgsl", "fluid_momentum", &[], &[])?,
+            momentum: Sweep::new(state, "fluid_update.wgsl", "fluid_momentum")?,
             parting: state.has_solids().then(parting).transpose()?,
             loads: (state.load_count != [0; 3]).then(loads).transpose()?,
-            energy: parts.both("fluid_update.wgsl", "fluid_energy", &[], &[])?,
-            floor: parts.both("fluid_floor.wgsl", "fluid_floor", &[], &[])?,
+            energy: Sweep::new(state, "fluid_update.wgsl", "fluid_energy")?,
+            floor: Sweep::new(state, "fluid_floor.wgsl", "fluid_floor")?,
         })
     }
 
@@ -47,21 +46,20 @@ impl FluidUpdate {
     pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, control: &TimeStep) {
         pass.stage(Stage::FluidUpdate.name());
         if let Some(late_flux) = &self.late_flux {
-            pass.dispatch(late_flux, &extent(state, "UPDATE", Entry::Listed));
+            late_flux.record(pass, state, Phase::Update);
         }
-        record_both(pass, state, "UPDATE", &self.momentum);
-        carrier.record(pass, state, Carried::Solved, "UPDATE");
+        self.momentum.record(pass, state, Phase::Update);
+        carrier.record(pass, state, Carried::Solved, Phase::Update);
         pass.stage(Stage::FluidUpdate.name());
         if let Some(parting) = &self.parting {
-            record_both(pass, state, "UPDATE", parting);
+            parting.record(pass, state, Phase::Update);
         }
-        record_both(pass, state, "UPDATE", &self.energy);
+        self.energy.record(pass, state, Phase::Update);
         if let Some(loads) = &self.loads {
-            pass.dispatch(loads, &extent(state, "UPDATE", Entry::Listed));
+            loads.record(pass, state, Phase::Update);
         }
         control.record_cold(pass);
-        let [plain, listed] = &self.floor;
-        pass.dispatch(plain, &extent(state, "FLOOR", Entry::Slots));
-        pass.dispatch(listed, &extent(state, "UPDATE", Entry::Listed));
+        self.floor.plain.record(pass, state, Phase::Floor);
+        self.floor.listed.record(pass, state, Phase::Update);
     }
 }

@@ -1,11 +1,10 @@
 //! `g2p`: how do the particles move and deform? [Jiang et al. 2015; Cao et al. 2022, step 7]
 
-use super::{Parts, Transfer, extent};
+use super::Transfer;
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// How nodes reach particles.
 #[derive(Debug)]
@@ -27,9 +26,8 @@ impl G2p {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, transfer: Transfer) -> Result<Self> {
-        let Parts { gpu, state } = parts;
-        let bind = |entry: &str| state.bind(gpu, "g2p.wgsl", entry, &[], &[]);
+    pub fn new(state: &State, transfer: Transfer) -> Result<Self> {
+        let bind = |entry: &str| state.bind("g2p.wgsl", entry, &[], &[]);
         let form = match transfer {
             Transfer::Columns => Form::Cells([bind("g2p_cells")?, bind("g2p_particles")?]),
             Transfer::Nodes => Form::Particles(bind("g2p")?),
@@ -41,10 +39,10 @@ impl G2p {
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::G2p.name());
         match &self.form {
-            Form::Particles(g2p) => pass.dispatch(g2p, &extent(state, "SUBSTEP", Entry::Particles)),
+            Form::Particles(g2p) => pass.dispatch(g2p, &state.extent(Phase::Substep, Over::Particles)),
             Form::Cells([cells, particles]) => {
-                pass.dispatch(cells, &extent(state, "SUBSTEP", Entry::Slots));
-                pass.dispatch(particles, &extent(state, "SUBSTEP", Entry::Particles));
+                pass.dispatch(cells, &state.extent(Phase::Substep, Over::Slots));
+                pass.dispatch(particles, &state.extent(Phase::Substep, Over::Particles));
             }
         }
     }

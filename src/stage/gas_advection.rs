@@ -1,13 +1,12 @@
 //! `gas_advection`: where does the gas carry itself? WENO with local Lax-Friedrichs splitting, TVD-RK2 or, with two solves, three stages; conservative limiter.
 //! [Cao et al. 2022, eqs. 10-12]
 
-use super::time_step::slots;
-use super::{Parts, TimeStep, extent};
+use super::TimeStep;
+use super::sweep::Form;
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the stage: two Runge-Kutta stages, each with its correction by the limiter; with two solves one before the first and two
 /// before the second.
@@ -18,21 +17,18 @@ pub struct GasAdvection {
 
 #[derive(Debug)]
 struct RungeKuttaStage {
-    interior: Bound,
-    listed: Bound,
+    forms: [Form; 2],
     limited: Option<Bound>,
 }
 
 impl RungeKuttaStage {
-    fn new(parts: Parts<'_>, limiter: bool, stage: u32) -> Result<Self> {
-        let Parts { gpu, state } = parts;
-        let bind = |entry: &str, listed: f64| {
-            state.bind(gpu, "gas_advection.wgsl", entry, &[], &[("STAGE", f64::from(stage)), ("LISTED", listed)])
-        };
+    fn new(state: &State, limiter: bool, stage: u32) -> Result<Self> {
+        let (shader, switches) = ("gas_advection.wgsl", [("STAGE", f64::from(stage))]);
+        let form = |over: Over, entry: &str| Form::new(state, over, [shader, entry], &[], &switches);
+        let limited = || state.bind(shader, "advect_limited", &[], &switches);
         Ok(Self {
-            interior: bind("advect_interior", 0.0)?,
-            listed: bind("advect_listed", 1.0)?,
-            limited: if limiter { Some(bind("advect_limited", 0.0)?) } else { None },
+            forms: [form(Over::Marches, "advect_interior")?, form(Over::Listed, "advect_listed")?],
+            limited: limiter.then(limited).transpose()?,
         })
     }
 }
@@ -42,20 +38,21 @@ impl GasAdvection {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, limiter: bool, solves: u32) -> Result<Self> {
-        let stage = |stage: u32| RungeKuttaStage::new(parts, limiter, stage);
+    pub fn new(state: &State, limiter: bool, solves: u32) -> Result<Self> {
+        let stage = |stage: u32| RungeKuttaStage::new(state, limiter, stage);
         Ok(Self { stages: (0..=solves).map(stage).collect::<Result<_>>()? })
     }
 
     /// One of the stages, from 0, in a phase: two belong to one advection, or with two solves one to the first and two to the second.
-    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: &str) {
+    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: Phase) {
         pass.stage(Stage::GasAdvection.name());
         let kernels = &self.stages[stage];
-        pass.dispatch(&kernels.interior, &extent(state, phase, Entry::Marched));
-        pass.dispatch(&kernels.listed, &extent(state, phase, Entry::Listed));
+        for form in &kernels.forms {
+            form.record(pass, state, phase);
+        }
         if let Some(limited) = &kernels.limited {
             control.record_limiter(pass);
-            pass.dispatch(limited, &slots(state, "LIMIT"));
+            pass.dispatch(limited, &state.extent(Phase::Limit, Over::Slots));
         }
     }
 }

@@ -1,11 +1,9 @@
 //! Points of bodies with gauges: not part of the method, but of every record of it.
 
-use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernel of the points.
 #[derive(Debug)]
@@ -16,19 +14,18 @@ impl Gauges {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Option<Self>> {
-        let Parts { gpu, state } = parts;
+    pub fn new(state: &State) -> Result<Option<Self>> {
         let points = state.gauges.start.len();
         if points == 0 || !state.has_solids() {
             return Ok(None);
         }
-        let bound = state.bind(gpu, "gauges.wgsl", "gauge_record", &[], &[("GAUGES", points as f64)])?;
+        let bound = state.bind("gauges.wgsl", "gauge_record", &[], &[("GAUGES", points as f64)])?;
         Ok(Some(Self(bound)))
     }
 
     /// The points after the step that has just ended, into their history ring.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::Totals.name());
-        pass.dispatch(&self.0, &extent(state, "END", Entry::Single));
+        pass.dispatch(&self.0, &state.extent(Phase::End, Over::Single));
     }
 }

@@ -1,14 +1,11 @@
 //! `interface`: where do gas and solid meet, and what happens to the gas of cells that a body covers or uncovers?
 //! [Cao et al. 2022, section 2.3]
 
-use super::time_step::slots;
-use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::numerics::Scan;
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -38,15 +35,15 @@ impl InterfaceStage {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
-        let Parts { gpu, state } = parts;
-        let mark = |entry: &str| state.bind(gpu, "interface_mark.wgsl", entry, &[], &[]);
+    pub fn new(state: &State) -> Result<Self> {
+        let gpu = &state.gpu;
+        let mark = |entry: &str| state.bind("interface_mark.wgsl", entry, &[], &[]);
         let scan = |counts: &str, places: &str| {
             let (slots, [counts, places]) = (state.params.slots, [counts, places].map(|name| state.lent(name)));
             Scan::over(gpu, counts, places, slots, slots + 1)
         };
-        let fill = |entry: &str| state.bind(gpu, "interface.wgsl", entry, &[], &[]);
-        let ledger = |entry: &str| state.bind(gpu, "ledger.wgsl", entry, &[], &[]);
+        let fill = |entry: &str| state.bind("interface.wgsl", entry, &[], &[]);
+        let ledger = |entry: &str| state.bind("ledger.wgsl", entry, &[], &[]);
         let solids = if state.has_solids() {
             Some(Solids {
                 fill: fill("interface_fill")?,
@@ -74,36 +71,36 @@ impl InterfaceStage {
     pub fn record_start(&self, pass: &mut Pass, state: &State) {
         if let Some(solids) = &self.solids {
             for kernel in [&solids.fill, &solids.walls, &solids.kind, &solids.start] {
-                pass.dispatch(kernel, &slots(state, "BEGIN"));
+                pass.dispatch(kernel, &state.extent(Phase::Begin, Over::Slots));
             }
         }
-        pass.dispatch(&self.flags, &slots(state, "BEGIN"));
+        pass.dispatch(&self.flags, &state.extent(Phase::Begin, Over::Slots));
         self.record_list(pass, state);
     }
 
     /// The list that follows from the flags.
     fn record_list(&self, pass: &mut Pass, state: &State) {
-        pass.dispatch(&self.edge, &slots(state, "BEGIN"));
+        pass.dispatch(&self.edge, &state.extent(Phase::Begin, Over::Slots));
         for scan in [&self.edge_scan, &self.scan] {
-            scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
+            scan.record_with(pass, &state.scan_extents(Phase::Begin));
         }
-        pass.dispatch(&self.list, &slots(state, "BEGIN"));
+        pass.dispatch(&self.list, &state.extent(Phase::Begin, Over::Slots));
     }
 
     /// Marks all slots and settles the gas books. Without bodies nothing changes.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         let Some(solids) = &self.solids else { return };
         pass.stage(Stage::Interface.name());
-        pass.dispatch(&solids.fill, &slots(state, "BEGIN"));
-        pass.dispatch(&solids.ghost, &extent(state, "BEGIN", Entry::Marched));
-        pass.dispatch(&solids.walls, &slots(state, "BEGIN"));
-        pass.dispatch(&solids.kind, &slots(state, "BEGIN"));
-        pass.dispatch(&self.flags, &slots(state, "BEGIN"));
-        self.scan.record_with(pass, &super::scan_extents(state, "BEGIN"));
-        pass.dispatch(&solids.extra, &slots(state, "BEGIN"));
+        pass.dispatch(&solids.fill, &state.extent(Phase::Begin, Over::Slots));
+        pass.dispatch(&solids.ghost, &state.extent(Phase::Begin, Over::Marches));
+        pass.dispatch(&solids.walls, &state.extent(Phase::Begin, Over::Slots));
+        pass.dispatch(&solids.kind, &state.extent(Phase::Begin, Over::Slots));
+        pass.dispatch(&self.flags, &state.extent(Phase::Begin, Over::Slots));
+        self.scan.record_with(pass, &state.scan_extents(Phase::Begin));
+        pass.dispatch(&solids.extra, &state.extent(Phase::Begin, Over::Slots));
         self.record_list(pass, state);
         for kernel in &solids.ledger {
-            pass.dispatch(kernel, &slots(state, "BEGIN"));
+            pass.dispatch(kernel, &state.extent(Phase::Begin, Over::Slots));
         }
     }
 }

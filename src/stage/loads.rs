@@ -1,12 +1,9 @@
 //! Loads of the gas on bodies, obstacles and walls: not part of the method, but of every record of it.
 
-use super::time_step::slots;
-use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the loads but for that of the faces, which belongs between those of `fluid_update`.
 #[derive(Debug)]
@@ -20,12 +17,11 @@ impl Loads {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Option<Self>> {
-        let Parts { gpu, state } = parts;
+    pub fn new(state: &State) -> Result<Option<Self>> {
         if state.load_count == [0; 3] {
             return Ok(None);
         }
-        let bind = |entry: &str| state.bind(gpu, "loads.wgsl", entry, &[], &[("LISTED", 1.0)]);
+        let bind = |entry: &str| state.bind("loads.wgsl", entry, &[], &[]);
         let owners = if state.load_count[0] > 0 { Some(bind("load_owners")?) } else { None };
         Ok(Some(Self { owners, record: bind("load_record")? }))
     }
@@ -33,13 +29,13 @@ impl Loads {
     /// Which body has each covered slot.
     pub fn record_owners(&self, pass: &mut Pass, state: &State) {
         if let Some(owners) = &self.owners {
-            pass.dispatch(owners, &slots(state, "BEGIN"));
+            pass.dispatch(owners, &state.extent(Phase::Begin, Over::Slots));
         }
     }
 
     /// The loads of the step that has just ended, into their history ring.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::Totals.name());
-        pass.dispatch(&self.record, &extent(state, "END", Entry::Single));
+        pass.dispatch(&self.record, &state.extent(Phase::End, Over::Single));
     }
 }

@@ -1,11 +1,9 @@
 //! Maps of the largest values so far: not part of the method, but of what engineers look at.
 
-use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the maps.
 #[derive(Debug)]
@@ -19,12 +17,11 @@ impl Maps {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Option<Self>> {
-        let Parts { gpu, state } = parts;
+    pub fn new(state: &State) -> Result<Option<Self>> {
         if state.maps.is_empty() {
             return Ok(None);
         }
-        let bind = |entry: &str| state.bind(gpu, "maps.wgsl", entry, &[], &[]);
+        let bind = |entry: &str| state.bind("maps.wgsl", entry, &[], &[]);
         let particles = if state.has_solids() { Some(bind("map_particles")?) } else { None };
         Ok(Some(Self { gas: bind("map_gas")?, particles }))
     }
@@ -32,9 +29,9 @@ impl Maps {
     /// Takes in the step that has just ended.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::Totals.name());
-        pass.dispatch(&self.gas, &extent(state, "END", Entry::Slots));
+        pass.dispatch(&self.gas, &state.extent(Phase::End, Over::Slots));
         if let Some(particles) = &self.particles {
-            pass.dispatch(particles, &extent(state, "END", Entry::Particles));
+            pass.dispatch(particles, &state.extent(Phase::End, Over::Particles));
         }
     }
 }

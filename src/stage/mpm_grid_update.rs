@@ -1,11 +1,9 @@
 //! `mpm_grid_update`: how do the nodes move? Elastic force of one sub-step, walls. [Cao et al. 2022, step 6]
 
-use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -18,14 +16,13 @@ impl MpmGridUpdate {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
-        let Parts { gpu, state } = parts;
-        Ok(Self { update: state.bind(gpu, "mpm_grid_update.wgsl", "mpm_grid_update", &[], &[])? })
+    pub fn new(state: &State) -> Result<Self> {
+        Ok(Self { update: state.bind("mpm_grid_update.wgsl", "mpm_grid_update", &[], &[])? })
     }
 
     /// One sub-step of the nodes.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::MpmGridUpdate.name());
-        pass.dispatch(&self.update, &extent(state, "SUBSTEP", Entry::Reduce));
+        pass.dispatch(&self.update, &state.extent(Phase::Substep, Over::Reduce));
     }
 }

@@ -1,11 +1,9 @@
 //! `odd_even`: a conservative filter of the mode that alternates from cell to cell; optional, after the step.
 
-use super::Parts;
-use super::time_step::slots;
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the filter.
 #[derive(Debug)]
@@ -18,8 +16,8 @@ impl OddEven {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, share: f64) -> Result<Self> {
-        let bind = |entry: &str| parts.state.bind(parts.gpu, "odd_even.wgsl", entry, &[], &[("FILTER", share)]);
+    pub fn new(state: &State, share: f64) -> Result<Self> {
+        let bind = |entry: &str| state.bind("odd_even.wgsl", entry, &[], &[("FILTER", share)]);
         Ok(Self { kernels: [bind("odd_even_find")?, bind("odd_even_remove")?] })
     }
 
@@ -27,7 +25,7 @@ impl OddEven {
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::OddEven.name());
         for kernel in &self.kernels {
-            pass.dispatch(kernel, &slots(state, "FILTER"));
+            pass.dispatch(kernel, &state.extent(Phase::Filter, Over::Slots));
         }
     }
 }

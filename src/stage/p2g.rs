@@ -1,13 +1,11 @@
 //! `p2g`: what do the solids look like on the grid? Two forms with the same result in the same buffers, both over sorted particles in a
 //! fixed order: column by column, and node by node. Both give equal bits on every run.
 
-use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Pass, Settings};
 use crate::scene;
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// How particles reach nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,15 +64,15 @@ impl Force {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub(super) fn new(parts: Parts<'_>, transfer: Transfer, stress: &wgpu::Buffer) -> Result<Self> {
+    pub(super) fn new(state: &State, transfer: Transfer, stress: &wgpu::Buffer) -> Result<Self> {
         Ok(Self(match transfer {
-            Transfer::Columns => Kernels::columns(parts, true, stress)?,
-            Transfer::Nodes => Kernels::nodes(parts, Carry::Force, stress)?,
+            Transfer::Columns => Kernels::columns(state, true, stress)?,
+            Transfer::Nodes => Kernels::nodes(state, Carry::Force, stress)?,
         }))
     }
 
     /// The force, in a phase.
-    pub(super) fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
+    pub(super) fn record(&self, pass: &mut Pass, state: &State, phase: Phase) {
         self.0.record(pass, state, phase);
     }
 }
@@ -84,16 +82,16 @@ fn flag(on: bool) -> f64 {
 }
 
 /// Whether the driver of fracture goes with a stress: with that of the particles, where some material breaks.
-fn driver(parts: Parts<'_>, stress: &wgpu::Buffer) -> bool {
-    parts.state.breaks() && stress == parts.state.particles.stress.raw()
+fn driver(state: &State, stress: &wgpu::Buffer) -> bool {
+    state.breaks() && stress == state.particles.stress.raw()
 }
 
 impl Kernels {
-    fn columns(parts: Parts<'_>, force: bool, stress: &wgpu::Buffer) -> Result<Self> {
-        let Parts { gpu, state } = parts;
-        let switches = [("WITH_FORCE", flag(force)), ("WITH_DRIVER", flag(force && driver(parts, stress)))];
-        let bind = |entry: &str| state.bind(gpu, "p2g.wgsl", entry, &[], &switches);
-        let kernel = state.kernel(gpu, "p2g.wgsl", "p2g_gather", &switches)?;
+    fn columns(state: &State, force: bool, stress: &wgpu::Buffer) -> Result<Self> {
+        let gpu = &state.gpu;
+        let switches = [("WITH_FORCE", flag(force)), ("WITH_DRIVER", flag(force && driver(state, stress)))];
+        let bind = |entry: &str| state.bind("p2g.wgsl", entry, &[], &switches);
+        let kernel = state.kernel("p2g.wgsl", "p2g_gather", &switches)?;
         let axes = state.grid.dimension;
         let wide = |axis: u32| if axes > axis { COLORS } else { 1 };
         let mut colors = Vec::new();
@@ -101,34 +99,33 @@ impl Kernels {
             for x in 0..wide(1) {
                 let color = Buffer::uniform(gpu, "color", 4)?;
                 color.write(gpu, 0, &[x, y, 0, 0]);
-                colors.push(state.bind_kernel(gpu, &kernel, &[("color", color.raw()), ("stress", stress)])?);
+                colors.push(state.bind_kernel(&kernel, &[("color", color.raw()), ("stress", stress)])?);
             }
         }
         let finish = if force { None } else { Some(bind("p2g_finish")?) };
         Ok(Self::Columns { clear: bind("p2g_clear")?, colors, finish })
     }
 
-    fn nodes(parts: Parts<'_>, carry: Carry, stress: &wgpu::Buffer) -> Result<Self> {
-        let Parts { gpu, state } = parts;
+    fn nodes(state: &State, carry: Carry, stress: &wgpu::Buffer) -> Result<Self> {
         let force = carry != Carry::Mass;
-        let driver = force && driver(parts, stress);
+        let driver = force && driver(state, stress);
         let switches =
             [("WITH_MASS", flag(carry != Carry::Force)), ("WITH_FORCE", flag(force)), ("WITH_DRIVER", flag(driver))];
-        Ok(Self::Nodes(state.bind(gpu, "p2g_nodes.wgsl", "p2g_nodes", &[("stress", stress)], &switches)?))
+        Ok(Self::Nodes(state.bind("p2g_nodes.wgsl", "p2g_nodes", &[("stress", stress)], &switches)?))
     }
 
-    fn record(&self, pass: &mut Pass, state: &State, phase: &str) {
+    fn record(&self, pass: &mut Pass, state: &State, phase: Phase) {
         match self {
             Self::Columns { clear, colors, finish } => {
-                pass.dispatch(clear, &extent(state, phase, Entry::Slots));
+                pass.dispatch(clear, &state.extent(phase, Over::Slots));
                 for color in colors {
-                    pass.dispatch(color, &extent(state, phase, Entry::Color));
+                    pass.dispatch(color, &state.extent(phase, Over::Color));
                 }
                 if let Some(finish) = finish {
-                    pass.dispatch(finish, &extent(state, phase, Entry::Slots));
+                    pass.dispatch(finish, &state.extent(phase, Over::Slots));
                 }
             }
-            Self::Nodes(nodes) => pass.dispatch(nodes, &extent(state, phase, Entry::Slots)),
+            Self::Nodes(nodes) => pass.dispatch(nodes, &state.extent(phase, Over::Slots)),
         }
     }
 }
@@ -141,16 +138,16 @@ impl P2g {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, transfer: Transfer) -> Result<Self> {
-        let stress = parts.state.particles.stress.raw();
-        let force = Force::new(parts, transfer, stress)?;
+    pub fn new(state: &State, transfer: Transfer) -> Result<Self> {
+        let stress = state.particles.stress.raw();
+        let force = Force::new(state, transfer, stress)?;
         let (mass, both) = match transfer {
             Transfer::Columns => {
-                let mass = Kernels::columns(parts, false, stress)?;
+                let mass = Kernels::columns(state, false, stress)?;
                 (mass.clone(), vec![mass, force.0.clone()])
             }
             Transfer::Nodes => {
-                (Kernels::nodes(parts, Carry::Mass, stress)?, vec![Kernels::nodes(parts, Carry::Both, stress)?])
+                (Kernels::nodes(state, Carry::Mass, stress)?, vec![Kernels::nodes(state, Carry::Both, stress)?])
             }
         };
         Ok(Self { mass, force, both })
@@ -159,23 +156,23 @@ impl P2g {
     /// Mass and velocity at the start of a step.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::P2g.name());
-        self.mass.record(pass, state, "BEGIN");
+        self.mass.record(pass, state, Phase::Begin);
     }
 
     /// Elastic force at the start of a step.
     pub fn record_force(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::ElasticForce.name());
-        self.force.record(pass, state, "BEGIN");
+        self.force.record(pass, state, Phase::Begin);
     }
 
     /// Elastic force for the next sub-step; mass and velocity again if the particles have moved since.
     pub fn record_substep(&self, pass: &mut Pass, state: &State, first: bool) {
         pass.stage(Stage::P2g.name());
         if first {
-            self.force.record(pass, state, "FIRST");
+            self.force.record(pass, state, Phase::First);
         } else {
             for kernels in &self.both {
-                kernels.record(pass, state, "AGAIN");
+                kernels.record(pass, state, Phase::Again);
             }
         }
     }

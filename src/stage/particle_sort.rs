@@ -1,12 +1,10 @@
 //! `particle_sort`: which particles touch which cell? A counting sort whose result does not depend on the order of atomics.
 
-use super::{Parts, extent, scan_extents};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::numerics::Scan;
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -23,9 +21,9 @@ impl ParticleSort {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
-        let Parts { gpu, state } = parts;
-        let bind = |entry: &str| state.bind(gpu, "particle_sort.wgsl", entry, &[], &[]);
+    pub fn new(state: &State) -> Result<Self> {
+        let gpu = &state.gpu;
+        let bind = |entry: &str| state.bind("particle_sort.wgsl", entry, &[], &[]);
         Ok(Self {
             clear: bind("sort_clear")?,
             count: bind("sort_count")?,
@@ -43,12 +41,12 @@ impl ParticleSort {
 
     /// Sorts, if a particle may have left its cell since the last time.
     pub fn record(&self, pass: &mut Pass, state: &State) {
-        let phase = "SORT";
+        let phase = Phase::Sort;
         pass.stage(Stage::ParticleSort.name());
-        pass.dispatch(&self.clear, &extent(state, phase, Entry::Slots));
-        pass.dispatch(&self.count, &extent(state, phase, Entry::Particles));
-        self.scan.record_with(pass, &scan_extents(state, phase));
-        pass.dispatch(&self.place, &extent(state, phase, Entry::Particles));
-        pass.dispatch(&self.within, &extent(state, phase, Entry::Slots));
+        pass.dispatch(&self.clear, &state.extent(phase, Over::Slots));
+        pass.dispatch(&self.count, &state.extent(phase, Over::Particles));
+        self.scan.record_with(pass, &state.scan_extents(phase));
+        pass.dispatch(&self.place, &state.extent(phase, Over::Particles));
+        pass.dispatch(&self.within, &state.extent(phase, Over::Slots));
     }
 }

@@ -1,11 +1,9 @@
 //! `still`: where does nothing move? Kernels before the solve leave out gas that motion does not reach by then.
 
-use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -18,8 +16,8 @@ impl Still {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
-        let bind = |entry: &str| parts.state.bind(parts.gpu, "still.wgsl", entry, &[], &[]);
+    pub fn new(state: &State) -> Result<Self> {
+        let bind = |entry: &str| state.bind("still.wgsl", entry, &[], &[]);
         Ok(Self { mark: [bind("still_find")?, bind("still_along")?, bind("still_spread")?] })
     }
 
@@ -27,7 +25,7 @@ impl Still {
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::Still.name());
         for kernel in &self.mark {
-            pass.dispatch(kernel, &extent(state, "BEGIN", Entry::Reduce));
+            pass.dispatch(kernel, &state.extent(Phase::Begin, Over::Reduce));
         }
     }
 }

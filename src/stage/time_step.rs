@@ -1,17 +1,16 @@
 //! `time_step`: how far may we go? [Kwatra et al. 2009, eq. 20] And the device's control of the step.
 
-use super::{Parts, extent};
+use super::sweep::Sweep;
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
 use crate::scene::Scene;
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct TimeStep {
-    gas: [Bound; 2],
+    gas: Sweep,
     particles: Bound,
     choose: Bound,
     openings: Option<Bound>,
@@ -30,20 +29,19 @@ impl TimeStep {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>, scene: &Scene, pcg: &wgpu::Buffer) -> Result<Self> {
-        let Parts { gpu, state } = parts;
+    pub fn new(state: &State, scene: &Scene, pcg: &wgpu::Buffer) -> Result<Self> {
         let maxima = [("maxima", state.partials.raw())];
-        let time = |entry: &str| state.bind(gpu, "time_step.wgsl", entry, &maxima, &[("LISTED", 0.0)]);
+        let time = |entry: &str| state.bind("time_step.wgsl", entry, &maxima, &[]);
         let filtered = [("FILTER_COURANT", scene.filter().map_or(f64::from(f32::MAX), |filter| filter.least_courant))];
-        let control = |entry: &str| state.bind(gpu, "step_control.wgsl", entry, &[("pcg", pcg)], &filtered);
+        let control = |entry: &str| state.bind("step_control.wgsl", entry, &[("pcg", pcg)], &filtered);
         Ok(Self {
-            gas: parts.both("time_step.wgsl", "time_step_gas", &maxima, &[])?,
+            gas: Sweep::over(state, Over::Interior, ["time_step.wgsl", "time_step_gas"], &maxima)?,
             particles: time("time_step_particles")?,
             choose: time("time_step_choose")?,
             openings: if state.knots.is_empty() {
                 None
             } else {
-                Some(state.bind(gpu, "openings.wgsl", "openings_now", &[], &[])?)
+                Some(state.bind("openings.wgsl", "openings_now", &[], &[])?)
             },
             start: control("control_start")?,
             listed: control("control_listed")?,
@@ -60,15 +58,15 @@ impl TimeStep {
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::TimeStep.name());
         // The listed form leaves its maxima first, the plain form adds to them.
-        for kernel in self.gas.iter().rev() {
-            pass.dispatch(kernel, &Extent::Groups([state.params.groups, 1, 1]));
+        for form in [&self.gas.listed, &self.gas.plain] {
+            pass.dispatch(&form.kernel, &Extent::Groups([state.params.groups, 1, 1]));
         }
         if state.has_solids() {
             pass.dispatch(&self.particles, &Extent::Groups([state.params.groups, 1, 1]));
         }
         pass.dispatch(&self.choose, &Extent::Groups([1, 1, 1]));
         if let Some(openings) = &self.openings {
-            pass.dispatch(openings, &extent(state, "BEGIN", Entry::Single));
+            pass.dispatch(openings, &state.extent(Phase::Begin, Over::Single));
         }
     }
 
@@ -111,9 +109,4 @@ impl TimeStep {
     pub fn record_finish(&self, pass: &mut Pass) {
         pass.dispatch(&self.finish, &Extent::Groups([1, 1, 1]));
     }
-}
-
-/// Shorthand of the stages: all slots, of a phase.
-pub(super) fn slots<'a>(state: &'a State, phase: &str) -> Extent<'a> {
-    extent(state, phase, Entry::Slots)
 }

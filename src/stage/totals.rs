@@ -1,11 +1,9 @@
 //! Totals after a step: not part of the method, but of every record of it.
 
-use super::{Parts, extent};
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::state::State;
-use crate::state::constants::Entry;
 use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the totals.
 #[derive(Debug)]
@@ -21,9 +19,8 @@ impl Totals {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(parts: Parts<'_>) -> Result<Self> {
-        let Parts { gpu, state } = parts;
-        let bind = |entry: &str| state.bind(gpu, "diagnostics.wgsl", entry, &[], &[]);
+    pub fn new(state: &State) -> Result<Self> {
+        let bind = |entry: &str| state.bind("diagnostics.wgsl", entry, &[], &[]);
         Ok(Self {
             gas: bind("totals_gas")?,
             particles: if state.has_solids() { Some(bind("totals_particles")?) } else { None },
@@ -35,13 +32,13 @@ impl Totals {
     /// One record of the history ring, if a step has just ended.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::Totals.name());
-        pass.dispatch(&self.gas, &extent(state, "END", Entry::Reduce));
+        pass.dispatch(&self.gas, &state.extent(Phase::End, Over::Reduce));
         if let Some(particles) = &self.particles {
-            pass.dispatch(particles, &extent(state, "END", Entry::Reduce));
+            pass.dispatch(particles, &state.extent(Phase::End, Over::Reduce));
         }
-        pass.dispatch(&self.record, &extent(state, "END", Entry::Single));
+        pass.dispatch(&self.record, &state.extent(Phase::End, Over::Single));
         if let Some(probes) = &self.probes {
-            pass.dispatch(probes, &extent(state, "END", Entry::Single));
+            pass.dispatch(probes, &state.extent(Phase::End, Over::Single));
         }
     }
 }

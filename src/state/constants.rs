@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::stages::Stage;
+use crate::gpu::structure::wgsl_numbers;
 use crate::material;
 
 /// Cell kinds, low two bits of a cell word.
@@ -37,62 +38,6 @@ pub const NO_FAULT: u32 = u32::MAX;
 pub const SCAN_DISPATCHES: usize = 6;
 /// Columns of a marching kernel that are still together: as many as one instruction of a CPU takes, or a part of a GPU's.
 pub const STILL_BLOCK: u32 = 8;
-/// Entries of a phase in the table of extents.
-pub const PHASE_WIDTH: usize = Entry::Scan as usize + SCAN_DISPATCHES;
-/// Phases whose dispatches are opened and closed together.
-pub const PHASES: [&str; 13] = [
-    "BEGIN",
-    "SORT",
-    "LIMIT",
-    "FLOOR",
-    "UPDATE",
-    "SECOND",
-    "SUBSTEP",
-    "AGAIN",
-    "FIRST",
-    "END",
-    "FILTER",
-    "ROUND",
-    "ITERATION",
-];
-
-/// Declares the entries of a phase with their names in WGSL.
-macro_rules! entries {
-    ($($(#[doc = $doc:literal])+ $entry:ident $name:literal)+) => {
-        /// Entries of a phase in the table of extents.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[repr(u32)]
-        pub enum Entry {
-            $($(#[doc = $doc])+ $entry),+
-        }
-
-        const ENTRIES: &[&str] = &[$($name),+];
-    };
-}
-
-entries! {
-    /// One thread per slot.
-    Slots "SLOTS"
-    /// One thread per particle.
-    Particles "PARTICLES"
-    /// [`super::Params::groups`] groups that stride and leave one partial result each.
-    Reduce "REDUCE"
-    /// One group.
-    Single "SINGLE"
-    /// One thread per slot that is not INTERIOR.
-    Listed "LISTED"
-    /// One thread per INTERIOR slot whose node listed vertices rest on.
-    Frontier "FRONTIER"
-    /// One thread per march of [`super::Params::march`] slots.
-    Marched "MARCHED"
-    /// One thread per march over a column of one color: every third column of cells along each axis but the last.
-    Color "COLOR"
-    /// One thread per row of the preconditioner of interface pressures, in at most as many groups as leave partial results.
-    Surface "SURFACE"
-    /// First dispatch of a prefix sum.
-    Scan "SCAN"
-}
-
 /// Number on the device of one of names that count from 0, such as [`RULES`].
 ///
 /// # Panics
@@ -100,16 +45,6 @@ entries! {
 #[must_use]
 pub fn number(names: &[&str], name: &str) -> u32 {
     names.iter().position(|known| *known == name).expect("names are literals of this crate") as u32
-}
-
-/// Byte offset of an entry of a phase in the table of extents.
-///
-/// # Panics
-/// If the phase is not in [`PHASES`]: a bug of the caller.
-#[must_use]
-pub fn extent_offset(phase: &str, entry: Entry) -> u64 {
-    let at = PHASES.iter().position(|name| *name == phase).expect("phase names are literals of this crate");
-    ((at * PHASE_WIDTH) as u64 + entry as u64) * 16
 }
 
 /// Flags of a slot, from bit 4 of its word.
@@ -129,12 +64,8 @@ const FLAGS: [&str; 12] = [
 ];
 
 /// Lists of names that count from 0, each with its prefix.
-const COUNTED: [(&str, &[&str]); 4] = [
-    ("RULE", &RULES),
-    ("INTERFACE", &INTERFACES),
-    ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP", "ELASTIC"]),
-    ("EXTENT", ENTRIES),
-];
+const COUNTED: [(&str, &[&str]); 3] =
+    [("RULE", &RULES), ("INTERFACE", &INTERFACES), ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP", "ELASTIC"])];
 
 /// Single numbers.
 const NUMBERS: [(&str, u32); 22] = [
@@ -172,16 +103,8 @@ pub fn source() -> String {
     for (bit, name) in FLAGS.iter().enumerate() {
         put(name, 1 << (4 + bit));
     }
-    for (prefix, names) in COUNTED {
-        for (value, name) in names.iter().enumerate() {
-            put(&format!("{prefix}_{name}"), value as u32);
-        }
-    }
     for stage in Stage::ALL {
         put(&format!("STAGE_{}", stage.name().to_uppercase()), *stage as u32);
-    }
-    for (value, name) in PHASES.iter().enumerate() {
-        put(&format!("PHASE_{name}_EXTENTS"), (PHASE_WIDTH * value) as u32);
     }
     for (name, value) in super::cut::FIELDS {
         put(&format!("CUT_{name}"), value);
@@ -189,6 +112,10 @@ pub fn source() -> String {
     for (name, value) in NUMBERS {
         put(name, value);
     }
+    for (prefix, names) in COUNTED {
+        text.push_str(&wgsl_numbers(prefix, names));
+    }
+    text.push_str(&super::phases::source());
     let _ = writeln!(text, "const LIGHTEST_NODE = {:?};", super::params::LIGHTEST_NODE);
     let [line, plane, space] = super::params::LIGHTEST_BESIDE;
     let _ = writeln!(text, "const LIGHTEST_BESIDE = vec3f({line:?}, {plane:?}, {space:?});");

@@ -143,7 +143,7 @@ impl MemoryPlan {
 
     /// Buffers whose size does not depend on cells and particles.
     fn add_fixed(&mut self, probes: u64) {
-        let extents = 4 * (constants::PHASE_WIDTH * constants::PHASES.len()) as u64;
+        let extents = super::phases::LENGTH as u64;
         let history = u64::from(HISTORY);
         self.add("fixed", &[("params", 1, size_of::<Params>() as u64), ("control", 1, size_of::<Control>() as u64)]);
         self.add("fixed", &[("extents", extents, 4), ("materials", (MAX_MATERIALS * super::MATERIAL_WIDTH) as u64, 4)]);

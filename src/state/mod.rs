@@ -15,6 +15,7 @@ pub mod memory;
 pub mod openings;
 pub mod params;
 pub mod particles;
+pub mod phases;
 pub mod stages;
 pub mod supports;
 pub(crate) mod surface;
@@ -29,6 +30,7 @@ pub use memory::{MemoryPlan, memory_together};
 pub use openings::{Knot, MAX_OPENINGS, Opening, Openings};
 pub use params::{HISTORY, Params};
 pub use particles::{ParticleStart, Particles};
+pub use phases::{Over, Phase};
 pub use supports::{MotionAt, Support, Supports};
 
 use crate::error::Result;
@@ -45,6 +47,8 @@ const MATERIAL_WIDTH: usize = size_of::<crate::material::MaterialParams>() / 4;
 /// Everything the step reads and writes, and the names the shaders know it by.
 #[derive(Debug)]
 pub struct State {
+    /// The device.
+    pub gpu: Gpu,
     /// The grid.
     pub grid: Grid,
     /// What the run fixes.
@@ -129,10 +133,9 @@ impl State {
     /// If the device has no room, or a driver error.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<State> {
         let domain = &scene.domain;
-        let grid = Grid::of(domain);
-        let slots = grid.slots();
-        let start = ParticleStart::new(scene);
+        let (grid, start) = (Grid::of(domain), ParticleStart::new(scene));
         let limits = SolidLimits { particles: start.len() as u32, max_density: start.max_density };
+        let slots = grid.slots();
         let capacity = extra_capacity(slots, start.len(), domain.dimension);
         let unknowns = slots + 2 * capacity;
         let (openings, supports) = (Openings::new(scene), Supports::new(scene));
@@ -149,12 +152,13 @@ impl State {
         overrides.extend(switches(&supports, table.is_empty()));
         overrides.push(("RULES_USED", f64::from(openings.rules_used())));
         let state = State {
+            gpu: gpu.clone(),
             grid,
             params,
             start_entropy,
             params_buffer: Buffer::uniform(gpu, "params", 1)?,
             control: Buffer::new(gpu, "control", 1)?,
-            extents: Buffer::indirect(gpu, "extents", 4 * constants::PHASE_WIDTH * constants::PHASES.len())?,
+            extents: Buffer::indirect(gpu, "extents", phases::LENGTH)?,
             openings: Buffer::uniform_storage(gpu, "openings", &openings.padded())?,
             knots: Buffer::from_slice(gpu, "knots", &openings.knots)?,
             supports: Buffer::uniform_storage(gpu, "supports", &supports.padded())?,
@@ -259,31 +263,34 @@ impl State {
     /// If the shader is wrong or uses a name that is not known here.
     pub fn bind(
         &self,
-        gpu: &Gpu,
         shader: &str,
         entry: &str,
         renamed: &[(&str, &wgpu::Buffer)],
         switches: &[(&str, f64)],
     ) -> Result<Bound> {
-        self.bind_kernel(gpu, &self.kernel(gpu, shader, entry, switches)?, renamed)
+        self.bind_kernel(&self.kernel(shader, entry, switches)?, renamed)
     }
 
-    /// Compiles an entry point with this scene's switches and the given ones, for [`State::bind_kernel`].
+    /// Compiles an entry point with this scene's switches and the given ones, for [`State::bind_kernel`]. Without a switch `SWEEP` it goes
+    /// over all slots.
     ///
     /// # Errors
     /// If the shader is wrong.
-    pub fn kernel(&self, gpu: &Gpu, shader: &str, entry: &str, switches: &[(&str, f64)]) -> Result<Kernel> {
+    pub fn kernel(&self, shader: &str, entry: &str, switches: &[(&str, f64)]) -> Result<Kernel> {
         let mut all: Vec<(&str, f64)> = self.overrides.clone();
         all.extend_from_slice(switches);
+        if switches.iter().all(|(name, _)| *name != "SWEEP") {
+            all.push(("SWEEP", f64::from(Over::Slots as u32)));
+        }
         let source = constants::source_for(shader);
-        Kernel::new(gpu, shader, entry, &Constants { overrides: &all, source: &source })
+        Kernel::new(&self.gpu, shader, entry, &Constants { overrides: &all, source: &source })
     }
 
     /// Binds the buffers that a kernel names: once compiled, it can run with several.
     ///
     /// # Errors
     /// If the kernel uses a name that is not known here.
-    pub fn bind_kernel(&self, gpu: &Gpu, kernel: &Kernel, renamed: &[(&str, &wgpu::Buffer)]) -> Result<Bound> {
+    pub fn bind_kernel(&self, kernel: &Kernel, renamed: &[(&str, &wgpu::Buffer)]) -> Result<Bound> {
         let named = self.names();
         let buffer_of =
             |name: &str| renamed.iter().chain(&named).find(|(known, _)| *known == name).map(|(_, buffer)| *buffer);
@@ -292,7 +299,7 @@ impl State {
             .iter()
             .filter_map(|binding| buffer_of(&binding.name).map(|buffer| (binding.name.as_str(), buffer)))
             .collect();
-        kernel.bind(gpu, &buffers)
+        kernel.bind(&self.gpu, &buffers)
     }
 
     /// A vector of the solve that another stage borrows, by the name of its binding there.

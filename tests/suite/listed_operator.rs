@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use brisance::gpu::{Buffer, Extent, Gpu, Pass, readback};
 use brisance::scene::Scene;
 use brisance::simulation::Simulation;
-use brisance::state::State;
+use brisance::state::{Over, State};
 
 use crate::common::{Random, gpu_or_skip};
 use crate::reference::coupled_solve::block_with_images;
@@ -150,7 +150,7 @@ fn worst(found: &[f64], expected: &[f64]) -> f64 {
 }
 
 fn run(gpu: &Gpu, state: &State, shader: &str, entry: &str, renamed: &[(&str, &wgpu::Buffer)]) {
-    let bound = state.bind(gpu, shader, entry, renamed, &[("LISTED", 1.0)]).unwrap();
+    let bound = state.bind(shader, entry, renamed, &[("SWEEP", f64::from(Over::Listed as u32))]).unwrap();
     let mut pass = Pass::new(gpu, entry);
     pass.dispatch(&bound, &Extent::Threads(u64::from(state.params.slots)));
     pass.submit().unwrap();

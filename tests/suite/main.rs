@@ -55,6 +55,7 @@ mod still;
 mod stream;
 mod supports;
 mod surface;
+mod sweeps;
 mod synthetic;
 mod thin_walls;
 mod twins;

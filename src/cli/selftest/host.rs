@@ -6,7 +6,7 @@ use crate::gpu::{Buffer, Gpu, Pass, readback};
 use crate::numerics::{Operator, Reduce, Scan};
 use crate::scene::Scene;
 use crate::simulation::Simulation;
-use crate::stage::{P2g, ParticleSort, Parts, Transfer};
+use crate::stage::{P2g, ParticleSort, Transfer};
 use crate::state::Grid;
 
 /// Elements of the arrays: three levels of a prefix sum, and no multiple of a workgroup.
@@ -71,8 +71,8 @@ fn transferred(gpu: &Gpu, transfer: Transfer) -> Result<Transferred> {
     let velocity: Vec<[f32; 4]> =
         (0..count).map(|p| [0, 1, 2, 3].map(|a| if a < 3 { random(3 * p + a) - 0.5 } else { 0.0 })).collect();
     particles.velocity.write(gpu, 0, &velocity);
-    let parts = Parts { gpu, state: &simulation.state };
-    let (sort, p2g) = (ParticleSort::new(parts)?, P2g::new(parts, transfer)?);
+    let state = &simulation.state;
+    let (sort, p2g) = (ParticleSort::new(state)?, P2g::new(state, transfer)?);
     let mut pass = Pass::new(gpu, "transfer");
     sort.record(&mut pass, &simulation.state);
     p2g.record(&mut pass, &simulation.state);

@@ -4,10 +4,9 @@ use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Extent, Pass};
 use crate::numerics::Levels;
 use crate::scene::Scene;
-use crate::stage::{Parts, extent};
-use crate::state::State;
+use crate::stage::sweep::{Form, Sweep};
 use crate::state::coarse::{self, EXTENTS, Level};
-use crate::state::constants::{Entry, extent_offset};
+use crate::state::{Over, Phase, State};
 
 /// Entries of the table of group counts.
 const NODES: u64 = 0;
@@ -20,9 +19,9 @@ const FINEST: u64 = 3;
 pub(super) struct Coarse {
     measure: Bound,
     /// One per phase in which a solve may begin.
-    choose: [(&'static str, Bound); 2],
+    choose: [(Phase, Bound); 2],
     /// The listed operator.
-    operator: Bound,
+    operator: Form,
     /// Per space: the function, its sums on the first level.
     sums: Vec<[Bound; 2]>,
     /// Sums on the other levels.
@@ -37,8 +36,8 @@ pub(super) struct Coarse {
 
 impl Coarse {
     /// Binds, in scenes where it may pay.
-    pub(super) fn new(parts: Parts<'_>, scene: &Scene, pcg: &wgpu::Buffer) -> Result<Option<Self>> {
-        let Parts { gpu, state } = parts;
+    pub(super) fn new(state: &State, scene: &Scene, pcg: &wgpu::Buffer) -> Result<Option<Self>> {
+        let gpu = &state.gpu;
         let Some(plan) = coarse::plan(scene) else { return Ok(None) };
         let levels: Buffer<[f32; 2]> = Buffer::new(gpu, "levels", coarse::length(&plan))?;
         let extents = Buffer::indirect(gpu, "coarse_extents", EXTENTS)?;
@@ -57,7 +56,7 @@ impl Coarse {
                 ("pcg", pcg),
                 ("coarse_extents", extents.raw()),
             ];
-            state.bind(gpu, shader, entry, &named, &[&limits[..], switches].concat())
+            state.bind(shader, entry, &named, &[&limits[..], switches].concat())
         };
         let setup = |entry: &str, level: usize, switches: &[(&str, f64)]| {
             let common = [("FINEST", f64::from(u8::from(level == 0))), ("SPACE", 0.0), ("PHASE_AT", 0.0)];
@@ -65,9 +64,8 @@ impl Coarse {
             bind("solve_coarse_setup.wgsl", entry, level, &others.chain(switches.iter().copied()).collect::<Vec<_>>())
         };
         let solve = |entry: &str, level: usize| bind("solve_coarse.wgsl", entry, level, &[]);
-        let choose = |phase: &'static str| -> Result<(&'static str, Bound)> {
-            let at = (extent_offset(phase, Entry::Slots) / 16) as f64;
-            Ok((phase, setup("coarse_choose", 0, &[("PHASE_AT", at)])?))
+        let choose = |phase: Phase| -> Result<(Phase, Bound)> {
+            Ok((phase, setup("coarse_choose", 0, &[("PHASE_AT", f64::from(phase.first()))])?))
         };
         let image = [("x", state.pcg.direction.raw()), ("y", state.pcg.solution.raw())];
         let sums = |space: usize| -> Result<[Bound; 2]> {
@@ -78,8 +76,8 @@ impl Coarse {
         let up = |level: usize| solve(if level == 0 { "coarse_direction" } else { "coarse_up" }, level);
         Ok(Some(Self {
             measure: setup("coarse_measure", 0, &[])?,
-            choose: [choose("BEGIN")?, choose("SECOND")?],
-            operator: state.bind(gpu, "solve_operator.wgsl", "solve_operator", &image, &[("LISTED", 1.0)])?,
+            choose: [choose(Phase::Begin)?, choose(Phase::Second)?],
+            operator: Form::new(state, Over::Listed, ["solve_operator.wgsl", "solve_operator"], &image, &[])?,
             sums: (0..coarse::spaces(scene.domain.dimension)).map(sums).collect::<Result<_>>()?,
             coarser: (1..count).map(|level| setup("coarse_sums", level, &[])).collect::<Result<_>>()?,
             invert: (0..count).map(|level| setup("coarse_invert", level, &[])).collect::<Result<_>>()?,
@@ -96,16 +94,16 @@ impl Coarse {
     }
 
     /// Chooses the levels and finds their diagonals; the diagonal must be there. `forces`: those of the direction, plain and listed.
-    pub(super) fn record_setup(&self, pass: &mut Pass, state: &State, phase: &str, forces: &[Bound; 2]) {
-        pass.dispatch(&self.measure, &extent(state, phase, Entry::Reduce));
+    pub(super) fn record_setup(&self, pass: &mut Pass, state: &State, phase: Phase, forces: &Sweep) {
+        pass.dispatch(&self.measure, &state.extent(phase, Over::Reduce));
         for (_, choose) in self.choose.iter().filter(|(own, _)| *own == phase) {
             pass.dispatch(choose, &Extent::Groups([1, 1, 1]));
         }
         for [ones, sums] in &self.sums {
             pass.dispatch(ones, &self.extent(ALL));
-            pass.dispatch(&forces[0], &self.extent(NODES));
-            pass.dispatch(&forces[1], &self.extent(LISTED));
-            pass.dispatch(&self.operator, &self.extent(ALL));
+            pass.dispatch(&forces.plain.kernel, &self.extent(NODES));
+            pass.dispatch(&forces.listed.kernel, &self.extent(LISTED));
+            pass.dispatch(&self.operator.kernel, &self.extent(ALL));
             pass.dispatch(sums, &self.extent(FINEST + 1));
         }
         for (level, kernel) in (FINEST + 2..).zip(&self.coarser) {

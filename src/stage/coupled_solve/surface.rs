@@ -5,10 +5,9 @@ use bytemuck::{Pod, Zeroable};
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Pass};
 use crate::numerics::Block;
-use crate::stage::{Parts, extent};
-use crate::state::State;
-use crate::state::constants::Entry;
+use crate::stage::sweep::Form;
 use crate::state::surface::{TERMS, row_length};
+use crate::state::{Over, Phase, State};
 
 /// Mirror of `Turn` in `shaders/solve_surface.wgsl`.
 #[repr(C)]
@@ -22,7 +21,7 @@ struct Turn {
 #[derive(Debug)]
 pub(super) struct Surface {
     begin: Bound,
-    rows: Bound,
+    rows: Form,
     terms: Vec<Bound>,
     direction: Bound,
     _buffers: Buffers,
@@ -38,8 +37,8 @@ struct Buffers {
 
 impl Surface {
     /// Binds, in scenes with bodies.
-    pub(super) fn new(parts: Parts<'_>) -> Result<Option<Self>> {
-        let Parts { gpu, state } = parts;
+    pub(super) fn new(state: &State) -> Result<Option<Self>> {
+        let gpu = &state.gpu;
         let count = state.params.surface_rows as usize;
         if count == 0 {
             return Ok(None);
@@ -53,7 +52,7 @@ impl Surface {
         let shared = [("rows", buffers.rows.raw()), ("bound", buffers.bound.raw())];
         let bind = |entry: &str, more: &[(&str, &wgpu::Buffer)]| {
             let named = [&shared[..], more].concat();
-            state.bind(gpu, "solve_surface.wgsl", entry, &named, &[("LISTED", 1.0)])
+            state.bind("solve_surface.wgsl", entry, &named, &[])
         };
         let term = |(number, turn): (u32, &Buffer<Turn>)| {
             turn.write(gpu, 0, &[Turn { number, count: TERMS }]);
@@ -61,7 +60,7 @@ impl Surface {
         };
         Ok(Some(Self {
             begin: bind("surface_begin", &[])?,
-            rows: bind("surface_rows", &[])?,
+            rows: Form::new(state, Over::Listed, ["solve_surface.wgsl", "surface_rows"], &shared, &[])?,
             terms: (0..).zip(&buffers.turns).map(term).collect::<Result<_>>()?,
             direction: bind("surface_direction", &[])?,
             _buffers: buffers,
@@ -69,9 +68,9 @@ impl Surface {
     }
 
     /// The rows of a solve, in a phase; masses of the nodes must be there.
-    pub(super) fn record_rows(&self, pass: &mut Pass, state: &State, phase: &str) {
-        pass.dispatch(&self.begin, &extent(state, phase, Entry::Single));
-        pass.dispatch(&self.rows, &extent(state, phase, Entry::Listed));
+    pub(super) fn record_rows(&self, pass: &mut Pass, state: &State, phase: Phase) {
+        pass.dispatch(&self.begin, &state.extent(phase, Over::Single));
+        self.rows.record(pass, state, phase);
     }
 
     /// The block that it preconditions.
