@@ -54,6 +54,7 @@ pub mod spelling;
 pub mod stage;
 #[doc(hidden)]
 pub mod state;
+#[cfg(feature = "verify")]
 #[doc(hidden)]
 pub mod verify;
 #[cfg(feature = "viewer")]

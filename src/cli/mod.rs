@@ -35,6 +35,7 @@ mod selftest;
 mod shaders;
 mod sweep;
 mod tables;
+#[cfg(feature = "verify")]
 mod verify;
 mod view;
 mod writer;
@@ -156,7 +157,13 @@ fn execute(cli: &Cli) -> Result<()> {
         Command::Sweep(options) => sweep::sweep(options, cli),
         Command::Check(options) => check::check(options, cli),
         Command::Bench(options) => bench::bench(options, cli),
+        #[cfg(feature = "verify")]
         Command::Verify(options) => verify::verify(options, cli),
+        #[cfg(not(feature = "verify"))]
+        Command::Verify(_) => Err(Error::Usage(
+            "this program was built without its cases; build it with `cargo build --release --features verify`"
+                .to_owned(),
+        )),
         Command::Devices => list::devices(cli),
         Command::Selftest(options) => selftest::selftest(options, cli),
         Command::Shaders(options) => shaders::shaders(options, cli),

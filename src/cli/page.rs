@@ -13,7 +13,7 @@ use serde_json::Value;
 use super::check::size;
 use crate::export::apng;
 use crate::math::plain;
-use crate::verify::{STYLE, escape};
+use crate::render::{PAGE_STYLE, escape};
 
 /// Pictures in a moving one, at most.
 const MOVING_FRAMES: usize = 32;
@@ -21,7 +21,7 @@ const MOVING_FRAMES: usize = 32;
 const DELAY: u16 = 120;
 
 /// Looks beside those of the report of `verify`.
-const OWN_STYLE: &str = "figure{margin:.6rem 0;display:flex;flex-wrap:wrap;gap:.6rem;align-items:flex-start}\
+const OWN_PAGE_STYLE: &str = "figure{margin:.6rem 0;display:flex;flex-wrap:wrap;gap:.6rem;align-items:flex-start}\
 figure img{max-width:100%}img.last{flex:2 1 30rem;min-width:0}img.moving{flex:1 1 16rem;min-width:0}\
 .sides{display:flex;flex-wrap:wrap;gap:2rem}.sides table{width:auto;flex:1 1 20rem}pre{overflow:auto;font-size:.75rem}";
 
@@ -29,7 +29,7 @@ figure img{max-width:100%}img.last{flex:2 1 30rem;min-width:0}img.moving{flex:1 
 pub(super) fn start(title: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>\n\
-         <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}{OWN_STYLE}</style></head><body>\n",
+         <meta name=\"viewport\" content=\"width=device-width\"><style>{PAGE_STYLE}{OWN_PAGE_STYLE}</style></head><body>\n",
         escape(title)
     )
 }

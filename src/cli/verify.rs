@@ -134,6 +134,7 @@ fn head(options: &VerifyOptions, gpu: &Gpu, seconds: f64) -> Head {
         command: format!("brisance verify {suite}{filter}"),
         device: format!("{} ({}, {})", gpu.info.name, gpu.info.backend, driver.trim()),
         software: gpu.is_software(),
+        cases: verify::cases().collect(),
         seconds,
     }
 }

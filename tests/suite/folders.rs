@@ -249,6 +249,7 @@ fn an_interruption_gives_the_encoder_a_moment() {
     assert_eq!(report(&folder.path().join("run"))["status"], "stopped");
 }
 
+#[cfg(feature = "verify")]
 #[test]
 fn a_verification_is_stopped_within_a_case_with_what_the_others_found() {
     if gpu_or_skip().is_none() {

@@ -106,6 +106,28 @@ fn modules_depend_downwards_only() {
     report(&failures);
 }
 
+/// Rooms of `verify` from the ground floor to the roof; files of the last do not know each other.
+const ROOMS_OF_VERIFY: [&str; 4] = ["exact", "harness", "measure", "cases"];
+
+#[test]
+fn rooms_of_verify_depend_downwards_and_its_cases_on_no_other_case() {
+    let mut failures = Vec::new();
+    for (path, text) in files("src/verify", "rs") {
+        let room = path.components().nth(2).map(|part| part.as_os_str().to_string_lossy().into_owned());
+        let Some(floor) = ROOMS_OF_VERIFY.iter().position(|name| Some(*name) == room.as_deref()) else { continue };
+        let is_case = floor + 1 == ROOMS_OF_VERIFY.len() && !path.ends_with("mod.rs");
+        for (number, line) in text.lines().enumerate() {
+            let upward = ROOMS_OF_VERIFY[floor + 1..].iter().any(|upper| line.contains(&format!("verify::{upper}")));
+            let code = line.trim_start();
+            let other_case = is_case && code.starts_with("use super::") && line == code;
+            if upward || other_case {
+                failures.push(format!("{}:{}: {code}", path.display(), number + 1));
+            }
+        }
+    }
+    report(&failures);
+}
+
 #[test]
 fn the_ground_floors_know_no_physics() {
     let words = ["pressure", "density", "velocity", "viscosity", "plastic", "particle"];

@@ -59,6 +59,7 @@ mod sweeps;
 mod synthetic;
 mod thin_walls;
 mod twins;
+#[cfg(feature = "verify")]
 mod verify;
 #[cfg(feature = "viewer")]
 mod viewer;

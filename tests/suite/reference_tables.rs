@@ -151,7 +151,7 @@ fn shock_tubes_coarse() {
     }
 }
 
-/// The L1 errors of `src/verify/tube_errors.rs` that no published table has.
+/// The L1 errors of `src/verify/measure/tube_errors.rs` that no published table has.
 #[test]
 #[ignore = "minutes"]
 fn shock_tubes_with_predictor() {

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
+use brisance::render::{Plot, Style};
 use brisance::scene::Scene;
-use brisance::verify::{self, Head, Limit, Plot, Profile, Row, Style, Suite, Verdict, muscl, muscl_plane};
+use brisance::verify::{self, Head, Limit, Profile, Row, Suite, Verdict, muscl, muscl_plane};
 
 use crate::common::gpu_or_skip;
 
@@ -74,7 +75,7 @@ fn named_scenes(text: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn every_scene_of_a_case_is_shipped() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/verify");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/verify/cases");
     let mut found = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -93,6 +94,7 @@ fn head() -> Head {
         device: "a <device>".to_owned(),
         software: true,
         seconds: 1.0,
+        cases: verify::cases().collect(),
     }
 }
 

@@ -8,7 +8,7 @@ use super::Shown;
 use crate::cli::args::Cli;
 use crate::cli::page::{cells, checks, device_text, memory, number, parameters, pictures, start, table};
 use crate::cli::progress::clock;
-use crate::verify::escape;
+use crate::render::escape;
 
 /// Width of the moving pictures, at most \[pixels\].
 const MOVING_WIDTH: u32 = 480;

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::gauges;
 use crate::expect::Gauge;
 use crate::export::csv::Sheet;
-use crate::verify::{Plot, Style};
+use crate::render::{Plot, Style};
 
 /// Parts of a curve that keep their least and largest value.
 const PARTS: usize = 300;

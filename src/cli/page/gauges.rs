@@ -2,7 +2,7 @@
 
 use super::curves::{TIME, thin};
 use crate::export::csv::Sheet;
-use crate::verify::{Plot, Style};
+use crate::render::{Plot, Style};
 
 /// Components of a vector and of a symmetric tensor, as far as a scene of so many axes has them.
 const VECTOR: [&str; 3] = ["x", "y", "z"];

@@ -11,7 +11,7 @@ use super::{cells, checks, device_text, memory, number, parameters, pictures, st
 use crate::Result;
 use crate::export::atomic;
 use crate::math::plain;
-use crate::verify::{Plot, escape};
+use crate::render::{Plot, escape};
 
 /// Name of the file.
 pub(in crate::cli) const NAME: &str = "report.html";

@@ -7,7 +7,7 @@ use super::{number, start};
 use crate::Result;
 use crate::export::atomic;
 use crate::export::csv::Sheet;
-use crate::verify::{Plot, Style, escape};
+use crate::render::{Plot, Style, escape};
 
 /// Curves of one plot, at most; more points are marks of one kind.
 const MOST_CURVES: usize = 8;

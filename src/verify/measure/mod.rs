@@ -1,0 +1,7 @@
+//! What several cases measure in their runs.
+
+pub(super) mod books;
+pub(super) mod plane;
+pub(super) mod solids;
+pub(super) mod sweep;
+pub(super) mod tube_errors;
