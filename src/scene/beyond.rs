@@ -69,7 +69,7 @@ impl Scene {
     }
 
     /// Whether one state lies at all sides.
-    fn is_even_at_sides(&self) -> bool {
+    pub(super) fn is_even_at_sides(&self) -> bool {
         self.gas.regions.is_empty() && self.gas.radial_flows.is_empty() && !self.is_stratified()
     }
 }

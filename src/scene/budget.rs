@@ -99,8 +99,8 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
         }
     };
     let faces = face_distances(scene);
-    let help = "use fewer or simpler patches, or fewer cells";
-    limit("boundary", faces, "distances to find the patches of all faces", MOST_FACES, help);
+    let help = "use fewer or simpler patches, fewer regions beside outlets, or fewer cells";
+    limit("boundary", faces, "distances to find patches and remembered gas of all faces", MOST_FACES, help);
     let work = work(scene);
     let help = "use fewer cells or fewer particles_per_cell";
     limit("bodies", work.particles, "particles, about", MOST_PARTICLES, help);
@@ -110,17 +110,22 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     found
 }
 
-/// Distances that the rules of all faces take.
+/// Distances that the rules of all faces take, and the gas that outlets remember there.
 fn face_distances(scene: &Scene) -> u64 {
     let domain = &scene.domain;
+    let regions = scene.gas.regions.iter().fold(1u64, |sum, region| sum.saturating_add(region.shape.parts_count()));
+    let regions = regions.saturating_add(scene.gas.radial_flows.len() as u64);
     let sides = scene.boundary.sides().into_iter().enumerate().filter(|(index, _)| index / 2 < domain.axes());
-    let cost = |(index, side): (usize, &Boundary)| match side {
-        Boundary::Patched(patched) => {
-            let parts = patched.patches.iter().fold(0u64, |sum, patch| sum.saturating_add(patch.shape.parts_count()));
-            let across = (0..domain.axes()).filter(|d| *d != index / 2);
-            across.fold(parts, |product, d| product.saturating_mul(u64::from(domain.cells[d])))
-        }
-        _ => 0,
+    let cost = |(index, side): (usize, &Boundary)| {
+        let patches = match side {
+            Boundary::Patched(patched) => &patched.patches[..],
+            _ => &[],
+        };
+        let parts = patches.iter().fold(0u64, |sum, patch| sum.saturating_add(patch.shape.parts_count()));
+        let remembers = side.rules().contains(&&Boundary::Outlet) && !scene.is_even_at_sides();
+        let parts = if remembers { parts.saturating_add(regions) } else { parts };
+        let across = (0..domain.axes()).filter(|d| *d != index / 2);
+        across.fold(parts, |product, d| product.saturating_mul(u64::from(domain.cells[d])))
     };
     sides.map(cost).fold(0, u64::saturating_add)
 }

@@ -88,6 +88,9 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
         if too_much.is_empty() {
             check.patches_cover();
             check_shape::places(scene, &mut check.findings);
+            if check.findings.is_empty() {
+                check.remembered();
+            }
         }
         check.findings.extend(too_much);
     } else if check.sound_domain {

@@ -59,7 +59,11 @@ fn cells_particles_and_faces_are_counted() {
     expect(&ball, &["domain.cells=[2000000000, 1000000000]"], &["domain.cells", "in all"]);
     let open = format!("{BASE}[boundary.y_min.patched]\npatches = [{{ shape = {BALL}, rule = \"outlet\" }}]\n");
     let open = open.replace("[20, 10]", "[300000000, 3]").replace("[2.0, 1.0]", "[300000000.0, 3.0]");
-    expect(&open, &[], &["patches of all faces", "100000000"]);
+    expect(&open, &[], &["patches and remembered gas of all faces", "100000000"]);
+    let region = format!("[[gas.regions]]\nshape = {BALL}\nstate = {{ density = 2.0, pressure = 2.0 }}\n");
+    let outlet = format!("{BASE}{region}[boundary]\ny_min = \"outlet\"\n");
+    let outlet = outlet.replace("[20, 10]", "[300000000, 3]").replace("[2.0, 1.0]", "[300000000.0, 3.0]");
+    expect(&outlet, &[], &["patches and remembered gas of all faces", "600000000"]);
     let mut many = BASE.to_owned();
     for k in 0..1024 {
         let _ = writeln!(many, "[[bodies]]\nname = \"b{k}\"\nmaterial = \"rubber\"\ndensity = 1.0\nshape = {BALL}");
