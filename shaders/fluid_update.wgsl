@@ -132,7 +132,7 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
     if beyond == WALL { return 0.0; }
     if SOLIDS {
         var power = 0.0;
-        for (var turn = 0u; turn < u32(beyond == SOLID); turn++) { power = interface_power(c, n, up); }
+        for (var turn = 0u; turn < when(beyond == SOLID); turn++) { power = interface_power(c, n, up); }
         if beyond == SOLID { return power; }
     }
     let p = face_pressure(c, n, up, beyond);
@@ -203,7 +203,7 @@ fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     if kind == WALL || kind == SOLID { return; }
     var heat = 0.0;
     // A slot of the ring has its part from the cell before it.
-    for (var turn = u32(!inside(cell_of(slot))); turn < 1u; turn++) {
+    for (var turn = 0u; turn < when(inside(cell_of(slot))); turn++) {
         for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { heat += heat_of(at, kind == GAS, at == slot); }
     }
     heat /= cluster_share(slot);

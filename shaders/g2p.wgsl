@@ -159,7 +159,7 @@ fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool, time: f32) 
     let returned = return_map(material.kind, trial, select(affine[3u * p + 1u].w, 0.0, broken), material);
     *h = returned.deformation;
     // a loop: a software device would run a branch for all lanes
-    for (var turn = 0u; turn < u32(broken); turn++) { *h = give_way(p, *h, material); }
+    for (var turn = 0u; turn < when(broken); turn++) { *h = give_way(p, *h, material); }
     let volume = 1.0 + swelling(*h);
     if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {
         atomicMin(&control.fault, (STAGE_G2P << 27u) | p);

@@ -204,7 +204,7 @@ fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     } else if still {
         stay(slot);
     }
-    for (var turn = u32(still || beyond); turn < 1u; turn++) { finish(slot, source(slot), change_of(slot, false)); }
+    for (var turn = 0u; turn < when(!still && !beyond); turn++) { finish(slot, source(slot), change_of(slot, false)); }
 }
 
 // A column of params.march slots along the last axis: each state there is read once, each face computed once.

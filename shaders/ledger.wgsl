@@ -197,7 +197,7 @@ fn handed_by_solid(slot: u32, c: vec3i) -> Handed {
     return Handed(each * flow, each * heat, select(TO_SOLID, TO_SURFACE, surface > 0u));
 }
 
-// To each of the receivers. Loops of no turn let threads that run in step skip what none of them has to do.
+// To each of the receivers.
 @compute @workgroup_size(WORKGROUP)
 fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
@@ -205,8 +205,8 @@ fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     let kind = kind_of(cells[slot]);
     let owes = kind == GAS && (any(owed_flow[slot] != vec4f(0.0)) || owed_energy[slot] != 0.0);
     var out: Handed;
-    for (var turn = 0u; turn < u32(owes); turn++) { out = handed_by_gas(slot, cell_of(slot)); }
-    for (var turn = 0u; turn < u32(kind == SOLID); turn++) { out = handed_by_solid(slot, cell_of(slot)); }
+    for (var turn = 0u; turn < when(owes); turn++) { out = handed_by_gas(slot, cell_of(slot)); }
+    for (var turn = 0u; turn < when(kind == SOLID); turn++) { out = handed_by_solid(slot, cell_of(slot)); }
     work[part(HANDED_FLOW, slot)] = out.flow;
     energy[part(HANDED_ENERGY, slot)] = out.energy;
     if kind == SOLID { energy[part(RECEIVERS, slot)] = out.receivers; }
@@ -243,7 +243,7 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     var flow = owed_flow[slot];
     var heat = owed_energy[slot];
     let owes = kind == GAS && (any(flow != vec4f(0.0)) || heat != 0.0);
-    for (var turn = 0u; turn < u32(owes); turn++) {
+    for (var turn = 0u; turn < when(owes); turn++) {
         let part = settled_part(slot, neighbours_of_kind(c, GAS));
         conserved[slot] += part * flow / cell_volume();
         energy[slot] += part * heat / cell_volume();
@@ -255,7 +255,7 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         heat += energy[slot] * cell_volume();
     }
     let handed_on = any(work[part(HANDED_FLOW, slot)] != vec4f(0.0)) || energy[part(HANDED_ENERGY, slot)] != 0.0;
-    for (var turn = 0u; turn < u32(handed_on); turn++) {
+    for (var turn = 0u; turn < when(handed_on); turn++) {
         let keeps = at_surface(slot);
         let count = f32(neighbours_of_kind(c, GAS));
         flow = select(vec4f(0.0), flow - count * work[part(HANDED_FLOW, slot)], keeps);

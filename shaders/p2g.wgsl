@@ -89,9 +89,18 @@ fn p2g_clear(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     if WITH_FORCE { work[part(ELASTIC_FORCE, slot)] = vec4f(0.0); } else { node[slot] = vec4f(0.0); }
 }
 
+// The index of a thread, but with octets of threads from everywhere: particles lie close together, and a software driver gives each of its
+// threads as many workgroups in a row, so that one of them would get most of the work.
+fn spread_index(workgroup: vec3u, local: u32, threads: u32) -> u32 {
+    let first = group_index(workgroup);
+    let all = groups_of(threads);
+    if first >= all { return first * WORKGROUP + local; }
+    return OCTET * (local / OCTET * all + first) + local % OCTET;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn p2g_gather(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let thread = octet_index(group, lane, color_marches());
+    let thread = spread_index(group, lane, color_marches());
     let across = columns_across();
     let wide = columns_of_color();
     let column = 3u * vec2u(thread % wide.x, (thread / wide.x) % wide.y) + color.xy;

@@ -60,7 +60,7 @@ fn parting_surplus(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let least = least_around(v);
     var asked = 0.0;
     let most = max(pressure[slot], pressure[interface_index(slot)]);
-    for (var turn = 0u; turn < u32(least >= 0.0 && most > 2.0 * least); turn++) { asked = surplus(v); }
+    for (var turn = 0u; turn < when(least >= 0.0 && most > 2.0 * least); turn++) { asked = surplus(v); }
     if asked > most_asked() { atomicAdd(&control.limited, 1u); }
     pressure[surplus_index(slot)] = asked;
 }

@@ -150,7 +150,7 @@ fn coarse_up(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
         let b = select(Z, Y, grid.halves.x * grid.halves.y == 1u);
         let lower = keep * square(grid, v, a, b, 1.0);
         add_square(fine, first, a, b, lower);
-        for (var turn = 0u; turn < u32(DIM > 2u && space == 0u); turn++) {
+        for (var turn = 0u; turn < when(DIM > 2u && space == 0u); turn++) {
             let upper = keep * square(grid, moved(v, beyond(grid, v), Z), a, b, 1.0);
             add_square(fine, first + Z, a, b, 0.5 * (lower + upper));
         }

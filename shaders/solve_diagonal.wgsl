@@ -173,8 +173,8 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     let apart = interface_index(slot) != slot;
     var squares: Squares;
     if SWEEP == OVER_LISTED { squares = mixed_squares(v, apart, select(corner_count(), 0u, regular || deep)); }
-    for (var turn = 0u; turn < u32(regular); turn++) { squares.own = regular_square(v); }
-    for (var turn = 0u; turn < u32(deep); turn++) { squares.own = wide_square(v, SOLID_NODE, true); }
+    for (var turn = 0u; turn < when(regular); turn++) { squares.own = regular_square(v); }
+    for (var turn = 0u; turn < when(deep); turn++) { squares.own = wide_square(v, SOLID_NODE, true); }
     inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);
     if apart {
         // where h has a row, the preconditioner of the surface stands in for the diagonal

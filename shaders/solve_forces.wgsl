@@ -123,7 +123,7 @@ fn unknowns_at(first: vec3i) -> Unknowns {
     if !SOLIDS { return line; }
     let place = vec4u(extra[at.x], extra[at.y], extra[at.z], extra[at.w]);
     let apart = place != vec4u(NO_EXTRA);
-    for (var turn = 0u; turn < u32(any(apart)); turn++) {
+    for (var turn = 0u; turn < when(any(apart)); turn++) {
         let h = select(at, apart_h(0u) + place, apart);
         let q = select(at, apart_q(0u) + place, apart);
         line.h = vec4f(x[h.x], x[h.y], x[h.z], x[h.w]);
@@ -198,7 +198,7 @@ fn mixed_force(c: vec3i, count: u32) -> Forces {
             let by_gas = near && any(gas != vec4u(0u));
             let line = vec3i(-1, y, z);
             let unknowns = unknowns_at(c + line);
-            for (var turn = 0u; turn < u32(by_gas); turn++) {
+            for (var turn = 0u; turn < when(by_gas); turn++) {
                 forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), c, line, unknowns.gas, unknowns.h, false);
             }
             if SOLIDS { forces.solid += line_force(solid, gas, vec4u(0u), c, line, unknowns.solid, unknowns.h, true); }
@@ -209,7 +209,7 @@ fn mixed_force(c: vec3i, count: u32) -> Forces {
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(spread_index(group, lane, swept_threads()));
+    let slot = swept_slot(thread_index(group, lane));
     if slot >= params.slots { return; }
     let word = cells[slot];
     let c = cell_of(slot);
@@ -228,10 +228,10 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     }
     let deep = SOLIDS && has(word, NODE_DEEP);
     var forces = mixed_force(c, select(0u, block_size(), is_mixed(word)));
-    for (var turn = 0u; turn < u32(regular); turn++) { forces.gas = regular_force(slot, c); }
+    for (var turn = 0u; turn < when(regular); turn++) { forces.gas = regular_force(slot, c); }
     if !BODIES_ONLY { work[part(GAS_NODE, slot)] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass); }
     if !SOLIDS || !has(word, NODE_SOLID) { return; }
-    for (var turn = 0u; turn < u32(deep); turn++) { forces.solid = wide_force(slot, c, true); }
+    for (var turn = 0u; turn < when(deep); turn++) { forces.solid = wide_force(slot, c, true); }
     let inverse = select(1.0 / inertia[slot], 0.0, DRIVEN && has(word, NODE_DRIVEN));
     work[part(SOLID_NODE, slot)] = vec4f(forces.solid * face_area() * inverse, inverse);
 }

@@ -107,7 +107,7 @@ fn coupling(v: vec3i, w: vec3i, kinds: u32) -> f32 {
         let push = faces_at(kinds, a);
         let other = faces_at(others, a);
         let meet = abs(w[a]) <= 1 && any(push != vec4f(0.0)) && any(other != vec4f(0.0));
-        for (var k = 0u; k < select(0u, 1u, meet); k++) {
+        for (var k = 0u; k < when(meet); k++) {
             sum += coupled(v, w, a, push, other, false) + coupled(v, w, a, push, other, true);
         }
     }
@@ -133,7 +133,7 @@ fn surface_rows(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
         let near = v + block_offset(k);
         let meets = in_ring(near) && extra[slot_of(near)] < params.surface_rows;
         var value = 0.0;
-        for (var once = 0u; once < u32(meets); once++) { value = coupling(v, near - v, kinds); }
+        for (var once = 0u; once < when(meets); once++) { value = coupling(v, near - v, kinds); }
         if k == before() { diagonal = value; } else { beside += abs(value); }
         if k < before() { rows[first + COUPLINGS + k] = value; }
     }
@@ -186,7 +186,7 @@ fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
         var step = given * inverse / middle;
         var result = 0.0;
         var left = given;
-        for (var once = 0u; once < u32(turn.number > 0u); once++) {
+        for (var once = 0u; once < when(turn.number > 0u); once++) {
             let old = rows[first + then];
             result = rows[first + RESULT] + old;
             left = rows[first + RESIDUAL] - image_at(first, then);

@@ -21,7 +21,7 @@ fn face_pressure(c: vec3i, n: u32, up: bool, beyond: u32) -> f32 {
     if QUADRATIC && between_gas && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
     if CUT { return open_part_pressure(c, n, up); }
     var at = face_vertices(low, n);
-    for (var turn = 0u; turn < u32(SOLIDS && beyond == SOLID); turn++) { at = interface_indices(at); }
+    for (var turn = 0u; turn < when(SOLIDS && beyond == SOLID); turn++) { at = interface_indices(at); }
     return mean2(mean2(pressure[at.x], pressure[at.y]), mean2(pressure[at.z], pressure[at.w]));
 }
 

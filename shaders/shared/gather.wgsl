@@ -100,7 +100,7 @@ fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, nodes: u32, quadratic:
         let z = step_at(gas_entries_of_vertex(2u, quadratic, v.z), k);
         for (var j = first.y; j <= last.y; j++) {
             let y = step_at(gas_entries_of_vertex(1u, quadratic, v.y), j);
-            for (var turn = 0u; turn < u32(touches(own, j, k)); turn++) {
+            for (var turn = 0u; turn < when(touches(own, j, k)); turn++) {
                 let at = v - vec3i(0, j, k);
                 let b = velocity_at(nodes, at);
                 let c = velocity_at(nodes, at - vec3i(1, 0, 0));
@@ -139,7 +139,7 @@ fn gather_rows(slot: u32, word: u32) -> Rows {
     var rows: Rows;
     let v = cell_of(slot);
     let regular = SWEEP != OVER_LISTED || has(word, VERTEX_REGULAR);
-    for (var turn = 0u; turn < u32(regular); turn++) { rows.own = regular_rows(slot, v); }
+    for (var turn = 0u; turn < when(regular); turn++) { rows.own = regular_rows(slot, v); }
     if SWEEP != OVER_LISTED { return rows; }
     if CUT {
         if has(word, VERTEX_GAS) && !regular { rows.own = cut_rows(v); }
@@ -147,7 +147,7 @@ fn gather_rows(slot: u32, word: u32) -> Rows {
     }
     let deep = SOLIDS && has(word, VERTEX_DEEP);
     let mixed = has(word, VERTEX_GAS | VERTEX_SOLID) && !regular && !deep;
-    for (var turn = 0u; turn < u32(deep); turn++) { rows.own = wide_rows(slot, v, SOLID_NODE, true); }
+    for (var turn = 0u; turn < when(deep); turn++) { rows.own = wide_rows(slot, v, SOLID_NODE, true); }
     let kinds = kinds_beside(v, select(0u, corner_count(), mixed));
     let gas = mixed_rows(v, kinds.gas, kinds.solid, kinds.closed, GAS_NODE, QUADRATIC);
     rows.own += gas.x;

@@ -9,21 +9,7 @@ fn thread_index(workgroup: vec3u, local: u32) -> u32 { return group_index(workgr
 
 fn groups_of(threads: u32) -> u32 { return (threads + WORKGROUP - 1u) / WORKGROUP; }
 
-// The same for work that lies close together, in one part of the domain or of a list: neighbouring workgroups take it from everywhere.
-// A software driver gives each of its threads as many workgroups in a row, and one of them would get most of the work.
-fn spread_index(workgroup: vec3u, local: u32, threads: u32) -> u32 {
-    let first = group_index(workgroup);
-    let all = max(groups_of(threads), 1u);
-    return select(first * STRIDE % all, first, first >= all || all % STRIDE == 0u) * WORKGROUP + local;
-}
-
-// A prime: every workgroup has its turn where their number is no multiple of it.
-const STRIDE = 97u;
-
-// The same with octets of threads, which run in step on a CPU, in place of workgroups.
-fn octet_index(workgroup: vec3u, local: u32, threads: u32) -> u32 {
-    let first = group_index(workgroup);
-    let all = groups_of(threads);
-    if first >= all { return first * WORKGROUP + local; }
-    return OCTET * (local / OCTET * all + first) + local % OCTET;
-}
+// Turns of a loop that stands for a condition: `for (var turn = 0u; turn < when(condition); turn++)`. On a CPU the threads of an octet run in
+// step and compute both sides of an `if`, but skip a loop that none of them enters. In bodies' kernels that is worth a quarter of a step and
+// more (docs/notes/software_kernels.md). Not measured on a GPU.
+fn when(condition: bool) -> u32 { return u32(condition); }
