@@ -8,7 +8,7 @@ use serde_json::json;
 use super::args::{Cli, ConvertOptions};
 use super::interrupt;
 use super::progress::clock;
-use super::render::{Recorded, read_report};
+use super::render::{Recorded, belongs, read_report};
 use crate::export::{self, Moment, Needs, Origin, checkpoint, states};
 use crate::scene::{MOST_PARTICLES, Scene};
 use crate::state::{Grid, MemoryPlan};
@@ -53,9 +53,7 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
             return Err(Error::Interrupted);
         }
         let (hash, stored) = states::read(path, most)?;
-        if hash != scene_hash || !stored.fits(&grid) {
-            return Err(Error::Usage(format!("{} is a state of another scene than report.json", path.display())));
-        }
+        belongs(path, (&hash, &scene_hash), &stored, &grid)?;
         let snapshot = states::snapshot(stored, grid, scene.gas.gamma);
         let (time, step) = (snapshot.time, snapshot.step);
         let snapshot = Some(&snapshot);

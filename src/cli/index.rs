@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::export::{Origin, atomic, checkpoint};
+use crate::export::{Origin, atomic, checkpoint, report};
 use crate::{Error, Result, input};
 
 /// Name of the file.
@@ -28,6 +28,13 @@ pub(super) struct Index {
     checkpoints: Vec<Left>,
 }
 
+/// Which form an index has, and which program wrote it.
+#[derive(Debug, Default, Deserialize)]
+struct Written {
+    version: u32,
+    program: String,
+}
+
 /// A frame.
 #[derive(Debug, Serialize, Deserialize)]
 struct Moment {
@@ -48,18 +55,26 @@ struct Left {
 
 impl Index {
     /// Of a run of which the first `frames` frames are there.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if a later program wrote the index of those frames.
     pub(super) fn begin(
         folder: &Path,
         origin: &Origin,
         (formats, tables): (&[String], Vec<String>),
         frames: u32,
-    ) -> Self {
-        let text = input::text(&folder.join(NAME), input::MOST_REPORT).ok();
+    ) -> Result<Self> {
+        let path = folder.join(NAME);
+        let text = input::text(&path, input::MOST_REPORT).ok().filter(|_| frames > 0);
+        let written: Option<Written> = text.as_ref().and_then(|text| serde_json::from_str(text).ok());
+        if let Some(written) = written {
+            report::known_form(&path, written.version, VERSION, &written.program)?;
+        }
         let mut before: Self = text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
         before.frames.retain(|moment| moment.frame < frames);
         before.checkpoints.retain(|left| frames > 0 && folder.join(&left.file).is_file());
         let source = origin.source.clone();
-        Self {
+        Ok(Self {
             version: VERSION,
             program: source.program,
             device: source.device,
@@ -69,7 +84,7 @@ impl Index {
             formats: formats.to_vec(),
             tables,
             ..before
-        }
+        })
     }
 
     /// Adds a frame at a time \[s\] after so many steps.

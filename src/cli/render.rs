@@ -12,7 +12,7 @@ use super::progress::clock;
 use super::run::{PICTURES, without_coarse};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device};
-use crate::export::{self, states};
+use crate::export::{self, report, states};
 use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
 use crate::scene::{MOST_PARTICLES, Overlays, Scene, Shot};
@@ -22,6 +22,15 @@ use crate::{Error, Result, input};
 
 /// Name of the scene's own look among the views.
 const MAIN: &str = "main";
+
+/// Which form a report has, and who wrote it.
+#[derive(Deserialize)]
+struct Formed {
+    #[serde(default)]
+    form: u32,
+    #[serde(default)]
+    version: String,
+}
 
 /// What is needed of a run's report.
 #[derive(Deserialize)]
@@ -96,6 +105,22 @@ fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli)
     Ok(())
 }
 
+/// Refuses a state that is none of the scene of a report, or is not whole.
+///
+/// # Errors
+/// [`Error::Usage`] with the file, and the array that is wrong.
+pub(super) fn belongs(path: &Path, (hash, scene): (&str, &str), stored: &Stored, grid: &Grid) -> Result<()> {
+    let why = match (stored.wrong_length(grid), hash == scene) {
+        (_, false) => "it is a state of another scene than report.json".to_owned(),
+        (Some(name), _) => format!("array `{name}` has a wrong length: its scene has {} slots", grid.slots()),
+        (None, _) => match stored.not_finite() {
+            Some(name) => format!("array `{name}` holds numbers that are not finite"),
+            None => return Ok(()),
+        },
+    };
+    Err(Error::Usage(format!("{}: {why}", path.display())))
+}
+
 /// Reads the report of a run.
 ///
 /// # Errors
@@ -111,8 +136,12 @@ pub(super) fn read_report(run: &Path, outside: bool) -> Result<Recorded> {
         }
         _ => Error::io(&path, source),
     })?;
-    serde_json::from_str(&text)
-        .map_err(|error| Error::Usage(format!("{}: {error}; run the scene again with this program", path.display())))
+    let wrong = |error: serde_json::Error| {
+        Error::Usage(format!("{}: {error}; run the scene again with this program", path.display()))
+    };
+    let Formed { form, version } = serde_json::from_str(&text).map_err(wrong)?;
+    report::known_form(&path, form, report::FORM, &version)?;
+    serde_json::from_str(&text).map_err(wrong)
 }
 
 /// The scene of the run with the look that the options ask for.
@@ -225,9 +254,7 @@ impl Drawing {
     fn draw(&mut self, index: u32, path: &Path) -> Result<FrameToWrite> {
         let grid = Grid::of(&self.scene.domain);
         let (hash, stored) = states::read(path, states::most_bytes(grid.slots() as u64, self.particles))?;
-        if hash != self.hash || !stored.fits(&grid) {
-            return Err(Error::Usage(format!("{} is a state of another scene than report.json", path.display())));
-        }
+        belongs(path, (&hash, &self.hash), &stored, &grid)?;
         let map = self.shots.iter().flat_map(|shot| &shot.fields).find(|field| field.is_map());
         if let Some(map) = map.filter(|_| stored.maps.is_empty()) {
             let (path, name) = (path.display(), map.keyword());

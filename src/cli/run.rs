@@ -9,7 +9,7 @@ mod reporting;
 use std::time::{Duration, Instant};
 
 use super::args::{Cli, RunOptions};
-use super::check::{lost_text, overlap_text};
+use super::check::{lost_text, overlap_text, size};
 use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
@@ -116,7 +116,7 @@ fn files(beginning: &Beginning, gpu: &Gpu, folder: &Folder) -> Files {
 }
 
 /// Tells what is about to run.
-fn announce(scene: &Scene, plan: &MemoryPlan, gpu: &Gpu) {
+fn announce(scene: &Scene, plan: &MemoryPlan, gpu: &Gpu, formats: &[String]) {
     let cells = scene.domain.cells.map(|n| n.to_string())[..scene.domain.axes()].join(" x ");
     for overlap in scene.overlaps() {
         tell!("warning: {}", overlap_text(&overlap));
@@ -125,6 +125,11 @@ fn announce(scene: &Scene, plan: &MemoryPlan, gpu: &Gpu) {
         tell!("warning: {}", lost_text(&lost));
     }
     tell!("{}: {cells} cells, {} particles, on {}", scene.title, plan.particles, gpu.info.name);
+    let formats: Vec<&str> = formats.iter().map(String::as_str).collect();
+    let particles = plan.particles as usize;
+    let disk = scene.disk_bytes((particles, scene.estimate(particles).steps), &formats);
+    let checkpoint = size(plan.bytes(None));
+    tell!("writes about {}; a checkpoint has at most {checkpoint} before compression", size(disk as u64));
 }
 
 /// Options that are keys of the scene.
@@ -193,9 +198,10 @@ impl<'a> Run<'a> {
         let (place, pictures) = (beginning.place.clone(), !options.no_frames || files.video.is_some());
         let mut needs = files.needs()?;
         needs.snapshot |= !scene.bodies.is_empty();
+        let formats = files.formats.clone();
         let writer = Writer::start(files, &scene);
         if !options.quiet {
-            announce(&scene, plan, gpu);
+            announce(&scene, plan, gpu, &formats);
         }
         let simulation = beginning.simulation(gpu, plan)?;
         let about = beginning.from.as_ref().map(|from| &from.about);

@@ -13,6 +13,8 @@ use crate::{Error, Result};
 
 /// Name of the file.
 pub const REPORT: &str = "report.json";
+/// Version of its form: it grows when a reader of the form before would go wrong. A report that names none has the first one.
+pub const FORM: u32 = 1;
 
 /// The device a run used.
 #[derive(Debug, Clone, Serialize)]
@@ -52,6 +54,8 @@ pub enum Status {
 /// Contents of report.json. `S` is the scene with its defaults filled in.
 #[derive(Debug, Clone, Serialize)]
 pub struct Report<S> {
+    /// [`FORM`].
+    pub form: u32,
     /// Version of Brisance.
     pub version: &'static str,
     /// How far it came.
@@ -96,6 +100,19 @@ pub struct Report<S> {
     pub scene_file: String,
     /// The scene as it was run.
     pub scene: S,
+}
+
+/// Refuses a file that a later program wrote in a form beyond the one that is known.
+///
+/// # Errors
+/// [`Error::Usage`] with the file, its program and both forms.
+pub fn known_form(path: &Path, form: u32, known: u32, program: &str) -> Result<()> {
+    if form <= known {
+        return Ok(());
+    }
+    let this = env!("CARGO_PKG_VERSION");
+    let text = format!("brisance {program} wrote it in form {form}; this is {this}, which reads forms up to {known}");
+    Err(Error::Usage(format!("{}: {text}: take a newer program", path.display())))
 }
 
 /// Writes any report as indented JSON. On a full disk it takes the place of the earlier one, in one line, which is shorter.

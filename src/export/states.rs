@@ -160,6 +160,9 @@ fn stored(mut contents: Contents) -> std::result::Result<Stored, String> {
             stress: take(&mut contents, "stress")?,
         })
     };
+    if let Some(array) = contents.arrays.first().filter(|_| contents.head.form == Form::Fields) {
+        return Err(format!("array `{}` is none of a state", array.name));
+    }
     Ok(Stored { time: contents.head.time, step: contents.head.step, conserved, energy, owed, maps, kind, particles })
 }
 

@@ -131,15 +131,40 @@ impl Stored {
     /// Whether all arrays have the lengths that belong to a grid.
     #[must_use]
     pub fn fits(&self, grid: &Grid) -> bool {
+        self.wrong_length(grid).is_none()
+    }
+
+    /// The array whose length does not belong to a grid.
+    #[must_use]
+    pub fn wrong_length(&self, grid: &Grid) -> Option<&'static str> {
         let slots = grid.slots();
-        let cells = [self.conserved.len(), self.energy.len(), self.kind.len()];
-        let particles = self.particles.as_ref().is_none_or(|own| {
+        let cells = [("conserved", self.conserved.len()), ("energy", self.energy.len()), ("kind", self.kind.len())];
+        let books = [("owed", self.owed.len()), ("maps", self.maps.len())];
+        let particles = self.particles.as_ref().and_then(|own| {
             let count = own.position.len();
-            own.arrays().iter().zip(ROWS).all(|((_, array), rows)| array.len() == rows * count)
+            let mut arrays = own.arrays().into_iter().zip(ROWS);
+            arrays.find(|((_, array), rows)| array.len() != rows * count).map(|((name, _), _)| name)
         });
-        cells == [slots; 3]
-            && [self.owed.len(), self.maps.len()].iter().all(|len| [0, slots].contains(len))
-            && particles
+        let cells = cells.iter().find(|(_, len)| *len != slots);
+        let books = books.iter().find(|(_, len)| ![0, slots].contains(len));
+        cells.or(books).map(|(name, _)| *name).or(particles)
+    }
+
+    /// The array that holds something else than finite numbers where it has meaning: in gas, at particles.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<&'static str> {
+        let finite = |row: &[f32; 4]| row.iter().all(|value| value.is_finite());
+        let gas = |slot: usize| self.kind[slot] == kind::GAS;
+        let particles = self.particles.as_ref();
+        let rows =
+            |rows: fn(&StoredParticles) -> &Vec<[f32; 4]>| particles.is_none_or(|own| rows(own).iter().all(finite));
+        let checks = [
+            ("conserved", (0..self.kind.len()).all(|slot| !gas(slot) || finite(&self.conserved[slot]))),
+            ("energy", (0..self.kind.len()).all(|slot| !gas(slot) || self.energy[slot].is_finite())),
+            ("position", rows(|own| &own.position)),
+            ("velocity", rows(|own| &own.velocity)),
+        ];
+        checks.iter().find(|(_, finite)| !finite).map(|(name, _)| *name)
     }
 }
 

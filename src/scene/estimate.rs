@@ -89,16 +89,22 @@ impl Scene {
         let step = time.fixed_step.unwrap_or(free.min(strained));
         let substeps = if implicit { 1.0 } else { (step / substep).ceil().max(1.0) };
         let implicit_cap = if implicit && time.fixed_step.is_none() { (free / strained).max(1.0) } else { 1.0 };
-        let frames = f64::from(time.frames) + 1.0;
+        let steps = time.until / step;
+        let formats: Vec<&str> = ["png"].into_iter().chain(self.output.formats()).collect();
+        let disk_bytes = self.disk_bytes((particles, steps), &formats);
+        Estimate { gas_sound_speed: sound, solid_sound_speed: solid, step, steps, substeps, implicit_cap, disk_bytes }
+    }
+    /// Bytes that a run of so many particles and steps writes in some formats, about, beside checkpoints.
+    #[must_use]
+    pub fn disk_bytes(&self, (particles, steps): (usize, f64), formats: &[&str]) -> f64 {
+        let frames = f64::from(self.time.frames) + 1.0;
         let pixels = f64::from(self.render.size[0]) * f64::from(self.render.size[1]);
         let pictures = (1 + self.render.views.len()) as f64 * self.output.fields.len().max(1) as f64;
-        let formats = f64::from(u8::from(self.output.vtk)) + f64::from(u8::from(self.output.states));
-        let stored = formats * (CELL * self.domain.cell_count() as f64 + PARTICLE * particles as f64);
-        let steps = time.until / step;
-        let share = |on: bool, bytes: f64| if on { bytes } else { 0.0 };
-        let pixel = 3.0 * PNG + share(self.output.png16, PNG16) + share(self.output.exr, EXR);
+        let share = |name: &str, bytes: f64| if formats.contains(&name) { bytes } else { 0.0 };
+        let pixel = share("png", 3.0 * PNG) + share("png16", PNG16) + share("exr", EXR);
+        let states = formats.iter().filter(|name| !["png", "png16", "exr"].contains(*name)).count();
+        let stored = states as f64 * (CELL * self.domain.cell_count() as f64 + PARTICLE * particles as f64);
         // one row of the table of steps has about 600 bytes
-        let disk_bytes = frames * (pixel * pixels * pictures + stored) + 600.0 * steps;
-        Estimate { gas_sound_speed: sound, solid_sound_speed: solid, step, steps, substeps, implicit_cap, disk_bytes }
+        frames * (pixel * pixels * pictures + stored) + 600.0 * steps
     }
 }

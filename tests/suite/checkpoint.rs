@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use brisance::export::container::{self, Array, Form, Source};
 use brisance::gpu::Gpu;
 use brisance::scene::Scene;
 use brisance::simulation::{Saved, SavedArray, Simulation};
@@ -238,4 +239,73 @@ fn an_interrupted_run_leaves_a_checkpoint() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let rows = std::fs::read_to_string(out.join("diagnostics.csv")).unwrap().lines().count() - 1;
     assert!(out.join(format!("checkpoints/{rows:08}.npz")).exists(), "of the last step, {rows}");
+}
+
+#[test]
+fn what_a_later_program_wrote_is_refused_and_what_the_first_wrote_is_read() {
+    if gpu_or_skip().is_none() {
+        return;
+    }
+    let place = tempfile::tempdir().unwrap();
+    let run = place.path().join("run");
+    let out = run.display().to_string();
+    let asked = ["--until", "0.02", "--frames", "1", "--no-frames", "--export", "states", "--checkpoint", "t=0.01"];
+    succeeds(&[&SHORT[..], &asked, &["--out", &out]].concat());
+    let convert = ["convert", &out, "--to", "npz", "-q"];
+    let swap = |name: &str, one: &str, other: &str| {
+        let text = std::fs::read_to_string(run.join(name)).unwrap();
+        assert!(text.contains(one), "{name}: {text}");
+        std::fs::write(run.join(name), text.replacen(one, other, 1)).unwrap();
+    };
+    swap("report.json", "\"form\": 1,", "\"form\": 2,");
+    for verb in [&convert[..], &["render", &out]] {
+        let told = fails(2, verb);
+        assert!(told.contains("report.json") && told.contains("in form 2") && told.contains("newer program"), "{told}");
+    }
+    swap("report.json", "\"form\": 2,", "");
+    succeeds(&convert);
+    spoiled_states_are_refused(&run, &convert);
+    swap("run.json", "\"version\": 1,", "\"version\": 2,");
+    let told = fails(2, &["run", "--resume", &out, "-q"]);
+    assert!(told.contains("run.json") && told.contains("in form 2"), "{told}");
+    swap("run.json", "\"version\": 2,", "\"version\": 1,");
+    succeeds(&["run", "--resume", &out, "-q", "--no-expect"]);
+}
+
+/// Changes the arrays of a state.
+type Spoil<'a> = &'a dyn Fn(&mut Vec<Array>);
+
+/// A state with an array too many, one cut, one with NaN.
+fn spoiled_states_are_refused(run: &Path, convert: &[&str]) {
+    let path = run.join("states/0001.npz");
+    let good = std::fs::read(&path).unwrap();
+    let one_more = |arrays: &mut Vec<Array>| {
+        let other = Array { name: "banana".to_owned(), ..energy(arrays).clone() };
+        arrays.push(other);
+    };
+    let cut = |arrays: &mut Vec<Array>| {
+        let array = energy(arrays);
+        array.bytes.truncate(12);
+        array.shape = vec![3];
+    };
+    let spoilt: [(Spoil, &str); 3] = [
+        (&one_more, "`banana` is none of a state"),
+        (&cut, "`energy` has a wrong length"),
+        (&|arrays| energy(arrays).bytes.fill(0xff), "`energy` holds numbers that are not finite"),
+    ];
+    for (spoil, told) in spoilt {
+        let mut state = container::read(&path, 1 << 20).unwrap();
+        spoil(&mut state.arrays);
+        let head = &state.head;
+        let source = Source { scene: state.texts[container::SCENE].clone(), ..head.source.clone() };
+        container::write(&path, (Form::Fields, &source), (head.time, head.step), &[], &state.arrays).unwrap();
+        let code = if told.contains("none of") { 9 } else { 2 };
+        let text = fails(code, convert);
+        assert!(text.contains(told) && text.contains("0001.npz"), "{text}");
+        std::fs::write(&path, &good).unwrap();
+    }
+}
+
+fn energy(arrays: &mut [Array]) -> &mut Array {
+    arrays.iter_mut().find(|array| array.name == "energy").unwrap()
 }

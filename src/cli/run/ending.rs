@@ -108,6 +108,7 @@ impl Run<'_> {
             ("writer", written.busy),
         ];
         let report = Report {
+            form: report::FORM,
             version: env!("CARGO_PKG_VERSION"),
             status,
             outcome: outcome.to_owned(),

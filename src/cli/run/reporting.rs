@@ -31,6 +31,7 @@ impl Setup<'_> {
         let Self { beginning, gpu, plan, start } = self;
         let (time, steps, frames) = beginning.come_to();
         let report = Report {
+            form: report::FORM,
             version: env!("CARGO_PKG_VERSION"),
             status,
             outcome: outcome.to_owned(),
