@@ -208,7 +208,7 @@ fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     let thread = thread_index(group, lane);
     let first = swept_slot(thread);
     if first >= params.slots { return; }
-    let moving = moving_rows(thread, SOLVED);
+    let moving = moving_rows(thread, CUT || SOLVED);
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
         if slot < params.slots && (k < moving.x || k >= moving.y) { node[slot] = vec4f(0.0); }

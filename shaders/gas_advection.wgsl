@@ -1,7 +1,7 @@
 // gas_advection: where does the gas carry itself?
 // Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
 // TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
-// ARS: one stage before the first of two solves, two before the second, see shared/ars.wgsl.
+// ARS: one stage before the first of two solves, two before the second, see shared/ars.wgsl. The method: docs/method/gas_advection.md.
 // Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
 #include "shared/index.wgsl"
@@ -37,13 +37,14 @@ fn source(slot: u32) -> Gas {
     return Gas(in_space(conserved[slot]), energy[slot]);
 }
 
+// `share`: of the high-order flux that the cells of the face allow; below 0 no high-order part, and 1 + share of the first-order flux.
 // `sign`: 1 into the cell, -1 out of it; times the open share of the face.
-fn add_face(change: ptr<function, Change>, f: Fluxes, part: f32, sign: f32) {
+fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
     let scale = sign * stage_span() / params.spacing;
-    let blend = max(part, 0.0);
-    let drain = 1.0 + min(part, 0.0);
-    let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, part == 1.0);
-    let heat = select(drain * (f.low.energy + blend * (f.high.energy - f.low.energy)), f.high.energy, part == 1.0);
+    let blend = max(share, 0.0);
+    let drain = 1.0 + min(share, 0.0);
+    let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, share == 1.0);
+    let heat = select(drain * (f.low.energy + blend * (f.high.energy - f.low.energy)), f.high.energy, share == 1.0);
     var implicit = 0.0;
     if ARS {
         // The solve carries this part, over its own share of the step.
@@ -174,7 +175,7 @@ fn finish(slot: u32, here: Gas, change: Change) {
     write_result(slot, before, change);
 }
 
-// Whether nothing passes through the faces of a slot. Clusters of cut cells reach further, and the second of two solves starts from
+// Whether nothing passes through the faces of a slot: its state is then the same in all Runge-Kutta stages. Clusters of cut cells reach further, and the second of two solves starts from
 // what the first has moved.
 fn stays(slot: u32) -> bool { return !CUT && !(ARS && STAGE > 0u) && is_still(slot); }
 
@@ -207,7 +208,8 @@ fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     for (var turn = 0u; turn < when(!still && !beyond); turn++) { finish(slot, source(slot), change_of(slot, false)); }
 }
 
-// A column of params.march slots along the last axis: each state there is read once, each face computed once.
+// A column of params.march slots along the last axis: each state there is read once, each face computed once. Slots that are not INTERIOR
+// lie in columns, too: what is written there is overwritten by advect_listed, which runs afterwards.
 @compute @workgroup_size(WORKGROUP)
 fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let n = DIM - 1u;
@@ -216,7 +218,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let first = swept_slot(thread);
     let last = params.slots - 1u;
     if first > last { return; }
-    let moving = moving_rows(thread, ARS && STAGE > 0u);
+    let moving = moving_rows(thread, CUT || (ARS && STAGE > 0u));
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
         if slot <= last && (k < moving.x || k >= moving.y) { stay(slot); }

@@ -179,7 +179,7 @@ impl Simulation {
         } else {
             self.record_pressure(pass, Phase::Begin);
             self.time_step.record_second(pass); // [Ascher, Ruuth & Spiteri 1997; Wicker & Skamarock 2002]
-            self.gas_advection.record(pass, state, &self.time_step, 1, Phase::Second); // the carrier is that of the last power
+            self.gas_advection.record(pass, state, &self.time_step, 1, Phase::Second); // with the carrier that `fluid_update` left of the solved state
             self.record_advection(pass, 2, Carried::Middle, Phase::Second);
             self.record_pressure(pass, Phase::Second);
         }

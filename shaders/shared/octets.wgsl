@@ -3,12 +3,12 @@
 // as many further as there are octets of lanes. The elements stand in rows; the last octet of a row may be partly empty.
 
 struct Octet {
-    at: vec2u,      // place in its row, row
+    at: vec2u,      // its number in the row, and the number of the row
     step: vec2u,    // from one to the next
     across: u32,    // octets of a row
 }
 
-// The first octet of a thread, of so many groups of threads.
+// The first octet of a thread, of so many groups of threads; `row`: elements of a row.
 fn first_octet(thread: u32, groups: u32, row: u32) -> Octet {
     let across = (row + OCTET - 1u) / OCTET;
     let own = thread / OCTET;

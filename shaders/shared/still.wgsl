@@ -1,4 +1,4 @@
-// Rows of the blocks of columns, as still.wgsl marks them. The binding extra holds a word per block: bit k tells that gas moves near row k
+// Rows of the blocks of columns, as still.wgsl marks them: row k of a block is its STILL_BLOCK slots at place k of the march. The binding extra holds a word per block: bit k tells that gas moves near row k
 // before the solve.
 #include "shared/blocks.wgsl"
 

@@ -1,6 +1,7 @@
 // Which slot has a thread? A kernel over slots is compiled once for each kind of slots that it goes over: deep inside the gas (INTERIOR), where
-// every stencil is the same, and over the list of all others. So no thread waits for a neighbour's special case. Kernels whose results
-// only listed slots read go over the frontier in place of the interior: slots deep inside the gas whose nodes listed vertices rest on.
+// every stencil is the same, and over the list of the others, without those that periodic sides repeat. So no thread waits for a
+// neighbour's special case. Kernels whose results only listed slots read go over the frontier in place of the interior: slots deep inside
+// the gas whose nodes listed vertices rest on. Marches pass columns of slots of every kind: their kernels ask for INTERIOR themselves.
 // src/stage/sweep.rs binds the forms. Needs the bindings cells and extra.
 #include "shared/arrays.wgsl"
 #include "shared/blocks.wgsl"

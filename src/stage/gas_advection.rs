@@ -1,5 +1,5 @@
 //! `gas_advection`: where does the gas carry itself? WENO with local Lax-Friedrichs splitting, TVD-RK2 or, with two solves, three stages; conservative limiter.
-//! [Cao et al. 2022, eqs. 10-12]
+//! [Cao et al. 2022, eqs. 10-12] Marches come first: what they write into listed slots is overwritten.
 
 use super::TimeStep;
 use super::sweep::Form;

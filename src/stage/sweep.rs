@@ -27,7 +27,7 @@ impl Form {
         Ok(Self { kernel: if over == Over::Listed { kernel.in_form("listed") } else { kernel }, over })
     }
 
-    /// The form over all slots that are not deep inside the gas.
+    /// The form over the list.
     pub(super) fn listed(state: &State, shader: &str, entry: &str) -> Result<Self> {
         Self::new(state, Over::Listed, [shader, entry], &[], &[])
     }
@@ -38,7 +38,8 @@ impl Form {
     }
 }
 
-/// A kernel over all slots that have something to do: plain deep inside the gas, where every stencil is the same, and listed over all others.
+/// A kernel in two forms: plain, as a rule over the slots deep inside the gas, where every stencil is the same, and over the list of the
+/// others.
 #[derive(Clone, Debug)]
 pub(super) struct Sweep {
     pub(super) plain: Form,

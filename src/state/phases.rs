@@ -38,13 +38,13 @@ numbers! {
 }
 
 numbers! {
-    /// What the threads of a dispatch go over; of kernels with several forms also the override `SWEEP` (`shaders/shared/sweep.wgsl`).
+    /// What the threads of a dispatch go over, and the override `SWEEP` of kernels over slots (`shaders/shared/sweep.wgsl`).
     Over {
         /// One thread per slot.
         Slots,
         /// One thread per slot; those deep inside the gas have something to do.
         Interior,
-        /// One thread per slot that is not deep inside the gas.
+        /// One thread per slot that is not deep inside the gas, without those that periodic sides repeat.
         Listed,
         /// One thread per slot deep inside the gas whose node listed vertices rest on.
         Frontier,

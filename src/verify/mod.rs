@@ -1,7 +1,7 @@
 //! Verification: a registry of cases that run shipped scenes and compare them with numbers from elsewhere.
 //!
 //! A [`Case`] runs scenes through a [`Session`] and leaves rows and plots there. Adding one is a `Case` in the list of a
-//! module, or a new module with a list and its line in [`cases`]; rows on positivity and on the solver come by themselves.
+//! module, or a new module with a list and its line in [`cases()`]; rows on positivity and on the solver come by themselves.
 //!
 //! ```ignore
 //! Case { id: "wedge", title: "..", group: "2D gas", quick: true, source: "..", run: wedge }
