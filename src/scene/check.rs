@@ -133,7 +133,7 @@ impl Check<'_> {
 
     /// A vector that must be finite and vanish along inactive axes.
     pub(super) fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
-        let axes = self.scene.domain.axes().min(3);
+        let axes = self.scene.domain.axes();
         if vector.iter().any(|x| !x.is_finite()) {
             self.add(path, format!("{vector:?} is not finite"), "give finite numbers");
         } else if vector[axes..].iter().any(|x| *x != 0.0) {
@@ -235,7 +235,7 @@ impl Check<'_> {
             self.planar(&path, probe.position);
             let domain = &scene.domain;
             let within = |d: usize| (domain.origin[d]..=domain.origin[d] + domain.size[d]).contains(&probe.position[d]);
-            if !(0..domain.axes().min(3)).all(within) {
+            if !(0..domain.axes()).all(within) {
                 self.add(&path, format!("{:?} lies outside the domain", probe.position), check_shape::extent(domain));
             }
         }

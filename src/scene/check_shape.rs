@@ -201,7 +201,7 @@ pub(super) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
 /// The domain in words.
 pub(super) fn extent(domain: &Domain) -> String {
     let range = |d: usize| format!("{} to {}", domain.origin[d], domain.origin[d] + domain.size[d]);
-    let ranges = (0..domain.axes().min(3)).map(|d| format!("{} from {}", ["x", "y", "z"][d], range(d)));
+    let ranges = (0..domain.axes()).map(|d| format!("{} from {}", ["x", "y", "z"][d], range(d)));
     format!("the domain has {}", ranges.collect::<Vec<_>>().join(", "))
 }
 
@@ -212,7 +212,7 @@ fn place(shape: &Shape) -> [f64; 3] {
 
 /// What would make a thing fit that other programs wrote: thousandths, or a quarter turn, at its place or at another one.
 fn remedy(domain: &Domain, place: [f64; 3], low: [f64; 3], high: [f64; 3]) -> String {
-    let axes = domain.axes().min(3);
+    let axes = domain.axes();
     let inside = |low: [f64; 3], high: [f64; 3]| {
         (0..axes).all(|d| low[d] >= domain.origin[d] && high[d] <= domain.origin[d] + domain.size[d])
     };

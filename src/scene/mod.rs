@@ -260,10 +260,10 @@ impl Domain {
         self.size[0] / f64::from(self.cells[0])
     }
 
-    /// Number of active axes, as an index bound.
+    /// Number of active axes, as an index bound: at most 3, also of a scene whose `dimension` is refused.
     #[must_use]
     pub fn axes(&self) -> usize {
-        self.dimension as usize
+        self.dimension.min(3) as usize
     }
 
     /// Number of cells, without padding.

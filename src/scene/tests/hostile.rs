@@ -57,6 +57,7 @@ fn cells_particles_and_faces_are_counted() {
     let ball = body(BALL);
     expect(&ball, &["domain.cells=[60000, 30000]"], &["particles, about", "134217728"]);
     expect(&ball, &["domain.cells=[2000000000, 1000000000]"], &["domain.cells", "in all"]);
+    expect(&ball, &["domain.dimension=4294967295", "gravity=[0, -9.81]"], &["domain.dimension"]);
     let open = format!("{BASE}[boundary.y_min.patched]\npatches = [{{ shape = {BALL}, rule = \"outlet\" }}]\n");
     let open = open.replace("[20, 10]", "[300000000, 3]").replace("[2.0, 1.0]", "[300000000.0, 3.0]");
     expect(&open, &[], &["patches and remembered gas of all faces", "100000000"]);
