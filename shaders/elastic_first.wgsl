@@ -1,4 +1,4 @@
-// elastic_first: the elastic step before the pressure solve, `numerics.coupling = "last"`. V + dt f / M at the walls is what the solve starts
+// elastic_first: the elastic step before the pressure solve, `numerics.paper.coupling = "last"`. V + dt f / M at the walls is what the solve starts
 // from, and the solved velocity moves the particles. [Cao et al. 2022, section 2.8 and fig. 14]
 // Reads the elastic force of the present stress. Writes node velocity.
 #include "shared/index.wgsl"

@@ -84,7 +84,7 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     let booked = select(1.0, ARS_RETURNED, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
     atomicAdd(&control.floored, 1u);
     let left = flow.yzw * select(0.0, sqrt((total - least) / kinetic), total > least);
-    if LEDGER { book_loss(slot, (flow.yzw - left) * booked, min(total - least, 0.0) * booked); }
+    book_loss(slot, (flow.yzw - left) * booked, min(total - least, 0.0) * booked);
     energy[slot] = max(total, least);
     conserved[slot] = vec4f(flow.x, left);
 }

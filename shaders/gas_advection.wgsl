@@ -55,11 +55,9 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
     let through = scale * flow;
     (*change).high.flow += vec4f(whole(through.x, f.unit), through.yzw);
     (*change).high.energy += scale * (heat - implicit);
-    if LIMITER {
-        (*change).low.flow += scale * f.low.flow;
-        (*change).low.energy += scale * (f.low.energy - implicit);
-        add_excess(change, scale * (f.high.flow - f.low.flow), scale * (f.high.energy - f.low.energy));
-    }
+    (*change).low.flow += scale * f.low.flow;
+    (*change).low.energy += scale * (f.low.energy - implicit);
+    add_excess(change, scale * (f.high.flow - f.low.flow), scale * (f.high.energy - f.low.energy));
 }
 
 // dt L(U) of a slot inside the domain; of all cells that share its state together.
@@ -74,7 +72,7 @@ fn change_of(slot: u32, limited: bool) -> Change {
 fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool, gives: bool) {
     let c = cell_of(slot);
     let is_gas = kind_of(cells[slot]) == GAS;
-    if LIMITER && is_gas { (*change).velocity = velocity_of(source(slot).flow); }
+    if is_gas { (*change).velocity = velocity_of(source(slot).flow); }
     // Slots without gas around them, as deep inside a body, have nothing to do.
     let axes = select(0u, DIM, has(cells[slot], NODE_GAS));
     for (var n = 0u; n < axes; n++) {
@@ -166,12 +164,10 @@ fn write_result(slot: u32, before: Gas, all: Change) {
 
 fn finish(slot: u32, here: Gas, change: Change) {
     let before = start_of(slot, here);
-    if LIMITER {
-        var share = 1.0;
-        if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
-        theta[slot] = share;
-        if share < 1.0 { atomicAdd(&control.limited, 1u); }
-    }
+    var share = 1.0;
+    if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
+    theta[slot] = share;
+    if share < 1.0 { atomicAdd(&control.limited, 1u); }
     write_result(slot, before, change);
 }
 
@@ -180,7 +176,7 @@ fn finish(slot: u32, here: Gas, change: Change) {
 fn stays(slot: u32) -> bool { return !CUT && !(ARS && STAGE > 0u) && is_still(slot); }
 
 fn stay(slot: u32) {
-    if LIMITER { theta[slot] = 1.0; }
+    theta[slot] = 1.0;
     write_result(slot, Gas(in_space(conserved[slot]), energy[slot]), Change());
 }
 
@@ -200,7 +196,7 @@ fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     let beyond = !inside(c);
     let still = stays(slot);
     if beyond {
-        if LIMITER { theta[slot] = 1.0; }
+        theta[slot] = 1.0;
         if !is_served(c) { write_result(slot, start_of(slot, source(slot)), Change()); }
     } else if still {
         stay(slot);
@@ -245,7 +241,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
         let high = interior_fluxes(n, slot, stencil_inside(n, all_gas, low_image, known && ends_in_image(word, n, true), b, c, here, e, f, g));
         if known {
             var change: Change;
-            if LIMITER { change.velocity = velocity_of(here.flow); }
+            change.velocity = velocity_of(here.flow);
             var along = change;
             add_face(&along, low, 1.0, 1.0);
             add_face(&along, high, 1.0, -1.0);

@@ -38,7 +38,7 @@ fn interface_walls(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
 
 // Share of a face that the solid of a cell blocks, its volume taken as a ball. [eqs. after section 2.3]
 fn blocked_fraction(volume: f32) -> f32 {
-    if params.blending == 0u || DIM == 1u { return 1.0; }
+    if DIM == 1u { return 1.0; }
     let pi = 3.14159265;
     if DIM == 2u { return min(2.0 * sqrt(volume / pi) / params.spacing, 1.0); }
     return min(pi * pow(3.0 * volume / (4.0 * pi), 2.0 / 3.0) / (params.spacing * params.spacing), 1.0);

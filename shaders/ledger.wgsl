@@ -97,10 +97,8 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     let sum = fill_from_neighbours(c);
     var filled = Gas(sum.flow / max(sum.count, 1.0), sum.energy / max(sum.count, 1.0));
     if sum.count == 0.0 { filled = trapped_gas(c, slot); }
-    if LEDGER {
-        owed_flow[slot] += (conserved[slot] - filled.flow) * cell_volume();
-        owed_energy[slot] += (energy[slot] - filled.energy) * cell_volume();
-    }
+    owed_flow[slot] += (conserved[slot] - filled.flow) * cell_volume();
+    owed_energy[slot] += (energy[slot] - filled.energy) * cell_volume();
     conserved[slot] = filled.flow;
     energy[slot] = filled.energy;
 }

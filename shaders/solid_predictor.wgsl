@@ -55,7 +55,6 @@ fn gas_at(v: vec3i, n: u32, far: i32) -> u32 {
 
 fn nearest_gas(v: vec3i, n: u32) -> f32 {
     let slot = slot_of(v);
-    if !FILM_NEAREST { return ghost[slot]; }
     var far = 0;
     var found = u32(has(cells[slot], VERTEX_GAS));
     while found == 0u && far < FILM_REACH {

@@ -97,7 +97,7 @@ impl Simulation {
     fn build(gpu: &Gpu, scene: &Scene) -> Result<Simulation> {
         let state = State::new(gpu, scene)?;
         let solids = state.has_solids();
-        let transfer = Transfer::of(scene.numerics.transfer, gpu.settings);
+        let transfer = Transfer::of(scene.numerics.expert.transfer, gpu.settings);
         let coupled_solve = CoupledSolve::new(&state, scene)?;
         let simulation = Simulation {
             time_step: TimeStep::new(&state, scene, coupled_solve.pcg.control.raw())?,
@@ -107,7 +107,7 @@ impl Simulation {
             interface: InterfaceStage::new(&state)?,
             still: Still::new(&state)?,
             carrier: CarrierVelocity::new(&state, scene.consistent(), scene.solves())?,
-            gas_advection: GasAdvection::new(&state, scene.numerics.limiter, scene.solves())?,
+            gas_advection: GasAdvection::new(&state, scene.solves())?,
             intermediate_pressure: IntermediatePressure::new(&state)?,
             elastic_reaction: ElasticReaction::new(&state, scene)?,
             elastic_first: ElasticFirst::new(&state, scene)?,

@@ -8,10 +8,10 @@ fn means_of(a: u32, offset: i32) -> vec2f {
     return vec2f(mean_entry(true, offset, false), mean_entry(true, offset, true));
 }
 
-// Velocity of a node of a body after the solve; with MIDPOINT_POWER the mean of that and of the one that it came with, without its reaction
-// to the load [elastic_reaction.wgsl].
+// Velocity of a node of a body after the solve; the mean of that and of the one that it came with, without its reaction to the
+// load [elastic_reaction.wgsl]. With SHARED_VOLUME the solve starts from a predicted velocity, and the prediction is no motion.
 fn body_velocity(at: u32, n: u32) -> f32 {
-    return node[at][n] - select(1.0, 0.5, MIDPOINT_POWER) * control.dt * work[part(SOLID_NODE, at)][n];
+    return node[at][n] - select(0.5, 1.0, SHARED_VOLUME) * control.dt * work[part(SOLID_NODE, at)][n];
 }
 
 // Power through a face between gas and solid: what the solid receives.

@@ -72,7 +72,7 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     }
     out.unit = unit_between(s.c, s.d);
     out.heat = held * carried;
-    if LIMITER { out.low = sum_of(up, s.c, down, s.d); }
+    out.low = sum_of(up, s.c, down, s.d);
     return out;
 }
 
@@ -102,6 +102,6 @@ fn face_fluxes_of(n: u32, s: Stencil, held: f32) -> Fluxes {
     out.high = unpacked(flow, energy);
     out.unit = unit_between(s.c, s.d);
     if ARS { out.heat = held * (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x); }
-    if LIMITER { out.low = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy); }
+    out.low = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy);
     return out;
 }

@@ -9,12 +9,9 @@ override CONSISTENT: bool;      // gas is carried by what the solve sees of its 
 override CUT: bool;             // obstacles cut cells; gas only, B1B0
 override ARS: bool;             // two solves per step, see ars.wgsl
 override FOURTH: bool;          // sound of fourth order in space, see carrier.wgsl
-override LIMITER: bool;         // conservative flux limiter for positivity
-override LEDGER: bool;          // gas of covered cells is kept and given back
 override FRACTURE: bool;        // some material breaks, see fracture.wgsl
 override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed
 override FRICTION: bool;        // some body does not slip
-override MIDPOINT_POWER: bool;  // interface power with the mean of the old and the new solid velocity
 override LATE_FLUX: bool;       // half of what bodies gain in the solve carries gas, see late_flux.wgsl
 override IMPLICIT: bool;        // one elastic step by backward Euler instead of explicit sub-steps
 override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's volumetric part, which the law then lacks
@@ -22,7 +19,6 @@ override RULES_USED: u32;        // rules of open sides in the scene, as bits
 override PERIODIC: u32;          // axes whose ends meet, as bits
 override MIRRORED: u32;         // sides that are planes of symmetry: walls, as bits; gas only
 override JOINED: u32;           // open sides whose nodes go with the cells before them, as bits; B1B0 only
-override FILM_NEAREST: bool;    // gas film at walls carries the nearest gas pressure, else the ghost pressure
 override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE
 
 // Generated from src/state/params.rs by scripts/generate.
@@ -54,7 +50,6 @@ struct Params {
     groups: u32,                // Groups that leave partial results
     march: u32,                 // Slots that one thread of a marching kernel takes one after the other, along the last axis
     wall_sides: u32,            // Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
-    blending: u32,              // 1 if faces of partly filled cells are blocked by their share
     least_entropy: f32,         // p / rho^gamma that no gas falls below
     surface_rows: u32,          // Vertices whose interface pressure has a row in the preconditioner
     still: u32,                 // 1 if the advection leaves out what motion does not reach by the solve, with the same result

@@ -48,7 +48,7 @@ pub const RULES: [Rule; 10] = [
         quantity: "energy that is missing or too much, with what crossed the sides and what gravity and blasts gave, over all energy",
         limit: 0.02,
         reason: "bodies exchange energy with gas to one or two percent in the verified cases; gas alone keeps it to rounding",
-        advice: "try a smaller time.max_courant, a smaller numerics.elastic_cfl, or a finer resolution",
+        advice: "try a smaller time.max_courant, a smaller numerics.expert.elastic_cfl, or a finer resolution",
     },
     Rule {
         name: Warned::OwedGas,

@@ -4,7 +4,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::source::{Finding, walk};
 use super::{GasState, Integrator, MAX_BODIES, Obstacles, Preconditioner, Scene};
-use super::{budget, check_shape};
+use super::{budget, check_shape, limits};
 
 /// Cells per active axis at least: the advection stencil needs this many.
 const FEWEST_CELLS: u32 = 3;
@@ -115,13 +115,6 @@ impl Check<'_> {
     pub(super) fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
         if !(value > 0.0 && value.is_finite()) {
             self.add(path, format!("{value} is not positive"), format!("give a finite number above 0 {unit}"));
-        }
-    }
-
-    /// A fraction: above 0 and at most `most`.
-    fn fraction(&mut self, path: &str, value: f64, most: f64) {
-        if !(value > 0.0 && value <= most) {
-            self.add(path, format!("{value} is out of range"), format!("give a number above 0 and at most {most}"));
         }
     }
 
@@ -242,52 +235,31 @@ impl Check<'_> {
     }
 
     fn time(&mut self) {
-        let time = &self.scene.time;
-        self.positive("time.until", time.until, "[s]");
-        self.fraction("time.cfl", time.cfl, 1.0);
-        self.count("time.frames", time.frames, 1, 1_000_000);
-        self.positive("time.max_courant", time.max_courant, "");
-        if !(time.max_growth > 1.0 && time.max_growth.is_finite()) {
-            self.add("time.max_growth", format!("{} is out of range", time.max_growth), "give a finite number above 1");
-        }
-        if let Some(step) = time.fixed_step {
-            self.positive("time.fixed_step", step, "[s], or leave it out");
-        }
+        self.findings.extend(limits::findings("time", &self.scene.time));
     }
 
     fn numerics(&mut self) {
         let numerics = &self.scene.numerics;
-        if !(numerics.tolerance > 0.0 && numerics.tolerance < 1.0) {
-            let message = format!("{} is out of range", numerics.tolerance);
-            self.add(
-                "numerics.tolerance",
-                message,
-                "give a number above 0 and below 1; single precision reaches about 1e-6",
-            );
-        }
-        if let Some(share) = numerics.filter.filter(|share| !(0.0..=1.0).contains(share)) {
-            self.add("numerics.filter", format!("{share} is out of range"), "give a number from 0 to 1");
-        }
-        self.count("numerics.max_iterations", numerics.max_iterations, 1, 100_000);
-        self.fraction("numerics.solid_threshold", numerics.solid_threshold, 1.0);
-        self.fraction("numerics.elastic_cfl", numerics.elastic_cfl, 1.0);
+        self.findings.extend(limits::findings("numerics", numerics));
         if self.scene.consistent() && !self.scene.bodies.is_empty() {
             let help = "give \"cell\", or \"auto\", which chooses for the scene";
-            self.add("numerics.face_velocity", "\"consistent\" carries gas only, and this scene has bodies", help);
+            self.add(
+                "numerics.paper.face_velocity",
+                "\"consistent\" carries gas only, and this scene has bodies",
+                help,
+            );
         }
-        if self.scene.numerics.obstacles == Obstacles::Cut && !self.scene.cut() {
+        if numerics.paper.obstacles == Obstacles::Cut && !self.scene.cut() {
             let help = "give \"cells\", or \"auto\", which chooses for the scene";
-            self.add("numerics.obstacles", "\"cut\" is for obstacles in gas alone, with the pair b1b0", help);
+            self.add("numerics.paper.obstacles", "\"cut\" is for obstacles in gas alone, with the pair b1b0", help);
         }
-        if numerics.preconditioner == Preconditioner::Multigrid && self.scene.domain.dimension == 1 {
+        if numerics.expert.preconditioner == Preconditioner::Multigrid && self.scene.domain.dimension == 1 {
             let help = "give \"jacobi\", or \"auto\", which chooses for the scene";
-            self.add("numerics.preconditioner", "\"multigrid\" is for two and three dimensions", help);
+            self.add("numerics.expert.preconditioner", "\"multigrid\" is for two and three dimensions", help);
         }
         if self.scene.solves() == 2 {
             self.ars222();
         }
-        self.fraction("numerics.elastic_tolerance", numerics.elastic_tolerance, 0.5);
-        self.count("numerics.max_substeps", numerics.max_substeps, 1, 10_000);
         self.findings.extend(super::coupling::findings(self.scene));
     }
 

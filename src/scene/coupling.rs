@@ -17,21 +17,8 @@ pub enum InterfacePressure {
     H,
     /// One pressure everywhere.
     Single,
-    /// `h` with `numerics.ghost = "shared_volume"`, where the stress of the solid bears a part of the gas pressure and so the
+    /// `h` with `numerics.paper.ghost = "shared_volume"`, where the stress of the solid bears a part of the gas pressure and so the
     /// ghost pressure differs from it; else `resolved`.
-    #[default]
-    Auto,
-}
-
-/// Velocity in the power that the gas gives to bodies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Power {
-    /// Mean of the velocities before and after the solve.
-    Midpoint,
-    /// Velocity after the solve.
-    End,
-    /// `end` with `numerics.ghost = "shared_volume"`, whose solve starts from a predicted velocity; else `midpoint`.
     #[default]
     Auto,
 }
@@ -88,20 +75,10 @@ impl Scene {
     /// The pressure unknowns of this scene, never [`InterfacePressure::Auto`].
     #[must_use]
     pub fn interface_pressure(&self) -> InterfacePressure {
-        match (self.numerics.interface, self.numerics.ghost) {
+        match (self.numerics.paper.interface, self.numerics.paper.ghost) {
             (InterfacePressure::Auto, Ghost::SharedVolume) => InterfacePressure::H,
             (InterfacePressure::Auto, Ghost::Absorbs) => InterfacePressure::Resolved,
             (chosen, _) => chosen,
-        }
-    }
-
-    /// Whether the gas pays bodies with the mean of their velocities before and after the solve.
-    #[must_use]
-    pub fn midpoint_power(&self) -> bool {
-        match self.numerics.power {
-            Power::Midpoint => true,
-            Power::End => false,
-            Power::Auto => self.numerics.ghost == Ghost::Absorbs,
         }
     }
 
@@ -109,13 +86,13 @@ impl Scene {
     /// the solve. The paper's other forms go without.
     #[must_use]
     pub fn late_flux(&self) -> bool {
-        self.numerics.ghost == Ghost::Absorbs && self.numerics.coupling == Coupling::First
+        self.numerics.paper.ghost == Ghost::Absorbs && self.numerics.paper.coupling == Coupling::First
     }
 
     /// How the laws of this scene and the ghost pressure share the volume of bodies.
     #[must_use]
     pub fn volume_share(&self) -> VolumeShare {
-        match self.numerics.ghost {
+        match self.numerics.paper.ghost {
             Ghost::Absorbs => VolumeShare::Split(self.largest_gas_pressure()),
             Ghost::SharedVolume => VolumeShare::Ghost,
         }
@@ -131,44 +108,38 @@ impl Scene {
     /// Vectors per slot that the order of the elastic step has to keep.
     #[must_use]
     pub fn elastic_vectors(&self) -> usize {
-        if self.numerics.coupling == Coupling::Last { 1 } else { 2 }
+        if self.numerics.paper.coupling == Coupling::Last { 1 } else { 2 }
     }
 
     /// Elastic sub-steps per step at most.
     #[must_use]
     pub fn max_substeps(&self) -> u32 {
-        if self.numerics.coupling == Coupling::Last { 1 } else { self.numerics.max_substeps }
+        if self.numerics.paper.coupling == Coupling::Last { 1 } else { self.numerics.max_substeps }
     }
 }
 
 /// Choices that do not go together.
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
-    let numerics = &scene.numerics;
+    let (paper, elasticity) = (&scene.numerics.paper, scene.numerics.elasticity);
     let mut findings = Vec::new();
-    if numerics.ghost == Ghost::SharedVolume && numerics.power == Power::Midpoint {
-        let message = "\"midpoint\" with numerics.ghost = \"shared_volume\" adds energy";
-        findings.push(Finding::new(
-            "numerics.power",
-            message,
-            "give \"end\", or \"auto\", which chooses for the scene",
-        ));
+    if paper.ghost == Ghost::SharedVolume && paper.coupling == Coupling::Last {
+        let message = "\"last\" with numerics.paper.ghost = \"shared_volume\", which has an order of its own";
+        let help = "give \"first\", or numerics.paper.ghost = \"absorbs\"";
+        findings.push(Finding::new("numerics.paper.coupling", message, help));
     }
-    if numerics.ghost == Ghost::SharedVolume && numerics.coupling == Coupling::Last {
-        let message = "\"last\" with numerics.ghost = \"shared_volume\", which has an order of its own";
-        findings.push(Finding::new("numerics.coupling", message, "give \"first\", or numerics.ghost = \"absorbs\""));
-    }
-    if scene.breaks() && numerics.elasticity == Elasticity::Implicit {
+    if scene.breaks() && elasticity == Elasticity::Implicit {
         let message =
             "materials with `fracture` and an implicit elastic step, whose one strain per step no crack could follow";
         findings.push(Finding::new("numerics.elasticity", message, "give \"explicit\", or leave `fracture` out"));
     }
-    if scene.breaks() && numerics.coupling == Coupling::Last {
+    if scene.breaks() && paper.coupling == Coupling::Last {
         let message = "materials with `fracture` and \"last\", which has no elastic sub-steps";
-        findings.push(Finding::new("numerics.coupling", message, "give \"first\", or leave `fracture` out"));
+        findings.push(Finding::new("numerics.paper.coupling", message, "give \"first\", or leave `fracture` out"));
     }
-    let plain = numerics.ghost == Ghost::Absorbs && numerics.coupling == Coupling::First;
-    if numerics.elasticity == Elasticity::Implicit && !plain {
-        let message = "\"implicit\" with numerics.ghost = \"shared_volume\" or numerics.coupling = \"last\", which have elastic steps of their own";
+    let plain = paper.ghost == Ghost::Absorbs && paper.coupling == Coupling::First;
+    if elasticity == Elasticity::Implicit && !plain {
+        let message = "\"implicit\" with numerics.paper.ghost = \"shared_volume\" or numerics.paper.coupling = \"last\", which have \
+                       elastic steps of their own";
         findings.push(Finding::new("numerics.elasticity", message, "give \"explicit\", or leave out the other key"));
     }
     findings
@@ -176,33 +147,24 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Ghost, InterfacePressure, Power};
+    use super::{Ghost, InterfacePressure};
     use crate::scene::Scene;
 
     fn slab(keys: &[&str]) -> crate::Result<Scene> {
-        let overrides: Vec<String> = keys.iter().map(|key| format!("numerics.{key}")).collect();
+        let overrides: Vec<String> = keys.iter().map(|key| format!("numerics.paper.{key}")).collect();
         Scene::shipped("coupled/slab_at_rest.toml", &overrides)
     }
 
     #[test]
     fn choices_that_do_not_go_together_are_refused() {
-        for (keys, place) in [
-            (["ghost=shared_volume", "power=midpoint"], "numerics.power"),
-            (["ghost=shared_volume", "coupling=last"], "numerics.coupling"),
-        ] {
-            let message = slab(&keys).unwrap_err().to_string();
-            assert!(message.contains(place), "{message}");
-        }
+        let message = slab(&["ghost=shared_volume", "coupling=last"]).unwrap_err().to_string();
+        assert!(message.contains("numerics.paper.coupling"), "{message}");
     }
 
     #[test]
     fn what_is_left_open_follows_from_the_rest() {
         let plain = slab(&[]).unwrap();
-        assert_eq!((plain.numerics.power, plain.numerics.ghost), (Power::Auto, Ghost::Absorbs));
-        assert!(plain.midpoint_power() && plain.max_substeps() == 10_000);
-        assert!(!slab(&["ghost=shared_volume"]).unwrap().midpoint_power());
-        assert!(!slab(&["power=end"]).unwrap().midpoint_power());
-        assert!(slab(&["power=midpoint"]).unwrap().midpoint_power());
+        assert_eq!((plain.numerics.paper.ghost, plain.max_substeps()), (Ghost::Absorbs, 10_000));
         assert_eq!(plain.interface_pressure(), InterfacePressure::Resolved);
         assert_eq!(slab(&["ghost=shared_volume"]).unwrap().interface_pressure(), InterfacePressure::H);
         assert_eq!(slab(&["interface=single"]).unwrap().interface_pressure(), InterfacePressure::Single);

@@ -44,7 +44,7 @@ impl Scene {
     #[must_use]
     pub fn cut(&self) -> bool {
         let able = self.bodies.is_empty() && self.numerics.pair == Pair::B1b0 && !self.obstacles.is_empty();
-        able && self.numerics.obstacles != Obstacles::Cells
+        able && self.numerics.paper.obstacles != Obstacles::Cells
     }
 
     /// Whether an obstacle fills the cell around a point, or a part of it.

@@ -82,7 +82,7 @@ impl Scene {
         let carried = time.cfl * spacing / speed.max(sound);
         let heard = time.max_courant * spacing / sound;
         let implicit = self.numerics.elasticity == Elasticity::Implicit;
-        let substep = self.numerics.elastic_cfl * spacing / solid;
+        let substep = self.numerics.expert.elastic_cfl * spacing / solid;
         let strained =
             if implicit { IMPLICIT_COURANT * spacing / solid } else { substep * f64::from(self.numerics.max_substeps) };
         let free = carried.min(heard);

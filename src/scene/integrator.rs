@@ -71,7 +71,7 @@ impl Scene {
     /// Whether the gas is carried by what the pressure solve sees of its velocity.
     #[must_use]
     pub fn consistent(&self) -> bool {
-        match self.numerics.face_velocity {
+        match self.numerics.paper.face_velocity {
             FaceVelocity::Cell => false,
             FaceVelocity::Consistent => true,
             FaceVelocity::Auto => self.bodies.is_empty(),

@@ -30,12 +30,14 @@ mod font;
 mod fracture;
 mod gauge;
 mod integrator;
+mod limits;
 mod load;
 mod look;
 mod mended;
 mod mesh;
 mod named;
 mod noise;
+mod numerics;
 mod obstacle;
 mod polyhedron;
 mod radial_flow;
@@ -78,7 +80,7 @@ pub use camera::{Camera, CameraKey, CameraPath};
 pub use camera_file::CameraFile;
 pub use check_body::MAX_BODIES;
 pub use check_boundary::MAX_OPENINGS;
-pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, Power, SolidUpdate};
+pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, SolidUpdate};
 pub use cut::{CutCell, CutGeometry};
 pub use estimate::{Estimate, IMPLICIT_COURANT};
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
@@ -89,6 +91,7 @@ pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
 pub use look::Look;
 pub use mesh::{Mesh, Up};
 pub use named::Named;
+pub use numerics::{Expert, Numerics, Obstacles, Pair, Paper, Preconditioner, Transfer};
 pub use polyhedron::Part;
 pub use radial_flow::RadialFlow;
 pub use region::Region;
@@ -97,7 +100,7 @@ pub use render::{
     ToneMap,
 };
 pub use sample::{Overlap, Seed, ThinBody, ThinObstacle};
-pub use settings::{Film, Numerics, Obstacles, Output, Pair, Preconditioner, Time, Transfer};
+pub use settings::{Output, Time};
 pub use shape::Shape;
 pub use shipped::{STANDARD_INPUT, Shipped, scene_file, shipped, shipped_named, stem};
 pub use shot::{Shot, ShotKeys};
@@ -131,7 +134,7 @@ pub struct Scene {
     /// Deformable solids, moved by the material point method.
     #[serde(default)]
     pub bodies: Vec<Body>,
-    /// Static obstacles; `numerics.obstacles` says how finely the grid sees them.
+    /// Static obstacles; `numerics.paper.obstacles` says how finely the grid sees them.
     #[serde(default)]
     pub obstacles: Vec<Obstacle>,
     /// Acceleration of gravity `[m s^-2]`.

@@ -8,6 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::mended::{self, Mended, words_of, wrong_type};
+use super::numerics::GONE;
 use super::source::Finding;
 use crate::spelling::{closest, did_you_mean};
 
@@ -112,6 +113,11 @@ impl Words {
         let required = schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
         let mut missing: Vec<&str> = required.filter(|key| !table.contains_key(*key)).collect();
         for (key, place) in unknown {
+            if let Some((message, help)) = elsewhere(known, &below(""), &key) {
+                self.add(&below(&key), Some(place), message, &help);
+                table.remove(key.as_str());
+                continue;
+            }
             let names = || known.keys().map(String::as_str);
             let message = format!("unknown field `{key}`{}", self.like(&key, names()));
             self.add(&below(&key), Some(place.clone()), message, &there_are(names()));
@@ -232,6 +238,16 @@ impl Words {
     fn add(&mut self, path: &str, place: Option<Range<usize>>, message: String, help: &str) {
         self.findings.push(Finding { span: place, ..Finding::new(path, message, help) });
     }
+}
+
+/// What to say of a key that stands in a table beside it, or that there is no more; `path` leads to its own table.
+fn elsewhere(known: &serde_json::Map<String, Value>, path: &str, key: &str) -> Option<(String, String)> {
+    if let Some((_, help)) = GONE.iter().find(|(own, _)| own.strip_prefix(path) == Some(key)) {
+        return Some((format!("unknown field `{key}`"), (*help).to_owned()));
+    }
+    let (table, _) = known.iter().find(|(_, schema)| mended::meant(schema)["properties"].get(key).is_some())?;
+    let message = format!("unknown field `{key}`; it is a key of `{path}{table}`");
+    Some((message, format!("write {path}{table}.{key}, or the key below the header [{path}{table}]")))
 }
 
 /// The keys that one choice stands for.

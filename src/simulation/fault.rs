@@ -18,9 +18,10 @@ impl Simulation {
         let stage = Stage::ALL.get(stage).copied();
         let name = stage.map_or("unknown", Stage::name);
         let (place, reason) = match stage {
-            Some(Stage::G2p) => {
-                (format!("particle {at}"), "it is turned inside out or not finite; try a smaller numerics.elastic_cfl")
-            }
+            Some(Stage::G2p) => (
+                format!("particle {at}"),
+                "it is turned inside out or not finite; try a smaller numerics.expert.elastic_cfl",
+            ),
             Some(Stage::CoupledSolve) => (
                 "all cells".to_owned(),
                 "the pressure solve did not converge; try a larger numerics.tolerance or a smaller time.cfl",

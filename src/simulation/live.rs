@@ -39,7 +39,7 @@ impl Simulation {
     }
 
     /// Goes on with the parameters of `to` instead of those of `from`, the scene as it is now. Gravity, `time.cfl`, `time.max_courant`,
-    /// `time.max_growth`, the tolerance and blending of `numerics`, and the states of open sides may differ.
+    /// `time.max_growth`, `numerics.tolerance` and the states of open sides may differ.
     ///
     /// # Errors
     /// [`Error::Usage`] if something else differs; driver errors.
@@ -54,7 +54,6 @@ impl Simulation {
         params.max_courant = to.time.max_courant as f32;
         params.max_growth = to.time.max_growth as f32;
         params.tolerance = to.numerics.tolerance as f32;
-        params.blending = u32::from(to.numerics.blending);
         self.coupled_solve.pcg.set_tolerance(&self.gpu, params.tolerance);
         state.params_buffer.write(&self.gpu, 0, &[state.params]);
         state.openings.write(&self.gpu, 0, openings.of_rules());
@@ -95,14 +94,13 @@ fn check(from: &Scene, to: &Scene) -> Result<()> {
     same.time.max_growth = from.time.max_growth;
     same.time.until = from.time.until;
     same.numerics.tolerance = from.numerics.tolerance;
-    same.numerics.blending = from.numerics.blending;
     same.boundary = from.boundary.clone();
     same.render = from.render.clone();
     same.output = from.output.clone();
     if same != *from {
         return Err(Error::Usage(
-            "only gravity, time.cfl, time.max_courant, time.max_growth, numerics.tolerance, numerics.blending and the states of \
-             open sides can change while a scene runs; restart it for the rest"
+            "only gravity, time.cfl, time.max_courant, time.max_growth, numerics.tolerance and the states of open \
+             sides can change while a scene runs; restart it for the rest"
                 .to_owned(),
         ));
     }

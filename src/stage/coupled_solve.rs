@@ -120,7 +120,7 @@ impl CoupledSolve {
             reference: state.bind("solve_reference.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
             add: state.bind("solve_finish.wgsl", "solve_add", &[("pcg", pcg.control.raw())], &[])?,
-            gradient: match scene.numerics.solid_update {
+            gradient: match scene.numerics.paper.solid_update {
                 SolidUpdate::Forces => Vec::new(),
                 SolidUpdate::Gradients => solid("solid_gradient.wgsl", &["solid_gradient"])?,
             },

@@ -1,4 +1,4 @@
-//! `elastic_first`: the elastic step before the pressure solve, an ablation: `numerics.coupling = "last"`.
+//! `elastic_first`: the elastic step before the pressure solve, an ablation: `numerics.paper.coupling = "last"`.
 //! [Cao et al. 2022, section 2.8 and fig. 14]
 
 use crate::error::Result;
@@ -21,7 +21,7 @@ impl ElasticFirst {
     /// # Errors
     /// If a shader or buffer is wrong.
     pub fn new(state: &State, scene: &Scene) -> Result<Option<Self>> {
-        if !state.has_solids() || scene.numerics.coupling != Coupling::Last {
+        if !state.has_solids() || scene.numerics.paper.coupling != Coupling::Last {
             return Ok(None);
         }
         let bind = |entry: &str| state.bind("elastic_first.wgsl", entry, &[], &[]);

@@ -25,11 +25,11 @@ impl ElasticReaction {
     /// # Errors
     /// If a shader or buffer is wrong.
     pub fn new(state: &State, scene: &Scene) -> Result<Option<Self>> {
-        if !state.has_solids() || scene.numerics.coupling == Coupling::Last {
+        if !state.has_solids() || scene.numerics.paper.coupling == Coupling::Last {
             return Ok(None);
         }
         let bind = |entry: &str| state.bind("elastic_reaction.wgsl", entry, &[], &[]);
-        let aside = (scene.numerics.ghost == Ghost::Absorbs).then(|| bind("reaction_aside"));
+        let aside = (scene.numerics.paper.ghost == Ghost::Absorbs).then(|| bind("reaction_aside"));
         Ok(Some(Self {
             start: bind("reaction_start")?,
             fill: bind("reaction_fill")?,

@@ -44,7 +44,7 @@ impl ElasticSolve {
         else {
             return Ok(None);
         };
-        let limits = (scene.numerics.elastic_tolerance as f32, MAX_ITERATIONS);
+        let limits = (scene.numerics.expert.elastic_tolerance as f32, MAX_ITERATIONS);
         let (threads, groups) = (state.grid.slots(), state.params.groups);
         let layout = Layout { threads, groups, dots: Dots::Product, reference_at: 0, row: None };
         let pcg = Pcg::new(gpu, &own.vectors, &state.partials, limits, &layout)?;

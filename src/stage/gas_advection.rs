@@ -18,17 +18,16 @@ pub struct GasAdvection {
 #[derive(Debug)]
 struct RungeKuttaStage {
     forms: [Form; 2],
-    limited: Option<Bound>,
+    limited: Bound,
 }
 
 impl RungeKuttaStage {
-    fn new(state: &State, limiter: bool, stage: u32) -> Result<Self> {
+    fn new(state: &State, stage: u32) -> Result<Self> {
         let (shader, switches) = ("gas_advection.wgsl", [("STAGE", f64::from(stage))]);
         let form = |over: Over, entry: &str| Form::new(state, over, [shader, entry], &[], &switches);
-        let limited = || state.bind(shader, "advect_limited", &[], &switches);
         Ok(Self {
             forms: [form(Over::Marches, "advect_interior")?, form(Over::Listed, "advect_listed")?],
-            limited: limiter.then(limited).transpose()?,
+            limited: state.bind(shader, "advect_limited", &[], &switches)?,
         })
     }
 }
@@ -38,9 +37,8 @@ impl GasAdvection {
     ///
     /// # Errors
     /// If a shader or buffer is wrong.
-    pub fn new(state: &State, limiter: bool, solves: u32) -> Result<Self> {
-        let stage = |stage: u32| RungeKuttaStage::new(state, limiter, stage);
-        Ok(Self { stages: (0..=solves).map(stage).collect::<Result<_>>()? })
+    pub fn new(state: &State, solves: u32) -> Result<Self> {
+        Ok(Self { stages: (0..=solves).map(|stage| RungeKuttaStage::new(state, stage)).collect::<Result<_>>()? })
     }
 
     /// One of the stages, from 0, in a phase: two belong to one advection, or with two solves one to the first and two to the second.
@@ -50,9 +48,7 @@ impl GasAdvection {
         for form in &kernels.forms {
             form.record(pass, state, phase);
         }
-        if let Some(limited) = &kernels.limited {
-            control.record_limiter(pass);
-            pass.dispatch(limited, &state.extent(Phase::Limit, Over::Slots));
-        }
+        control.record_limiter(pass);
+        pass.dispatch(&kernels.limited, &state.extent(Phase::Limit, Over::Slots));
     }
 }

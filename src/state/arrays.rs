@@ -86,7 +86,7 @@ pub enum Scenes {
     Explicit,
     /// The same, with `numerics.elasticity = "implicit"`.
     Implicit,
-    /// With bodies and `numerics.coupling = "last"`.
+    /// With bodies and `numerics.paper.coupling = "last"`.
     ElasticFirst,
 }
 

@@ -47,7 +47,7 @@ pub(crate) const EXTENTS: usize = 4 * (3 + pcg::LEVELS);
 /// Courant number of the gas below which the diagonal alone is quicker (measured on the software driver), infinite where it is not known.
 pub(crate) fn least_courant(scene: &Scene) -> f64 {
     let space = scene.domain.dimension == 3;
-    match (scene.numerics.preconditioner, scene.numerics.pair) {
+    match (scene.numerics.expert.preconditioner, scene.numerics.pair) {
         (Preconditioner::Multigrid, _) => 0.0,
         (_, Pair::B1b0) if space && scene.bodies.is_empty() => 5.0,
         (_, Pair::B1b0) if space => 7.0,
@@ -67,7 +67,7 @@ pub(crate) fn spaces(dimension: u32) -> usize {
 pub(crate) fn plan(scene: &Scene) -> Option<Vec<Level>> {
     let least = least_courant(scene);
     let steps = least.is_finite() && (scene.time.fixed_step.is_some() || scene.time.max_courant >= least);
-    let wanted = scene.numerics.preconditioner != Preconditioner::Jacobi && steps;
+    let wanted = scene.numerics.expert.preconditioner != Preconditioner::Jacobi && steps;
     let dimension = scene.domain.dimension;
     if dimension < 2 || !wanted {
         return None;

@@ -69,8 +69,6 @@ structure! {
         march: u32,
         /// Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+.
         wall_sides: u32,
-        /// 1 if faces of partly filled cells are blocked by their share.
-        blending: u32,
         /// p / rho^gamma that no gas falls below.
         least_entropy: f32,
         /// Vertices whose interface pressure has a row in the preconditioner.
@@ -84,7 +82,7 @@ structure! {
         /// Slots of a row, as sums take them (`shaders/shared/octets.wgsl`).
         row: u32,
         /// Fills the space before vectors.
-        unused: [u32; 2],
+        unused: [u32; 3],
         /// Groups of each dispatch of a prefix sum over all slots and one more.
         scan: [vec4u; SCAN_DISPATCHES],
     }
@@ -172,12 +170,12 @@ impl Params {
             max_courant: scene.time.max_courant as f32,
             max_growth: time.max_growth as f32,
             fixed_step: time.fixed_step.unwrap_or(0.0) as f32,
-            elastic_cfl: numerics.elastic_cfl as f32,
-            solid_threshold: numerics.solid_threshold as f32,
+            elastic_cfl: numerics.expert.elastic_cfl as f32,
+            solid_threshold: numerics.paper.solid_threshold as f32,
             mass_floor: (LIGHTEST_NODE * solids.max_density * cell_volume) as f32,
             tolerance: numerics.tolerance as f32,
             extra_capacity: limits.extra_capacity,
-            max_iterations: numerics.max_iterations,
+            max_iterations: numerics.expert.max_iterations,
             probes: scene.probes.len() as u32,
             history: HISTORY,
             bodies: scene.bodies.len() as u32,
@@ -188,14 +186,13 @@ impl Params {
                 .clamp(1, limits.groups),
             march: even_march(grid.strides()[scene.domain.dimension as usize - 1], limits.march),
             wall_sides: wall_sides(scene),
-            blending: u32::from(numerics.blending),
             least_entropy: 0.0,
             surface_rows: surface::rows(grid.slots(), limits.extra_capacity as usize) as u32,
             still: 1,
             still_at: 0,
             table_at: 0,
             row: sum_row(scene, grid, solids.particles > 0),
-            unused: [0; 2],
+            unused: [0; 3],
             scan: [[0; 4]; SCAN_DISPATCHES],
         };
         let places = super::interface::Places::new(params.stride.map(u64::from), scene.domain.dimension);
@@ -225,17 +222,13 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("CONSISTENT", flag(scene.consistent())),
         ("ARS", flag(scene.solves() == 2)),
         ("FOURTH", flag(scene.sound_of_fourth_order())),
-        ("LIMITER", flag(numerics.limiter)),
-        ("LEDGER", flag(numerics.ledger)),
         ("RING_BOOKS", flag(ring_books(scene, solids))),
-        ("MIDPOINT_POWER", flag(scene.midpoint_power())),
         ("LATE_FLUX", flag(scene.late_flux())),
         ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
-        ("SHARED_VOLUME", flag(numerics.ghost == Ghost::SharedVolume)),
+        ("SHARED_VOLUME", flag(numerics.paper.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
         ("MIRRORED", f64::from(if solids { 0 } else { whole_walls(scene) })),
         ("JOINED", f64::from(if numerics.pair == Pair::B1b0 { joined_sides(scene) } else { 0 })),
-        ("FILM_NEAREST", flag(numerics.film == crate::scene::Film::Nearest)),
         (
             "INTERFACE",
             f64::from(constants::number(

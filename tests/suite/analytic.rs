@@ -61,12 +61,12 @@ fn tubes(column: usize, overrides: &[&str]) {
 
 #[test]
 fn shock_tubes() {
-    tubes(1, &["numerics.face_velocity=cell"]);
+    tubes(1, &["numerics.paper.face_velocity=cell"]);
 }
 
 #[test]
 fn shock_tubes_without_predictor() {
-    tubes(0, &["numerics.integrator=paper", "numerics.face_velocity=cell"]);
+    tubes(0, &["numerics.integrator=paper", "numerics.paper.face_velocity=cell"]);
 }
 
 /// The carrier costs nothing in accuracy: no tube is worse by more than this part, and in the mean they are better.
@@ -91,12 +91,12 @@ fn shock_tubes_with_two_solves() {
 
 #[test]
 fn shock_tubes_quadratic() {
-    tubes(3, &["numerics.pair=b2b1", "numerics.face_velocity=cell"]);
+    tubes(3, &["numerics.pair=b2b1", "numerics.paper.face_velocity=cell"]);
 }
 
 #[test]
 fn shock_tubes_quadratic_without_predictor() {
-    tubes(2, &["numerics.pair=b2b1", "numerics.integrator=paper", "numerics.face_velocity=cell"]);
+    tubes(2, &["numerics.pair=b2b1", "numerics.integrator=paper", "numerics.paper.face_velocity=cell"]);
 }
 
 /// Mass and energy of the gas per cell volume, summed in f64.
@@ -238,7 +238,7 @@ fn what_is_symmetric_stays_so() {
     for (path, changes, time, mirrored) in [
         ("paper/fig16_convergence.toml", "numerics.pair=b1b0", 0.25, true),
         ("paper/fig16_convergence.toml", "numerics.integrator=ars222", 0.1, true),
-        ("paper/fig16_convergence.toml", "numerics.face_velocity=cell", 0.1, true),
+        ("paper/fig16_convergence.toml", "numerics.paper.face_velocity=cell", 0.1, true),
         ("paper/fig16_convergence.toml", "numerics.pair=b2b1", 0.25, true),
         ("validation/riemann_2d.toml", "time.frames=1", 0.1, false),
         ("validation/noh_cylindrical.toml", "time.frames=1", 0.5, false),

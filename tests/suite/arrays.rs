@@ -126,7 +126,7 @@ fn recorded() -> Option<BTreeSet<(Stage, String)>> {
         ("gas/sod.toml", &gas, "numerics.filter=0.2"),
         ("coupled/slab_at_rest.toml", &slab, "numerics.filter=0.2"),
         ("coupled/slab_at_rest.toml", &slab, "numerics.elasticity=implicit"),
-        ("coupled/slab_at_rest.toml", &slab, "numerics.coupling=last"),
+        ("coupled/slab_at_rest.toml", &slab, "numerics.paper.coupling=last"),
     ];
     let mut found = BTreeSet::new();
     for (scene, overrides, method) in scenes {

@@ -115,7 +115,7 @@ fn a_step_from_inlet_to_outlet_leaves_the_flow_alone() {
     for (speed, obstacles, rows) in [(0.4, "cells", 2), (2.5, "cells", 2), (0.4, "cut", 1), (2.5, "cut", 1)] {
         let state = format!("density = 1.0, velocity = [{speed:?}, 0.0], pressure = 1.0");
         let sides = [side("x_min", &format!("{{ inlet = {{ {state} }} }}")), side("x_max", "\"outlet\"")];
-        let more = format!("{}obstacles = \"{obstacles}\"\n{step}", time(0.5, 0.2 / 12.0));
+        let more = format!("{}paper.obstacles = \"{obstacles}\"\n{step}", time(0.5, 0.2 / 12.0));
         let (after, _) = run(&gpu, &scene(&[12, 6], &state, &sides, &more));
         let gas: Vec<usize> = (0..72).filter(|i| after.kind[*i] == 0).collect();
         assert_eq!(gas.len(), 12 * (6 - rows), "the step fills 1.8 rows");

@@ -342,7 +342,7 @@ fn a_run_leaves_its_files() {
     let report = report(&target);
     assert_eq!(report["outcome"], "finished");
     assert_eq!((&report["frames"], &report["steps"]), (&3.into(), &(steps.len() as u64).into()));
-    assert_eq!(report["scene"]["numerics"]["max_iterations"], 500);
+    assert_eq!(report["scene"]["numerics"]["expert"]["max_iterations"], 500);
     assert!(report["drift"]["gas_mass"].as_f64().unwrap().abs() < 1e-5, "{}", report["drift"]);
     assert!(
         !std::fs::read_dir(&target).unwrap().any(|entry| entry.unwrap().path().extension().is_some_and(|e| e == "tmp"))

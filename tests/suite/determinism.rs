@@ -11,7 +11,8 @@ const STEPS: u64 = 20;
 /// All that the state holds after some steps of the shrunk shell, as words, by name.
 fn run(gpu: &Gpu, transfer: &str) -> Vec<(&'static str, Vec<u32>)> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/paper/fig03_elastic_shell_2d.toml");
-    let mut scene = Scene::load(path, &["variant=small".to_owned(), format!("numerics.transfer={transfer}")]).unwrap();
+    let mut scene =
+        Scene::load(path, &["variant=small".to_owned(), format!("numerics.expert.transfer={transfer}")]).unwrap();
     scene = scene.with_resolution(48).unwrap();
     scene.time.fixed_step = Some(1e-3);
     let mut simulation = Simulation::new(gpu, &scene).unwrap();

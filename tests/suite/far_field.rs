@@ -12,7 +12,7 @@ fn slowed(face_velocity: &str) -> Scene {
     let text = format!(
         "title = \"far field\"\n[domain]\ndimension = 1\ncells = [40]\nsize = [1.0]\n[gas]\nambient = {{ {state} }}\n[boundary]\n\
          x_min = {{ far_field = {{ density = 1.0, velocity = [0.3], pressure = 1.0 }} }}\nx_max = {{ far_field = {{ {state} }} }}\n\
-         [time]\nuntil = 6.0\n[numerics]\nface_velocity = \"{face_velocity}\"\n"
+         [time]\nuntil = 6.0\n[numerics]\npaper.face_velocity = \"{face_velocity}\"\n"
     );
     Scene::parse(&text, "far_field.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -45,7 +45,7 @@ fn thrown_back() -> Scene {
          [[gas.regions]]\nshape = {{ half_space = {{ point = [0.4, 0.0], normal = [1.0, 0.0] }} }}\n{behind}\n\
          [boundary]\nx_min = {{ far_field = {{ {} }} }}\n\
          [[obstacles]]\nname = \"block\"\nshape = {{ box = {{ center = [0.8, 0.0], size = [0.1, 1.5] }} }}\n\
-         [time]\nuntil = 14.0\n[numerics]\nface_velocity = \"cell\"\n",
+         [time]\nuntil = 14.0\n[numerics]\npaper.face_velocity = \"cell\"\n",
         behind.replace('\n', ", ")
     );
     Scene::parse(&text, "far_field.toml", &[]).unwrap_or_else(|error| panic!("{error}"))

@@ -192,7 +192,7 @@ fn assert_bar(found: &Pulled) {
 fn a_bar_breaks_at_its_strength_and_takes_its_energy() {
     let Some(gpu) = gpu_or_skip() else { return };
     assert_bar(&LINE.pull(&gpu));
-    assert_bar(&Bar { more: "transfer = \"nodes\"", ..LINE }.pull(&gpu));
+    assert_bar(&Bar { more: "expert.transfer = \"nodes\"", ..LINE }.pull(&gpu));
 }
 
 /// Strains of 1e-5 in all.

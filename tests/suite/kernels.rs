@@ -22,7 +22,7 @@ shape = { box = { center = [0.6, 0.35], size = [0.25, 0.25] } }
 until = 1.0
 [numerics]
 tolerance = 1e-6
-obstacles = "cells"
+paper.obstacles = "cells"
 "#;
 
 fn channel(overrides: &[&str]) {
@@ -53,7 +53,7 @@ fn gas_without_predictor() {
 
 #[test]
 fn gas_carried_by_the_velocity_of_its_cells() {
-    channel(&["numerics.face_velocity=cell"]);
+    channel(&["numerics.paper.face_velocity=cell"]);
 }
 
 /// Steps so long that the first of two solves, too, needs more iterations than are recorded at first.
@@ -158,7 +158,7 @@ fn elastic_ball() {
 
 #[test]
 fn elastic_ball_quadratic_with_three_pressures() {
-    body(3, &["numerics.pair=b2b1", "numerics.interface=h"]);
+    body(3, &["numerics.pair=b2b1", "numerics.paper.interface=h"]);
 }
 
 #[test]
@@ -203,20 +203,19 @@ fn ball_on_the_floor_leaving_through_the_outlet() {
 }
 
 #[test]
-fn ball_on_the_floor_with_the_film_of_its_own_pressure() {
-    let other = ["numerics.film=ghost", "numerics.interface=single", "numerics.power=end", "numerics.blending=false"];
-    body(2, &[&AT_THE_SIDES[..], &other].concat());
+fn ball_on_the_floor_with_one_pressure() {
+    body(2, &[&AT_THE_SIDES[..], &["numerics.paper.interface=single"]].concat());
 }
 
 #[test]
 fn ball_moved_by_local_gradients() {
-    body(3, &["numerics.solid_update=gradients"]);
-    body(3, &[&AT_THE_SIDES[..], &["numerics.solid_update=gradients", "numerics.interface=h"]].concat());
+    body(3, &["numerics.paper.solid_update=gradients"]);
+    body(3, &[&AT_THE_SIDES[..], &["numerics.paper.solid_update=gradients", "numerics.paper.interface=h"]].concat());
 }
 
 #[test]
 fn ball_whose_elastic_step_comes_first() {
-    let short = ["numerics.coupling=last", "time.fixed_step=0.004"];
+    let short = ["numerics.paper.coupling=last", "time.fixed_step=0.004"];
     body(3, &short);
     body(3, &[&AT_THE_SIDES[..], &short].concat());
 }
@@ -226,27 +225,27 @@ fn ball_whose_elastic_step_comes_first() {
 fn ball_that_shares_its_volume() {
     // at 1e-6 the stiff ball's ghost pressure is off by the tolerance of the solve
     let stiff = [
-        "numerics.ghost=shared_volume",
+        "numerics.paper.ghost=shared_volume",
         "materials.rubber.neo_hookean.young_modulus=1000.0",
         "numerics.tolerance=3e-7",
     ];
     body(3, &stiff);
-    body(3, &[&AT_THE_SIDES[..], &["numerics.ghost=shared_volume"]].concat());
+    body(3, &[&AT_THE_SIDES[..], &["numerics.paper.ghost=shared_volume"]].concat());
 }
 
 /// A step of several elastic Courant numbers.
 #[test]
 fn stiff_ball_by_backward_euler() {
-    let implicit = ["numerics.elasticity=implicit", "numerics.elastic_tolerance=1e-6"];
+    let implicit = ["numerics.elasticity=implicit", "numerics.expert.elastic_tolerance=1e-6"];
     let stiff = "materials.rubber.neo_hookean.young_modulus=1000.0";
     body(3, &[&implicit[..], &[stiff]].concat());
-    body(2, &[&implicit[..], &[stiff, "numerics.transfer=nodes"]].concat());
-    body(2, &["numerics.elasticity=implicit", "numerics.elastic_tolerance=1e-7", SOFT_METAL]);
+    body(2, &[&implicit[..], &[stiff, "numerics.expert.transfer=nodes"]].concat());
+    body(2, &["numerics.elasticity=implicit", "numerics.expert.elastic_tolerance=1e-7", SOFT_METAL]);
 }
 
 #[test]
 fn ball_on_the_floor_by_backward_euler() {
-    let implicit = ["numerics.elasticity=implicit", "numerics.elastic_tolerance=1e-6"];
+    let implicit = ["numerics.elasticity=implicit", "numerics.expert.elastic_tolerance=1e-6"];
     body(3, &[&implicit[..], &AT_THE_SIDES[..5], &["materials.rubber.neo_hookean.young_modulus=1000.0"]].concat());
 }
 
@@ -284,7 +283,7 @@ fn crumbs_by_nodes() {
             SOFT_METAL,
             "bodies[0].shape.sphere.radius=0.04",
             "bodies[0].density=2.0",
-            "numerics.transfer=nodes",
+            "numerics.expert.transfer=nodes",
             "numerics.tolerance=2e-7",
         ],
     );

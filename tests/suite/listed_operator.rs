@@ -54,7 +54,7 @@ density = 10.0
 until = 1.0
 fixed_step = 0.001
 [numerics]
-obstacles = "cells"
+paper.obstacles = "cells"
 "#;
 
 /// Slots, flags and unknowns as the device has them after a step.
@@ -293,7 +293,7 @@ fn compare(overrides: &[&str]) -> Option<usize> {
 fn compare_all(overrides: &[&str]) {
     for pair in ["b1b0", "b2b1"] {
         let apart = ["single", "resolved", "h"].map(|rule| {
-            let (pair, rule) = (format!("numerics.pair={pair}"), format!("numerics.interface={rule}"));
+            let (pair, rule) = (format!("numerics.pair={pair}"), format!("numerics.paper.interface={rule}"));
             compare(&[overrides, &[&pair, &rule]].concat())
         });
         if let [Some(single), Some(resolved), Some(h)] = apart {
@@ -336,7 +336,7 @@ fn listed_operator_2d() {
 #[test]
 fn listed_operator_1d() {
     for (pair, rule) in [("b1b0", "h"), ("b2b1", "h"), ("b1b0", "resolved"), ("b2b1", "single")] {
-        let (pair, rule) = (format!("numerics.pair={pair}"), format!("numerics.interface={rule}"));
+        let (pair, rule) = (format!("numerics.pair={pair}"), format!("numerics.paper.interface={rule}"));
         compare(&[
             "domain.dimension=1",
             "domain.cells=[14]",

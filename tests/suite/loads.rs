@@ -63,7 +63,7 @@ fn the_momentum_of_the_gas_closes_with_what_it_gave() {
     let fixed = |numerics: &str| format!("[[obstacles]]\nname = \"disc\"\n{disc}[numerics]\n{numerics}\n");
     let kinds = [
         ("body", body),
-        ("cells", fixed("obstacles = \"cells\"")),
+        ("cells", fixed("paper.obstacles = \"cells\"")),
         ("cut", fixed("")),
         ("two solves", fixed("integrator = \"ars222\"\n")),
     ];

@@ -179,14 +179,14 @@ fn difference(a: &[f32], b: &[f32]) -> f32 {
 fn large_steps_cost_few_iterations() {
     let Some(gpu) = gpu_or_skip() else { return };
     let tolerance = "numerics.tolerance=1e-6";
-    let (slow_block, fast_block) = ([&["numerics.preconditioner=jacobi"], &BLOCK[..]].concat(), &BLOCK);
+    let (slow_block, fast_block) = ([&["numerics.expert.preconditioner=jacobi"], &BLOCK[..]].concat(), &BLOCK);
     let (slow_block, expected_block, _) = run(&gpu, &slow_block);
     let (fast_block, found_block, _) = run(&gpu, fast_block);
     let worst_block = difference(&expected_block, &found_block);
     eprintln!("with a stiff block pressures differ by {worst_block:.1e} of their range");
     assert!(slow_block.iter().zip(&fast_block).all(|(slow, fast)| *slow >= 3 * fast), "{slow_block:?} {fast_block:?}");
     assert!(worst_block < 2e-3, "{worst_block}");
-    let (slow, expected, _) = run(&gpu, &["numerics.preconditioner=jacobi", tolerance]);
+    let (slow, expected, _) = run(&gpu, &["numerics.expert.preconditioner=jacobi", tolerance]);
     let (fast, found, gas) = run(&gpu, &[tolerance]);
     let (_, again, gas_again) = run(&gpu, &[tolerance]);
     let worst = difference(&expected, &found);
@@ -210,8 +210,8 @@ fn large_steps_in_space_cost_few_iterations() {
     ] {
         let case = [&common[..], &[step], if block { &BLOCK_IN_SPACE[..] } else { &[] }].concat();
         let of = |preconditioner: &str| run(&gpu, &[&case[..], &[preconditioner]].concat());
-        let (slow, expected, _) = of("numerics.preconditioner=jacobi");
-        let (fast, found, _) = of("numerics.preconditioner=multigrid");
+        let (slow, expected, _) = of("numerics.expert.preconditioner=jacobi");
+        let (fast, found, _) = of("numerics.expert.preconditioner=multigrid");
         let worst = difference(&expected, &found);
         eprintln!("{step}, block {block}: pressures differ by {worst:.1e} of their range");
         let gains = slow.iter().zip(&fast).all(|(slow, fast)| f64::from(*slow) >= gain * f64::from(*fast));
@@ -225,7 +225,8 @@ fn large_steps_in_space_cost_few_iterations() {
 fn small_steps_keep_their_bits() {
     let Some(gpu) = gpu_or_skip() else { return };
     for case in [&["time.fixed_step=0.0066"][..], &["time.fixed_step=0.0528", SPACE[0], SPACE[1]]] {
-        let (iterations, expected, expected_gas) = run(&gpu, &[case, &["numerics.preconditioner=jacobi"]].concat());
+        let (iterations, expected, expected_gas) =
+            run(&gpu, &[case, &["numerics.expert.preconditioner=jacobi"]].concat());
         let (same, found, gas) = run(&gpu, case);
         assert_eq!(iterations, same);
         assert!(expected.iter().zip(&found).all(|(a, b)| a.to_bits() == b.to_bits()));
@@ -272,7 +273,7 @@ fn the_device_applies_what_the_twin_does() {
         &["numerics.pair=b2b1"],
         &BLOCK_IN_SPACE,
     ];
-    let always = "numerics.preconditioner=multigrid";
+    let always = "numerics.expert.preconditioner=multigrid";
     let common = ["time.fixed_step=0.17", "numerics.tolerance=0.999", always];
     let in_plane = [&common[..], &["domain.cells=[48,48]", dense]].concat();
     let (cells, dense) =

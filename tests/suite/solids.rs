@@ -110,7 +110,7 @@ fn momentum_of_a_stiff_body_closes_in_the_implicit_step() {
 /// Spread over the sub-steps as accelerations of nodes whose masses change as the body moves, what the gas gives was off by 1 % and more.
 #[test]
 fn momentum_closes_with_a_shared_volume() {
-    momentum_closes(&["numerics.ghost=shared_volume"]);
+    momentum_closes(&["numerics.paper.ghost=shared_volume"]);
 }
 
 /// A stiff light body of metal is thrown against the wall. Where nodes are stopped and let go in turn no round of Newton's method finds balance: 20
@@ -169,7 +169,7 @@ fn momentum_closes(overrides: &[&str]) {
 fn a_steady_load_strains_a_slab() {
     let Some(gpu) = gpu_or_skip() else { return };
     for (ghost, low, high) in [("shared_volume", 0.00723, 0.00753), ("absorbs", 0.0066, 0.00753)] {
-        let overrides = [format!("numerics.ghost={ghost}")];
+        let overrides = [format!("numerics.paper.ghost={ghost}")];
         let scene =
             Scene::shipped("validation/static_load.toml", &overrides).and_then(|scene| scene.with_resolution(25));
         let scene = scene.unwrap_or_else(|error| panic!("{error}"));

@@ -87,15 +87,13 @@ const OPEN: &str = "[boundary]\nx_max = \"outlet\"\n";
 #[test]
 fn a_line_and_a_plane() {
     same_bits("line", &blast(1, [4096, 1, 1], ""), &[], 40);
-    for overrides in
-        [&[][..], &["numerics.integrator=paper"], &["numerics.face_velocity=cell"], &["numerics.limiter=false"]]
-    {
+    for overrides in [&[][..], &["numerics.integrator=paper"], &["numerics.paper.face_velocity=cell"]] {
         same_bits("plane", &blast(2, [240, 160, 1], ""), overrides, 24);
     }
     for overrides in [
         &["numerics.pair=b2b1"][..],
         &["numerics.integrator=ars222", "time.cfl=0.4"],
-        &["numerics.filter=0.1", "numerics.limiter=false"],
+        &["numerics.filter=0.1"],
         &["gravity=[0.0, -0.1]"],
     ] {
         same_bits("plane", &blast(2, [160, 96, 1], ""), overrides, 24);
@@ -121,7 +119,7 @@ fn space() {
     let text = blast(3, [40, 48, 80], OPEN);
     same_bits("space", &blast(3, [40, 48, 120], ""), &[], 6);
     same_bits("space", &text, &[], 6);
-    same_bits("space", &text, &["numerics.face_velocity=cell"], 4);
+    same_bits("space", &text, &["numerics.paper.face_velocity=cell"], 4);
 }
 
 /// As on a GPU.
@@ -200,8 +198,7 @@ fn motion_gets_as_far_as_counted() {
     for overrides in [
         &[][..],
         &["numerics.integrator=paper"],
-        &["numerics.face_velocity=cell"],
-        &["numerics.limiter=false"],
+        &["numerics.paper.face_velocity=cell"],
         &["numerics.tolerance=1e-3"],
         &["numerics.tolerance=1e-7"],
     ] {
@@ -221,7 +218,8 @@ fn motion_gets_as_far_as_counted() {
 fn fronts() {
     let front = "[[gas.regions]]\nshape = { sphere = { center = [0.35, 0.4, 0.7], radius = 0.15 } }\ndensity = 0.5\n\
                  velocity = [2.0, -3.0, 2.5]\npressure = 0.1\n";
-    for overrides in [&[][..], &["numerics.face_velocity=cell"], &["numerics.integrator=ars222", "time.cfl=0.4"]] {
+    for overrides in [&[][..], &["numerics.paper.face_velocity=cell"], &["numerics.integrator=ars222", "time.cfl=0.4"]]
+    {
         same_bits("front", &blast(3, [56, 64, 128], front), overrides, 2);
     }
 }

@@ -47,7 +47,7 @@ fn noise_on_a_stream_does_not_grow() {
     for (dimension, cells, steps, numerics) in [
         (1, 64, 600, two.to_owned()),
         (1, 64, 600, format!("{two}pair = \"b2b1\"\n")),
-        (1, 64, 600, format!("{two}face_velocity = \"cell\"\n")),
+        (1, 64, 600, format!("{two}paper.face_velocity = \"cell\"\n")),
         (2, 24, 200, two.to_owned()),
         (2, 24, 200, format!("{two}pair = \"b2b1\"\n")),
         (3, 12, 100, two.to_owned()),

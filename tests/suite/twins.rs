@@ -2,7 +2,7 @@
 
 use brisance::gpu::{Buffer, Detail, Gpu, readback};
 use brisance::scene::{
-    Boundary, Coupling, Elasticity, Film, GasState, Ghost, Integrator, InterfacePressure, Pair, Scene, SolidUpdate,
+    Boundary, Coupling, Elasticity, GasState, Ghost, Integrator, InterfacePressure, Pair, Scene, SolidUpdate,
 };
 use brisance::simulation::Simulation;
 use glam::{DMat3, DVec3};
@@ -61,15 +61,12 @@ pub(crate) fn problem_of(scene: &Scene) -> Problem {
         InterfacePressure::Single => Shared::Single,
     };
     problem.numerics.tolerance = 1e-9;
-    problem.numerics.film_nearest = scene.numerics.film == Film::Nearest;
-    problem.numerics.power_midpoint = scene.midpoint_power();
     problem.numerics.late_flux = scene.late_flux();
-    problem.numerics.gradients = scene.numerics.solid_update == SolidUpdate::Gradients;
-    problem.numerics.coupling_last = scene.numerics.coupling == Coupling::Last;
-    problem.numerics.shared_volume = scene.numerics.ghost == Ghost::SharedVolume;
+    problem.numerics.gradients = scene.numerics.paper.solid_update == SolidUpdate::Gradients;
+    problem.numerics.coupling_last = scene.numerics.paper.coupling == Coupling::Last;
+    problem.numerics.shared_volume = scene.numerics.paper.ghost == Ghost::SharedVolume;
     problem.numerics.implicit = scene.numerics.elasticity == Elasticity::Implicit;
     problem.numerics.max_substeps = scene.max_substeps() as usize;
-    problem.numerics.blending = scene.numerics.blending;
     problem.numerics.predictor = scene.integrator() != Integrator::Paper;
     problem.numerics.consistent = scene.consistent();
     problem.numerics.two_solves = scene.solves() == 2;

@@ -68,8 +68,7 @@ fn difference(gpu: &Gpu, dimension: usize, cells: usize, run: (f64, &str)) -> f3
 }
 
 /// An obstacle in the middle of a plane, whose surface leaves gas in a part of cells that images stand next to.
-const BALL: &str =
-    "obstacles = \"cut\"\n[[obstacles]]\nname = \"ball\"\nshape = { sphere = { center = [0.0, 0.0], radius = 0.12 } }";
+const BALL: &str = "paper.obstacles = \"cut\"\n[[obstacles]]\nname = \"ball\"\nshape = { sphere = { center = [0.0, 0.0], radius = 0.12 } }";
 
 /// The same of whole cells, as the pair B2B1 takes obstacles.
 const BALL_OF_CELLS: &str =
@@ -80,7 +79,7 @@ const BALL_OF_CELLS: &str =
 fn a_part_of_a_blast_between_walls_is_the_whole_blast() {
     let Some(gpu) = gpu_or_skip() else { return };
     let settings =
-        ["", "face_velocity = \"cell\"", "integrator = \"ars222\"", "integrator = \"paper\"", "pair = \"b2b1\""];
+        ["", "paper.face_velocity = \"cell\"", "integrator = \"ars222\"", "integrator = \"paper\"", "pair = \"b2b1\""];
     let blasts = [(1, 40, 0.2), (2, 32, 0.2), (3, 20, 0.05)];
     let free =
         settings.iter().flat_map(|more| blasts.map(|(dimension, cells, until)| (dimension, cells, (until, *more))));

@@ -21,7 +21,7 @@ use crate::state::MemoryPlan;
 use crate::{Error, Result, input};
 
 /// Keys that a branch may change, with what may follow; materials of the same model may change their strength.
-const CHANGEABLE: [&str; 13] = [
+const CHANGEABLE: [&str; 12] = [
     "title",
     "description",
     "probes",
@@ -33,7 +33,6 @@ const CHANGEABLE: [&str; 13] = [
     "gravity",
     "time.",
     "numerics.tolerance",
-    "numerics.blending",
     "materials.",
 ];
 /// Last parts of the keys of materials that a branch may change.
@@ -176,7 +175,7 @@ impl Beginning {
         (before.gravity, before.time, before.boundary) = (was.gravity, was.time.clone(), was.boundary.clone());
         before.time.frames = self.scene.time.frames;
         before.output.clone_from(&was.output);
-        (before.numerics.tolerance, before.numerics.blending) = (was.numerics.tolerance, was.numerics.blending);
+        before.numerics.tolerance = was.numerics.tolerance;
         let mut simulation = Simulation::new(gpu, &before)?;
         let read = checkpoint::read(&from.path, plan.bytes(None).max(simulation.saved_bytes()))?;
         let saved = Saved { host: from.about.host.clone(), ..read };
@@ -207,7 +206,7 @@ impl Beginning {
 }
 
 const REFUSED: &str = "a state goes on only with the cells, bodies and gas that it has; a branch may change probes, gauges, output.*, render.*, \
-                       expect.*, boundary.* (states, not rules), gravity, time.*, numerics.tolerance, numerics.blending, and the \
+                       expect.*, boundary.* (states, not rules), gravity, time.*, numerics.tolerance, and the \
                        strength of materials; run the scene anew for the rest";
 
 /// Whether a branch may change a key.

@@ -186,14 +186,14 @@ fn repeated(gpu: &Gpu, full: bool) -> Result<Found> {
 
 fn transfers(gpu: &Gpu, full: bool) -> Result<Found> {
     let by = |transfer: &str| shell_state(gpu, &[transfer], full);
-    Ok(difference([by("numerics.transfer=columns")?, by("numerics.transfer=nodes")?], 1e-3))
+    Ok(difference([by("numerics.expert.transfer=columns")?, by("numerics.expert.transfer=nodes")?], 1e-3))
 }
 
 fn both_settings(gpu: &Gpu, full: bool) -> Result<Found> {
     let with = |settings: Settings| {
         let mut gpu = gpu.clone();
         gpu.settings = settings;
-        shell_state(&gpu, &["numerics.transfer=columns"], full)
+        shell_state(&gpu, &["numerics.expert.transfer=columns"], full)
     };
     Ok(difference([with(Settings::Software)?, with(Settings::Hardware)?], 1e-3))
 }

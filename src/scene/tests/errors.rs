@@ -28,6 +28,21 @@ fn unknown_key_lists_the_known_ones() {
 }
 
 #[test]
+fn a_key_in_another_table_is_told_its_place_and_one_that_is_gone_what_to_do() {
+    let old = with("[numerics]\ntolerance = 1e-6\nghost = \"shared_volume\"\nmax_iterations = 9\nledger = false\n");
+    let words = [
+        "numerics.ghost: unknown field `ghost`; it is a key of `numerics.paper`",
+        "write numerics.paper.ghost, or the key below the header [numerics.paper]",
+        "numerics.max_iterations: unknown field `max_iterations`; it is a key of `numerics.expert`",
+        "numerics.ledger: unknown field `ledger`\n   --> test.toml:17:1",
+        "remove it: the gas of covered cells is always kept and given back",
+    ];
+    expect(&old, &[], &words);
+    expect(BASE, &["numerics.elastic_cfl=0.2"], &["--set:1:22", "write numerics.expert.elastic_cfl"]);
+    expect(&BASE.replace("[domain]", "until = 1.0\n[domain]"), &[], &["test.toml:3:1", "it is a key of `time`"]);
+}
+
+#[test]
 fn unknown_key_inside_a_region() {
     let region =
         "[[gas.regions]]\nshape = { sphere = { center = [0.5, 0.5], radius = 0.1 } }\ndensity = 1.0\npresure = 2.0\n";
@@ -174,9 +189,12 @@ fn shapes() {
 fn settings() {
     for (setting, key) in [
         ("[numerics]\ntolerance = 0.0\n", "numerics.tolerance"),
-        ("[numerics]\nmax_iterations = 0\n", "numerics.max_iterations"),
-        ("[numerics]\nsolid_threshold = 1.5\n", "numerics.solid_threshold"),
-        ("[numerics]\nfilter = 1.5\n", "numerics.filter"),
+        ("[numerics.expert]\nmax_iterations = 0\n", "numerics.expert.max_iterations"),
+        ("[numerics.paper]\nsolid_threshold = 1.5\n", "numerics.paper.solid_threshold"),
+        ("[numerics]\nfilter = 1.5\n", "numerics.filter: 1.5 is out of range"),
+        ("[numerics]\nfilter = -0.5\n", "give a number from 0 to 1"),
+        ("[numerics]\ntolerance = 1.0\n", "give a number above 0 and below 1"),
+        ("[numerics.expert]\nelastic_tolerance = 0.6\n", "give a number above 0 and at most 0.5"),
         ("[render]\nsize = [8, 720]\n", "render.size"),
         ("[render]\nrange = [1.0, 1.0]\n", "render.range"),
         ("[render]\nparticle_range = [2.0, 1.0]\n", "render.particle_range"),

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
+use serde_json::Value;
 
 use super::{BASE, parse};
+use crate::scene::limits::allowed;
 use crate::scene::{Boundary, Scene, schema};
 
 fn root() -> PathBuf {
@@ -106,14 +108,14 @@ fn defaults_depend_on_the_dimension() {
 }
 
 /// Collects the names of properties and the values of enumerations.
-fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
+fn keys(schema: &Value, found: &mut Vec<String>) {
     match schema {
-        serde_json::Value::Object(entries) => {
+        Value::Object(entries) => {
             for (name, value) in entries {
                 match (name.as_str(), value) {
-                    ("properties", serde_json::Value::Object(properties)) => found.extend(properties.keys().cloned()),
-                    ("const", serde_json::Value::String(text)) => found.push(text.clone()),
-                    ("enum", serde_json::Value::Array(texts)) => {
+                    ("properties", Value::Object(properties)) => found.extend(properties.keys().cloned()),
+                    ("const", Value::String(text)) => found.push(text.clone()),
+                    ("enum", Value::Array(texts)) => {
                         found.extend(texts.iter().filter_map(|text| text.as_str().map(str::to_owned)));
                     }
                     _ => {}
@@ -121,7 +123,7 @@ fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
                 keys(value, found);
             }
         }
-        serde_json::Value::Array(entries) => entries.iter().for_each(|entry| keys(entry, found)),
+        Value::Array(entries) => entries.iter().for_each(|entry| keys(entry, found)),
         _ => {}
     }
 }
@@ -147,6 +149,31 @@ fn every_key_is_documented() {
     );
     let missing = found.iter().filter(|key| !text.contains(&format!("`{key}`"))).collect::<Vec<_>>();
     assert!(missing.is_empty(), "docs/scenes does not mention {missing:?}");
+}
+
+/// Defaults and limits stand in the types; rows of the page about time and numerics say the same.
+#[test]
+fn the_page_of_numerics_has_the_defaults_and_limits_of_the_types() {
+    let page = std::fs::read_to_string(root().join("docs/scenes/numerics.md")).expect("a page");
+    let schema = crate::scene::mended::schema();
+    for (heading, table) in
+        [("time", "Time"), ("numerics", "Numerics"), ("numerics.paper", "Paper"), ("numerics.expert", "Expert")]
+    {
+        let (_, part) = page.split_once(&format!("\n## `{heading}`\n")).unwrap_or_else(|| panic!("no {heading}"));
+        let part = part.split("\n## ").next().unwrap_or_default();
+        for (key, own) in schema["$defs"][table]["properties"].as_object().expect("a table") {
+            let row = part.lines().find_map(|line| line.strip_prefix(&format!("| `{key}` | ")));
+            let cells: Vec<&str> = row.unwrap_or_else(|| panic!("no row of {heading}.{key}")).split(" | ").collect();
+            if let Some(limits) = allowed(own) {
+                assert_eq!(cells[1], limits, "{heading}.{key}");
+            }
+            match &own["default"] {
+                Value::String(word) => assert_eq!(cells[0], format!("`{word}`"), "{heading}.{key}"),
+                Value::Number(number) => assert_eq!(cells[0].parse().ok(), number.as_f64(), "{heading}.{key}"),
+                _ => assert!(["none", "required", "|"].contains(&cells[0]), "{heading}.{key}: {}", cells[0]),
+            }
+        }
+    }
 }
 
 #[test]

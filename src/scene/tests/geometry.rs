@@ -338,7 +338,7 @@ fn obstacles_thinner_than_a_cell_are_told() {
     let lost = |shape: &str, kind: &str| {
         let scene = parse(
             &format!("{BASE}[[obstacles]]\nname = \"o\"\nshape = {{ {shape} }}\n"),
-            &[&format!("numerics.obstacles={kind}")],
+            &[&format!("numerics.paper.obstacles={kind}")],
         );
         scene.thin_obstacles().first().map(|found| (found.cells, found.share))
     };

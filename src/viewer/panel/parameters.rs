@@ -14,7 +14,6 @@ pub(super) struct Parameters {
     gravity: [f64; 3],
     cfl: f64,
     tolerance: f64,
-    blending: bool,
     /// Speed of what flows in, relative to the scene file.
     inflow: f64,
     has_inflow: bool,
@@ -27,7 +26,6 @@ impl Parameters {
             gravity: scene.gravity,
             cfl: scene.time.cfl,
             tolerance: scene.numerics.tolerance,
-            blending: scene.numerics.blending,
             inflow: 1.0,
             has_inflow: scene.boundary.sides().iter().any(flows),
         }
@@ -39,7 +37,6 @@ impl Parameters {
         scene.gravity = self.gravity;
         scene.time.cfl = self.cfl;
         scene.numerics.tolerance = self.tolerance;
-        scene.numerics.blending = self.blending;
         let sides = &mut scene.boundary;
         for side in
             [&mut sides.x_min, &mut sides.x_max, &mut sides.y_min, &mut sides.y_max, &mut sides.z_min, &mut sides.z_max]
@@ -100,11 +97,6 @@ pub(super) fn show(ui: &mut Ui, view: &mut View) {
         ui.label("tolerance");
         ui.add(positive(&mut now.tolerance, "").range(1e-9..=0.5));
         ui.end_row();
-        if !view.scene.bodies.is_empty() {
-            ui.label("blending");
-            ui.checkbox(&mut now.blending, "").on_hover_text("block faces of partly filled cells by their share");
-            ui.end_row();
-        }
     });
     if ui.button("as in the scene file").clicked() {
         view.panel.parameters = Parameters::of(&view.opened.scene);

@@ -79,9 +79,9 @@ fn solid_power(problem: &Problem, solution: &Solution, velocity: &[[f64; 3]], ax
     power
 }
 
-/// Solid velocity that the interface power is taken with.
+/// Solid velocity that the interface power is taken with: the mean of the old and the new one.
 fn working_velocity(problem: &Problem, solution: &Solution, before: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    if !problem.numerics.power_midpoint {
+    if problem.numerics.shared_volume {
         return solution.solid_velocity.clone();
     }
     let midpoint = |(old, new): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|d| 0.5 * (old[d] + new[d]));

@@ -296,9 +296,6 @@ pub(crate) fn limited(
             first[axis][slot][4] -= implicit * heat[axis][slot];
         }
     }
-    if !problem.numerics.limiter {
-        return (weno, 0);
-    }
     let mut theta = vec![1.0; grid.slots()];
     let mut touched = 0;
     for c in grid.interior() {

@@ -170,9 +170,6 @@ pub(crate) fn resolved(problem: &Problem, bins: &Bins, vertex: [i32; 3]) -> bool
 fn blocked_fraction(problem: &Problem, volume: f64) -> f64 {
     use std::f64::consts::PI;
     let dx = problem.grid.spacing;
-    if !problem.numerics.blending {
-        return 1.0;
-    }
     match problem.grid.dimension {
         1 => 1.0,
         2 => (2.0 * (volume / PI).sqrt() / dx).min(1.0),
@@ -191,9 +188,6 @@ fn film_pressure(
 ) -> f64 {
     let grid = &problem.grid;
     let own = bins.ghost_pressure[grid.slot(vertex)];
-    if !problem.numerics.film_nearest {
-        return own;
-    }
     for distance in 0..=16 {
         let mut found = (0.0, 0.0);
         for tangent in (0..grid.dimension).filter(|d| *d != axis) {

@@ -11,7 +11,7 @@ pub(crate) fn change_kinds(problem: &Problem, state: &mut State, kinds: &[u32], 
     let old = state.gas.clone();
     for c in grid.interior() {
         let slot = grid.slot(c);
-        if before[slot] == GAS && kinds[slot] == SOLID && problem.numerics.ledger {
+        if before[slot] == GAS && kinds[slot] == SOLID {
             let held = old.get(slot);
             (0..5).for_each(|k| state.ledger[slot][k] += held[k] * volume);
         } else if before[slot] == SOLID && kinds[slot] == GAS {
@@ -24,17 +24,11 @@ pub(crate) fn change_kinds(problem: &Problem, state: &mut State, kinds: &[u32], 
             let fill = mean(faces(grid)).or_else(|| mean(grid.offsets(-1, 1))).or_else(|| mean(grid.offsets(-2, 2)));
             let fill = fill.unwrap_or_else(|| pocket(problem, state, bins, c));
             state.gas.set(slot, fill);
-            if problem.numerics.ledger {
-                (0..5).for_each(|k| state.ledger[slot][k] -= fill[k] * volume);
-            }
+            (0..5).for_each(|k| state.ledger[slot][k] -= fill[k] * volume);
         }
     }
     state.cells = kinds.to_vec();
-    if problem.numerics.ledger {
-        settle(problem, state);
-    } else {
-        state.ledger.fill([0.0; 5]);
-    }
+    settle(problem, state);
 }
 
 fn faces(grid: &Grid) -> Vec<[i32; 3]> {

@@ -109,10 +109,6 @@ pub(crate) struct Numerics {
     pub(crate) consistent: bool,
     pub(crate) shared: Shared,
     pub(crate) solid_threshold: f64,
-    /// Film traction from the nearest gas vertex; otherwise from the solid's own ghost pressure.
-    pub(crate) film_nearest: bool,
-    /// Power at the interface with the mean of the old and new solid velocity; otherwise the new one.
-    pub(crate) power_midpoint: bool,
     /// Half of what bodies gain in the solve carries gas.
     pub(crate) late_flux: bool,
     /// Solid nodes follow the local pressure gradient.
@@ -121,10 +117,7 @@ pub(crate) struct Numerics {
     pub(crate) coupling_last: bool,
     /// The ghost pressure follows the volumetric part of the law.
     pub(crate) shared_volume: bool,
-    pub(crate) ledger: bool,
-    pub(crate) limiter: bool,
     pub(crate) weno: Weno,
-    pub(crate) blending: bool,
     pub(crate) elastic_cfl: f64,
     pub(crate) max_substeps: usize,
     pub(crate) cfl: f64,
@@ -150,16 +143,11 @@ impl Default for Numerics {
             consistent: false,
             shared: Shared::Resolved,
             solid_threshold: 0.5,
-            film_nearest: true,
-            power_midpoint: true,
             late_flux: true,
             gradients: false,
             coupling_last: false,
             shared_volume: false,
-            ledger: true,
-            limiter: true,
             weno: Weno { steep: 7e-4, even: Some(1e-6) },
-            blending: true,
             elastic_cfl: 0.4,
             max_substeps: 10_000,
             cfl: 0.5,
