@@ -1,8 +1,8 @@
 // Particles as balls, in the plane as strained squares: the nearest one in each sample of the band. A ray's place has view.samples x view.samples samples.
 // measure: reads position, velocity, affine, deformation, stress, heat; writes quantity, what the colours mean.
 // find_particle_range: reads quantity; writes the least and largest value that each workgroup saw.
-// mix_paint: reads quantity, position, velocity, affine, deformation, colors; writes balls: place and radius, 0 for what is not
-// drawn; then colour.
+// mix_paint: reads quantity, position, velocity, affine, deformation, colors, names; writes balls: place and radius, 0 for what is not
+// drawn; then colour, and the factor by which the ball is drawn larger where balls are smoothed into a surface.
 // splat_depth: reads balls, deformation; raises depth_bits to the nearest ball.
 // splat_nearest: reads the same and depth_bits; writes nearest, the lowest particle index at that depth.
 
@@ -23,6 +23,10 @@
 @group(0) @binding(10) var<storage, read_write> balls: array<vec4f>;
 @group(0) @binding(11) var<storage, read_write> depth_bits: array<atomic<u32>>;
 @group(0) @binding(12) var<storage, read_write> nearest: array<atomic<u32>>;
+@group(0) @binding(13) var<storage, read> names: array<vec4f>;
+
+// Colours of `names` that are those of bodies; those of materials follow.
+override BODIES: u32 = 0u;
 
 // Two kernels may round the same depth differently; this many units in the last place count as equal.
 const DEPTH_SLACK: u32 = 64u;
@@ -99,6 +103,23 @@ fn find_particle_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_i
     }
 }
 
+// How much larger balls are drawn where they become a surface: so that neighbours meet without holes, also where a body is stretched.
+const CLOSING: f32 = 1.6;
+const MOST_GROWTH: f32 = 3.2;
+
+// The elastic stretch is that of the deformation; plastic flow leaves its strain alone. Cracks stay open.
+fn growth(p: u32) -> f32 {
+    if (view.smooth_skin == 0u || deformation[3u * p + 2u].w > 0.5) {
+        return select(1.0, CLOSING, view.smooth_skin == 1u);
+    }
+    let a = deformation[3u * p].xyz + vec3f(1.0, 0.0, 0.0);     // columns of F
+    let b = deformation[3u * p + 1u].xyz + vec3f(0.0, 1.0, 0.0);
+    let c = deformation[3u * p + 2u].xyz + vec3f(0.0, 0.0, 1.0);
+    let elastic = sqrt(max(dot(a, a), max(dot(b, b), dot(c, c))));
+    let plastic = exp(clamp(affine[3u * p + 1u].w, 0.0, 1.5));
+    return min(CLOSING * max(elastic * plastic, 1.0), MOST_GROWTH);
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, local);
@@ -109,16 +130,16 @@ fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
     if (view.particle_color == PARTICLE_BODY || view.particle_color == PARTICLE_MATERIAL) {
         let body = bitcast<u32>(deformation[3u * p].w);
         let material = bitcast<u32>(affine[3u * p + 2u].w) & 0xffffu;
-        let name = select(material, body, view.particle_color == PARTICLE_BODY);
+        let name = select(BODIES + material, body, view.particle_color == PARTICLE_BODY);
         let plastic_strain = affine[3u * p + 1u].w;
-        color = BODY_COLORS[name % BODY_COLOR_COUNT] / (1.0 + max(plastic_strain, 0.0) / view.dark_strain);
+        color = names[name].rgb / (1.0 + max(plastic_strain, 0.0) / view.dark_strain);
     } else {
         let fraction = clamp((quantity[p] - view.particle_low) / (view.particle_high - view.particle_low), 0.0, 1.0);
         color = colors[2u * COLOR_COUNT + u32(fraction * f32(COLOR_COUNT - 1u) + 0.5)].rgb;
     }
     let radius = view.particle_scale * pow(velocity[p].w, 1.0 / f32(view.dimension));
     balls[2u * p] = vec4f(position[p].xyz, select(radius, 0.0, deformation[3u * p + 1u].w == 0.0));
-    balls[2u * p + 1u] = vec4f(color, 1.0);
+    balls[2u * p + 1u] = vec4f(color, growth(p));
 }
 
 struct Footprint {
@@ -167,7 +188,7 @@ fn share_of_square(mark: Footprint, offset: vec2f) -> f32 {
 
 fn footprint(p: u32) -> Footprint {
     let ball = balls[2u * p];
-    var mark = Footprint(ball.xyz, ball.w * splat_growth(), vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0), vec4f(0.0), 1.0);
+    var mark = Footprint(ball.xyz, ball.w * balls[2u * p + 1u].w, vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0), vec4f(0.0), 1.0);
     let place = project(mark.centre);
     if (mark.radius == 0.0 || (place.z <= mark.radius && view.parallel == 0u)) {
         return mark;

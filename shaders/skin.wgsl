@@ -10,6 +10,7 @@
 #include "shared/samples.wgsl"
 #include "shared/surface.wgsl"
 #include "shared/light.wgsl"
+#include "shared/area.wgsl"
 
 @group(0) @binding(1) var<storage, read> balls: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> covered: array<atomic<u32>>;
@@ -29,6 +30,8 @@ override SMOOTH: bool = false;
 // Radius of the smoothing over that of a ball, and the steepest slope that still belongs to the same sheet.
 const SMOOTH_REACH: f32 = 2.4;
 const STEEPEST: f32 = 3.0;
+// Cosine between colours that differ in brightness alone.
+const SAME_HUE: f32 = 0.995;
 
 fn depth_of(place: vec2i) -> f32 {
     let grid = sample_grid();
@@ -39,16 +42,13 @@ fn depth_of(place: vec2i) -> f32 {
     return select(bitcast<f32>(FARTHEST - bits), -1.0, bits == NOTHING);
 }
 
-// Samples across a length seen at a depth.
-fn samples_across(length: f32, depth: f32) -> f32 {
-    let distance = select(depth, 1.0, view.parallel == 1u);
-    return length / (distance * view.half_height) * 0.5 * f32(view.size.y) * f32(view.samples);
-}
-
 // Depths that differ by more than so many radii belong to different sheets.
 const SHEET: f32 = 6.0;
-// Of sixteen places around, how many beyond a sheet tell its side from a small hole.
-const SIDE: u32 = 4u;
+// Of sixteen places around, how many beyond a sheet tell its side from a small hole. The wider the ring, the fewer: what is left of a
+// straight side is then as narrow.
+fn places_of_side(growth: f32) -> u32 {
+    return select(2u, 4u, growth < 1.8);
+}
 
 @compute @workgroup_size(WORKGROUP)
 fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
@@ -64,8 +64,11 @@ fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
     }
     let place = vec2i(vec2u(i % grid.x, i / grid.x));
     let depth = bitcast<f32>(FARTHEST - depth_in[i]);
-    let radius = balls[2u * (FARTHEST - nearest[i])].w;
-    let excess = (splat_growth() - 1.0) * radius;
+    let ball = 2u * (FARTHEST - nearest[i]);
+    let radius = balls[ball].w;
+    let growth = balls[ball + 1u].w;
+    let side = places_of_side(growth);
+    let excess = (growth - 1.0) * radius;
     let reach = clamp(samples_across(excess, depth), 1.0, f32(SAMPLE_MARGIN) / 3.0);
     // On a ring around: what of the sheet is farthest, and what lies behind it where it ends.
     var farthest = depth;
@@ -83,10 +86,10 @@ fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
             behind = select(behind, j + 1u, nearest[j] != NOTHING);
         }
     }
-    if (beyond >= SIDE && behind != NOTHING) {
+    if (beyond >= side && behind != NOTHING) {
         kept[i] = nearest[behind - 1u];
         farthest = bitcast<f32>(FARTHEST - depth_in[behind - 1u]);
-    } else if (beyond >= SIDE) {
+    } else if (beyond >= side) {
         kept[i] = NOTHING;
     }
     depth_out[i] = select(FARTHEST - bitcast<u32>(farthest + excess), NOTHING, kept[i] == NOTHING);
@@ -128,11 +131,20 @@ fn point_at(place: vec2i, depth: f32) -> vec3f {
     return ray.start + depth * ray.direction;
 }
 
-// Normal of the plane that fits the depths on a ring of samples best; zero where too few lie on the same sheet.
-fn fitted_normal(place: vec2i, here: vec3f, depth: f32, radius: f32) -> vec3f {
+// What a ring of samples on the same sheet tells: the normal of the plane that fits their depths best, zero where they are too few; and
+// their colour, where only its brightness differs.
+struct Sheet {
+    normal: vec3f,
+    color: vec3f,
+}
+
+fn fit_sheet(place: vec2i, here: vec3f, depth: f32, p: u32) -> Sheet {
+    let radius = balls[2u * p].w;
+    let color = balls[2u * p + 1u].rgb;
     let reach = clamp(samples_across(1.2 * radius, depth), 2.0, f32(SAMPLE_MARGIN) / 3.0);
     var rises = vec2f(0.0);
     var squares = vec2f(0.0);
+    var colors = vec4f(color, 1.0);
     for (var k = 0u; k < 12u; k++) {
         let angle = f32(k) * 0.52359878;
         let offset = round(reach * vec2f(cos(angle), sin(angle)));
@@ -140,107 +152,40 @@ fn fitted_normal(place: vec2i, here: vec3f, depth: f32, radius: f32) -> vec3f {
         if (near > 0.0 && abs(near - depth) < radius * (1.0 + 1.2 * STEEPEST)) {
             rises += offset * (near - depth);
             squares += offset * offset;
+            let beside = balls[2u * (FARTHEST - particle_at(place + vec2i(offset))) + 1u].rgb;
+            let same_hue = dot(beside, color) > SAME_HUE * length(beside) * length(color);
+            colors += select(vec4f(0.0), vec4f(beside, 1.0), same_hue);
         }
     }
-    if (min(squares.x, squares.y) == 0.0) {
-        return vec3f(0.0);
+    var across = vec3f(0.0);
+    if (min(squares.x, squares.y) > 0.0) {
+        let slope = rises / squares;
+        let right = point_at(place + vec2i(1, 0), depth + slope.x) - here;
+        let below = point_at(place + vec2i(0, 1), depth + slope.y) - here;
+        across = cross(below, right);
     }
-    let slope = rises / squares;
-    let right = point_at(place + vec2i(1, 0), depth + slope.x) - here;
-    let below = point_at(place + vec2i(0, 1), depth + slope.y) - here;
-    return cross(below, right);
+    return Sheet(across, colors.rgb / colors.w);
 }
 
-fn normal_at(place: vec2i, ray: Ray, depth: f32, p: u32) -> vec3f {
+// Normal and colour of what a sample shows of a particle.
+fn sheet_at(place: vec2i, ray: Ray, depth: f32, p: u32) -> Sheet {
     let here = ray.start + depth * ray.direction;
+    var sheet = Sheet(vec3f(0.0), balls[2u * p + 1u].rgb);
     if (SMOOTH) {
-        let across = fitted_normal(place, here, depth, balls[2u * p].w);
-        let size = length(across);
-        if (size > 0.0) {
-            return across / size * select(1.0, -1.0, dot(across, ray.direction) > 0.0);
-        }
+        sheet = fit_sheet(place, here, depth, p);
     }
-    return (here - balls[2u * p].xyz) / balls[2u * p].w;
+    let size = length(sheet.normal);
+    if (size > 0.0) {
+        sheet.normal *= select(1.0, -1.0, dot(sheet.normal, ray.direction) > 0.0) / size;
+    } else {
+        sheet.normal = (here - balls[2u * p].xyz) / balls[2u * p].w;
+    }
+    return sheet;
 }
 
 // First sample of a ray of the band.
 fn first_sample(i: u32) -> vec2u {
     return vec2u(i % view.size.x, i / view.size.x) * view.samples + vec2u(0u, SAMPLE_MARGIN);
-}
-
-// Bodies in the plane are areas: where particles cover half of the samples around, less what discs reach beyond the body.
-
-// Samples that are looked at around one, on four rings of equal area; how far, and how far particles reach beyond a straight side, both over
-// the radius of a particle's disc.
-const LOOKS: u32 = 48u;
-const LOOK_REACH: f32 = 1.5;
-const BEYOND_SIDE: f32 = 0.16;
-// Radius of the disc around a particle that is covered even if it is alone, over that of its disc: less than half of the distance of
-// neighbours, so that sides stay straight.
-const CORE: f32 = 0.64;
-// Largest width of the line around a body over the radius of a disc.
-const WIDEST_LINE: f32 = 0.35;
-
-// Shade of the line around a body.
-const OUTLINE_SHADE: f32 = 0.3;
-
-fn look(k: u32, reach: f32) -> vec2i {
-    let ring = k / 12u;
-    let angle = (f32(k % 12u) + 0.25 * f32(ring)) * 0.52359878;
-    return vec2i(round(reach * sqrt((f32(ring) + 0.5) / 4.0) * vec2f(cos(angle), sin(angle))));
-}
-
-// Beyond the picture is what is at its edge.
-fn particle_at(place: vec2i) -> u32 {
-    let inside = vec2u(clamp(place, vec2i(0), vec2i(sample_grid()) - 1));
-    return nearest[inside.x + sample_grid().x * inside.y];
-}
-
-// The particle in a sample, or one of those around it; NOTHING if there is none.
-fn particle_near(place: vec2i, reach: f32) -> u32 {
-    var found = particle_at(place);
-    for (var k = 0u; k < LOOKS && found == NOTHING; k++) {
-        found = particle_at(place + look(k, reach));
-    }
-    return found;
-}
-
-// Radius of a particle's disc in samples, as far as a band allows to look.
-fn disc_samples(found: u32) -> f32 {
-    return clamp(samples_across(balls[2u * (FARTHEST - found)].w, 1.0), 1.0, f32(SAMPLE_MARGIN) / LOOK_REACH);
-}
-
-// Distance from a sample into the area, in samples: that to a straight side from the share of the samples around that are covered.
-fn depth_inside(place: vec2i, radius: f32) -> f32 {
-    let reach = LOOK_REACH * radius;
-    var covered_looks = 0.0;
-    for (var k = 0u; k < LOOKS; k++) {
-        covered_looks += select(0.0, 1.0, particle_at(place + look(k, reach)) != NOTHING);
-    }
-    return (covered_looks / f32(LOOKS) - 0.5) * 1.5707963 * reach - BEYOND_SIDE * radius;
-}
-
-// Distance from a sample into the core of the particle that it shows, in samples; negative outside.
-fn depth_in_core(place: vec2i, radius: f32) -> f32 {
-    let found = particle_at(place);
-    if (found == NOTHING) {
-        return -1e9;
-    }
-    let middle = project(balls[2u * (FARTHEST - found)].xyz).xy * f32(view.samples) - vec2f(0.0, f32(sample_top()));
-    return CORE * radius - length(vec2f(place) + 0.5 - middle);
-}
-
-// Colour of an area in a sample, and how much of the sample is covered.
-fn area_at(place: vec2i, widest: f32) -> vec4f {
-    let found = particle_near(place, widest);
-    if (found == NOTHING) {
-        return vec4f(0.0);
-    }
-    let radius = disc_samples(found);
-    let inside = max(depth_inside(place, radius), depth_in_core(place, radius));
-    let line = min(view.outline * f32(view.samples), WIDEST_LINE * radius);
-    let shade = mix(OUTLINE_SHADE, 1.0, clamp(inside - line + 0.5, 0.0, 1.0));
-    return vec4f(shade * balls[2u * (FARTHEST - found) + 1u].rgb, clamp(inside + 0.5, 0.0, 1.0));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -286,11 +231,11 @@ fn shade_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
             let depth = bitcast<f32>(FARTHEST - depth_in[sample]);
             let ray = sample_ray(place);
             let point = ray.start + depth * ray.direction;
-            let normal = normal_at(vec2i(place), ray, depth, p);
+            let sheet = sheet_at(vec2i(place), ray, depth, p);
             if (arriving < 0.0) {
                 arriving = arriving_at(point, 1.5 * balls[2u * p].w);
             }
-            sum.color += lit_surface(balls[2u * p + 1u].rgb, point, normal, -ray.direction, arriving);
+            sum.color += lit_surface(sheet.color, point, sheet.normal, -ray.direction, arriving);
             sum.depth += depth;
             sum.coverage += 1.0;
         }

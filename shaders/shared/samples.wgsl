@@ -5,12 +5,6 @@
 const FARTHEST: u32 = 0xffffffffu;
 const NOTHING: u32 = 0u;
 
-// Radius of a drawn ball over that of a particle's: where balls become a surface they are larger, so that neighbours meet without holes, and
-// the surface is drawn back by what they are too large.
-fn splat_growth() -> f32 {
-    return select(1.0, 1.6, view.smooth_skin == 1u);
-}
-
 // Row of the whole picture's samples that is the first of the band's.
 fn sample_top() -> i32 {
     return i32(view.first_row * view.samples) - i32(SAMPLE_MARGIN);

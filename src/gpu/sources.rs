@@ -57,6 +57,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "points.wgsl",
     "reduce.wgsl",
     "scan.wgsl",
+    "shared/area.wgsl",
     "shared/arrays.wgsl",
     "shared/ars.wgsl",
     "shared/blocks.wgsl",

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::KINDS;
 use super::fracture::{PresetFracture, Softening};
+use super::{KINDS, Material};
 
 /// A material that scenes may name instead of a law and its numbers.
 #[derive(Debug)]
@@ -20,6 +20,8 @@ pub struct Preset {
     pub density: f64,
     /// How it breaks, if that is known.
     pub fracture: Option<PresetFracture>,
+    /// Colour in pictures, sRGB.
+    pub color: [u8; 3],
 }
 
 /// The units of a preset.
@@ -63,6 +65,7 @@ pub const PRESETS: [Preset; 9] = [
         values: &[("young_modulus", 5e6), ("poisson_ratio", 0.45)],
         density: 1100.0,
         fracture: None,
+        color: [62, 60, 66],
     },
     Preset {
         name: "steel",
@@ -71,6 +74,7 @@ pub const PRESETS: [Preset; 9] = [
         values: &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)],
         density: 7850.0,
         fracture: None,
+        color: [150, 158, 168],
     },
     Preset {
         name: "aluminium",
@@ -79,6 +83,7 @@ pub const PRESETS: [Preset; 9] = [
         values: &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)],
         density: 2700.0,
         fracture: None,
+        color: [196, 200, 206],
     },
     Preset {
         name: "concrete",
@@ -93,6 +98,7 @@ pub const PRESETS: [Preset; 9] = [
             softening: Softening::Exponential,
             always: false,
         }),
+        color: [158, 152, 142],
     },
     Preset {
         name: "ice",
@@ -107,6 +113,7 @@ pub const PRESETS: [Preset; 9] = [
             softening: Softening::Linear,
             always: false,
         }),
+        color: [196, 224, 240],
     },
     Preset {
         name: "soil",
@@ -115,6 +122,7 @@ pub const PRESETS: [Preset; 9] = [
         values: &[("young_modulus", 2e7), ("poisson_ratio", 0.3), ("friction_angle", 30.0), ("cohesion", 5e3)],
         density: 1800.0,
         fracture: None,
+        color: [130, 98, 68],
     },
     Preset {
         name: "glass",
@@ -129,6 +137,7 @@ pub const PRESETS: [Preset; 9] = [
             softening: Softening::Linear,
             always: true,
         }),
+        color: [160, 208, 200],
     },
     Preset {
         name: "pmma",
@@ -143,6 +152,7 @@ pub const PRESETS: [Preset; 9] = [
             softening: Softening::Linear,
             always: true,
         }),
+        color: [206, 222, 236],
     },
     Preset {
         name: "ceramic",
@@ -157,8 +167,17 @@ pub const PRESETS: [Preset; 9] = [
             softening: Softening::Linear,
             always: true,
         }),
+        color: [238, 232, 222],
     },
 ];
+
+impl Material {
+    /// Colour in pictures, sRGB; presets alone have one.
+    #[must_use]
+    pub fn color(&self) -> Option<[u8; 3]> {
+        self.preset.map(|(index, _)| PRESETS[index].color)
+    }
+}
 
 /// The names of all kinds and presets, quoted, for messages.
 #[must_use]

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::colormap::{TABLE_LENGTH, linear_from_srgb};
-use super::{BODY_COLORS, quantity};
+use super::colormap::TABLE_LENGTH;
+use super::quantity;
 use crate::Result;
 use crate::gpu::{Bound, Constants, Gpu, Kernel};
 use crate::snapshot::kind;
@@ -38,7 +38,6 @@ pub(super) const OPTICS: [u32; 2] = [1, 2];
 /// WGSL constants that the drawing shaders share with the host.
 pub fn constants() -> String {
     let mut text = quantity::constants();
-    let vector = |[red, green, blue]: [f32; 3]| format!("vec3f({red:?}, {green:?}, {blue:?})");
     let _ = writeln!(text, "const KIND_GAS: u32 = {}u;\nconst KIND_SOLID: u32 = {}u;", kind::GAS, kind::SOLID);
     let _ = writeln!(text, "const KIND_WALL: u32 = {}u;", kind::WALL);
     let _ = writeln!(text, "const NO_VALUE: f32 = {NO_VALUE:e};\nconst SAMPLE_MARGIN: u32 = {SAMPLE_MARGIN}u;");
@@ -47,10 +46,6 @@ pub fn constants() -> String {
     let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;\nconst BLOCK_CELLS: u32 = {BLOCK_CELLS}u;");
     let _ = writeln!(text, "const RANGE_GROUPS: u32 = {}u;", super::gas::RANGE_GROUPS);
     let _ = writeln!(text, "const TONE_ACES: u32 = {TONE_ACES}u;\nconst OPTICS_SHADOWGRAPH: u32 = {}u;", OPTICS[1]);
-    let count = BODY_COLORS.len();
-    let colors = BODY_COLORS.map(|color| vector(color.map(|channel| linear_from_srgb(f32::from(channel) / 255.0))));
-    let _ = writeln!(text, "const BODY_COLOR_COUNT: u32 = {count}u;");
-    let _ = writeln!(text, "const BODY_COLORS = array<vec3f, {count}>({});", colors.join(", "));
     text
 }
 

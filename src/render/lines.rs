@@ -1,6 +1,7 @@
 //! What the line plots of 1D need, read back from the device.
 
 use super::buffers::Sources;
+use super::palette;
 use super::plot::Line;
 use super::stored::elements;
 use crate::Result;
@@ -27,10 +28,12 @@ pub(super) fn read(gpu: &Gpu, sources: &Sources, scene: &Scene, width: u32, time
         let position: Vec<[f32; 4]> = elements(gpu, &own.position, count)?;
         let velocity: Vec<[f32; 4]> = elements(gpu, &own.velocity, count)?;
         let deformation: Vec<[[f32; 4]; 3]> = elements(gpu, &own.deformation, count)?;
+        let colors = palette::of_bodies(scene);
+        let color = |place: &[[f32; 4]; 3]| colors[place[0][3].to_bits() as usize % colors.len()];
         let active = |index: &usize| deformation[*index][1][3] != 0.0;
         particles = (0..count)
             .filter(active)
-            .map(|index| (position[index][0], velocity[index][0], deformation[index][0][3].to_bits()))
+            .map(|index| (position[index][0], velocity[index][0], color(&deformation[index])))
             .collect();
     }
     let kind = cells.iter().map(|word| (word & u32::from(kind::MASK)) as u8).collect();

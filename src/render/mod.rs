@@ -18,6 +18,7 @@ mod letters;
 mod light;
 mod lines;
 mod overlay;
+mod palette;
 mod paper;
 mod particles;
 mod plane;
@@ -51,18 +52,6 @@ use buffers::Sources;
 use camera::Eye;
 use overlay::Layout;
 use plane::{Drawing, Labels, Wanted};
-
-/// Colours of the bodies, sRGB, by index: light enough to stand out from the colour maps.
-const BODY_COLORS: [[u8; 3]; 8] = [
-    [226, 190, 150],
-    [120, 190, 235],
-    [240, 150, 90],
-    [160, 210, 140],
-    [214, 150, 200],
-    [235, 215, 110],
-    [150, 150, 160],
-    [230, 110, 110],
-];
 
 /// Optical depth of a layer as thick as a shock (three cells) with the steepest gradient.
 const SHOCK_OPTICAL_DEPTH: f32 = 0.9;

@@ -1,16 +1,21 @@
 //! The particles: what their colours mean, and their colours and radii. Nothing here has the picture's size.
 
+use glam::{Vec3, Vec4};
+
 use super::buffers::{ParticleSources, Sources};
+use super::colormap::linear_from_srgb;
 use super::gas::{Gas, RANGE_GROUPS, bounds};
-use super::kernels::bind;
+use super::kernels::{bind, bind_numbers};
+use super::palette;
 use crate::Result;
 use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
+use crate::scene::Scene;
 
 /// Kernels and buffers of the particles' colours.
 #[derive(Debug)]
 pub(super) struct Particles {
     pub(super) count: u64,
-    /// Place and radius of each, radius 0 for what is not drawn; then its colour.
+    /// Place and radius of each, radius 0 for what is not drawn; then its colour, and how far it is stretched.
     pub(super) balls: Buffer<[[f32; 4]; 2]>,
     /// Deformation gradients: three rows per particle.
     pub(super) deformation: wgpu::Buffer,
@@ -21,11 +26,17 @@ pub(super) struct Particles {
 }
 
 impl Particles {
-    pub(super) fn new(gpu: &Gpu, sources: &Sources, gas: &Gas) -> Result<Option<Self>> {
-        sources.particles.as_ref().map(|own| Self::of(gpu, own, gas)).transpose()
+    pub(super) fn new(gpu: &Gpu, scene: &Scene, sources: &Sources, gas: &Gas) -> Result<Option<Self>> {
+        sources.particles.as_ref().map(|own| Self::of(gpu, scene, own, gas)).transpose()
     }
 
-    fn of(gpu: &Gpu, own: &ParticleSources, gas: &Gas) -> Result<Self> {
+    fn of(gpu: &Gpu, scene: &Scene, own: &ParticleSources, gas: &Gas) -> Result<Self> {
+        let linear = |color: [u8; 3]| Vec3::from(color.map(|channel| linear_from_srgb(f32::from(channel) / 255.0)));
+        let of_bodies = palette::of_bodies(scene);
+        let bodies = [("BODIES", of_bodies.len() as f64)];
+        let names = of_bodies.into_iter().chain(palette::of_materials(scene));
+        let names: Vec<Vec4> = names.map(|color| linear(color).extend(1.0)).collect();
+        let of_names = Buffer::from_slice(gpu, "colours of bodies and materials", &names)?;
         let count = own.count as usize;
         let quantity: Buffer<f32> = Buffer::new(gpu, "particle quantity", count)?;
         let balls: Buffer<[[f32; 4]; 2]> = Buffer::new(gpu, "balls", count)?;
@@ -33,12 +44,13 @@ impl Particles {
         let shared = [("view", gas.view.raw()), ("quantity", quantity.raw())];
         let state = [("velocity", &own.velocity), ("affine", &own.affine), ("deformation", &own.deformation)];
         let around = [("position", &own.position), ("stress", &own.stress), ("heat", gas.heat.raw())];
-        let mixed = [around[0], ("colors", gas.colors.raw()), ("balls", balls.raw())];
+        let tables = [("colors", gas.colors.raw()), ("names", of_names.raw())];
+        let mixed = [around[0], tables[0], tables[1], ("balls", balls.raw())];
         let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "points.wgsl", entry, buffers);
         Ok(Self {
             measure: bind("measure", &[&shared[..], &state, &around].concat())?,
             find_range: bind("find_particle_range", &[&shared[..], &[("ranges", ranges.raw())]].concat())?,
-            mix_paint: bind("mix_paint", &[&shared[..], &state, &mixed].concat())?,
+            mix_paint: bind_numbers(gpu, "points.wgsl", "mix_paint", &bodies, &[&shared[..], &state, &mixed].concat())?,
             count: own.count.into(),
             balls,
             deformation: own.deformation.clone(),

@@ -72,7 +72,7 @@ impl Drawing {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, sources: &Sources) -> Result<Self> {
         let kept = (1 + scene.render.views.len()).min(MOST_SCREENS);
         let gas = Gas::new(gpu, sources)?;
-        let particles = Particles::new(gpu, sources, &gas)?;
+        let particles = Particles::new(gpu, scene, sources, &gas)?;
         let distance = Distance::new(gpu, scene, &sources.grid)?;
         let light = Light::new(gpu, &gas, particles.as_ref(), &distance)?;
         Ok(Self { gas, particles, distance, light, screens: Vec::new(), bodies: scene.bodies.len(), kept })

@@ -1,10 +1,10 @@
 //! One-dimensional states as line plots: density, velocity and pressure over x, one panel each.
 
+use super::Stamp;
 use super::canvas::{Anchor, Canvas, Rectangle};
 use super::frame::Frame;
 use super::overlay::header;
 use super::ticks::ticks;
-use super::{BODY_COLORS, Stamp};
 use crate::scene::RenderSettings;
 use crate::snapshot::kind;
 use crate::state::Grid;
@@ -19,8 +19,8 @@ pub(crate) struct Line {
     pub(crate) kind: Vec<u8>,
     /// Density, velocity and pressure of the gas in each cell.
     pub(crate) gas: [Vec<f32>; 3],
-    /// Position, velocity and body of each particle.
-    pub(crate) particles: Vec<(f32, f32, u32)>,
+    /// Position, velocity and colour of each particle.
+    pub(crate) particles: Vec<(f32, f32, [u8; 3])>,
     /// The exact solution of a Riemann problem: points (x, value) of the three panels.
     pub(crate) exact: Option<[Vec<[f64; 2]>; 3]>,
 }
@@ -175,9 +175,8 @@ impl Panel<'_> {
 
     fn draw_particles(&self, canvas: &mut Canvas) {
         let width = 3.0 * canvas.lettering.unit() as f32;
-        for &(x, velocity, body) in &self.line.particles {
+        for &(x, velocity, color) in &self.line.particles {
             let point = [self.x_pixel(x.into()), self.y_pixel(velocity.into())];
-            let color = BODY_COLORS[body as usize % BODY_COLORS.len()];
             canvas.dot(point, self.area, color, width);
         }
     }

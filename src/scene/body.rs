@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Scene, Shape, vector};
+use super::{Color, Scene, Shape, vector};
 
 /// A deformable solid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,6 +29,9 @@ pub struct Body {
     /// Particles per cell along each axis, 1 to 8; 4 in 1D and 2 otherwise when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub particles_per_cell: Option<u32>,
+    /// Colour in pictures, `#rrggbb`; that of the preset of its material, or one of a palette, when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
     /// Where particles lie within the lattice.
     #[serde(default)]
     pub sampling: Sampling,

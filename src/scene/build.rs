@@ -238,6 +238,7 @@ impl Body {
             velocity: [0.0; 3],
             spin: [0.0; 3],
             particles_per_cell: None,
+            color: None,
             sampling: Sampling::default(),
             friction: super::Friction::default(),
             clamped: None,
@@ -257,6 +258,13 @@ impl Body {
     #[must_use]
     pub fn velocity<const N: usize>(mut self, velocity: [f64; N]) -> Self {
         self.velocity = filled(velocity, 0.0);
+        self
+    }
+
+    /// Colour in pictures: red, green and blue of sRGB.
+    #[must_use]
+    pub fn color(mut self, color: [u8; 3]) -> Self {
+        self.color = Some(super::Color(color));
         self
     }
 

@@ -176,7 +176,10 @@ pub(super) fn read(source: &mut Source, most_values: u64) -> std::result::Result
                 .as_bool()
                 .map(|allowed| outside = allowed)
                 .ok_or_else(|| format!("{key} is true or false")),
-            _ => source::set(&mut root, key, value),
+            _ => {
+                (key == look::KEY).then(|| look::forget(&mut root));
+                source::set(&mut root, key, value)
+            }
         });
         if let Err(message) = applied {
             let help = "name an existing key or entry, for example gas.ambient.density=2 or bodies[0].density=3, or one of the \

@@ -1,4 +1,4 @@
-//! `render.look`: one word for many keys of pictures. What a scene says itself stays.
+//! `render.look`: one word for many keys of pictures. What a scene says itself stays; an override of the look decides them all.
 
 use std::borrow::Cow;
 
@@ -6,6 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
+
+/// The key, as overrides name it.
+pub(super) const KEY: &str = "render.look";
 
 /// A word for many keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -62,6 +65,14 @@ pub(super) fn apply(root: &mut DeTable<'_>) {
     let Some(text) = meaning(look, dimension.unwrap_or_default()) else { return };
     if let Ok(meant) = DeTable::parse(text) {
         fill(render, meant.into_inner());
+    }
+}
+
+/// Takes the keys that looks stand for out of a document whose look is overridden: those of the look take their place.
+pub(super) fn forget(root: &mut DeTable<'_>) {
+    let Some(DeValue::Table(render)) = root.get_mut("render").map(Spanned::get_mut) else { return };
+    for key in FILM.parse::<Table>().unwrap_or_default().keys() {
+        render.remove(key.as_str());
     }
 }
 
@@ -128,6 +139,19 @@ mod tests {
         let film = scene(3, "[render]\nlook = \"film\"\ntone = \"none\"");
         let text = toml::to_string(&film).unwrap();
         assert_eq!(Scene::parse(&text, "again.toml", &[]).unwrap().render, film.render);
+    }
+
+    #[test]
+    fn an_override_decides_all_keys_of_a_look() {
+        let text = toml::to_string(&scene(3, "[render]\nlook = \"film\"\ntone = \"none\"")).unwrap();
+        let read = |overrides: &[&str]| {
+            let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+            Scene::parse(&text, "run.toml", &overrides).unwrap().render
+        };
+        let lab = read(&["render.look=lab"]);
+        assert_eq!((lab.tone, lab.surface, lab.overlays.title), (ToneMap::None, Surface::Spheres, true));
+        let film = read(&["render.look=film", "render.surface=spheres"]);
+        assert_eq!((film.tone, film.surface, film.overlays.title), (ToneMap::Aces, Surface::Spheres, false));
     }
 
     #[test]

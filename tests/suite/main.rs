@@ -50,6 +50,7 @@ mod reference_tables;
 mod render;
 mod scenes;
 mod shaders;
+mod skin;
 mod solids;
 mod still;
 mod stream;
