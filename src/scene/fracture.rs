@@ -50,6 +50,12 @@ impl Breaking {
 }
 
 impl Scene {
+    /// Whether some material breaks.
+    #[must_use]
+    pub fn breaks(&self) -> bool {
+        self.materials.values().any(|material| material.fracture().is_some())
+    }
+
     /// How the bodies that can break will do so.
     #[must_use]
     pub fn breaking(&self) -> Vec<Breaking> {

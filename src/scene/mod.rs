@@ -337,12 +337,6 @@ impl Scene {
         self.materials.values().map(|material| material.params_with_fracture(share, cell)).collect()
     }
 
-    /// Whether some material breaks.
-    #[must_use]
-    pub fn breaks(&self) -> bool {
-        self.materials.values().any(|material| material.fracture().is_some())
-    }
-
     /// The exact solution of a shock tube and the place of its jump: a scene of dimension 1 with no bodies, obstacles or gravity
     /// whose gas starts as one region in ambient gas, so that the two ends differ and one jump lies between them.
     #[must_use]
