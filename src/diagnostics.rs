@@ -35,7 +35,7 @@ pub struct Load {
 }
 
 impl Load {
-    /// From the vec4 entries of its history ring, see `load_record` in `shaders/loads.wgsl`; moments there are about `corner`.
+    /// From the vec4 entries of its history ring, see `load_record` in `shaders/step/loads.wgsl`; moments there are about `corner`.
     #[must_use]
     pub(crate) fn from_raw(raw: &[[f32; 4]], corner: [f32; 3]) -> Vec<Self> {
         let load = |raw: &[[f32; 4]]| {
@@ -141,7 +141,7 @@ pub struct StepRecord {
 }
 
 impl StepRecord {
-    /// From the vec4 entries of the history ring (`given` of this step alone), see `totals_record` in `shaders/diagnostics.wgsl`.
+    /// From the vec4 entries of the history ring (`given` of this step alone), see `totals_record` in `shaders/step/diagnostics.wgsl`.
     #[must_use]
     pub(crate) fn from_raw(raw: &[[f32; 4]]) -> Self {
         let total =

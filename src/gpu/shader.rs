@@ -108,7 +108,7 @@ impl Shader {
         Ok(Compiled::new(self, module, uses))
     }
 
-    /// File and line, `shaders/p2g.wgsl:12`, of a line of the flattened text (from 1).
+    /// File and line, `shaders/solid/p2g.wgsl:12`, of a line of the flattened text (from 1).
     #[must_use]
     pub fn origin(&self, flattened_line: usize) -> String {
         match flattened_line.checked_sub(1).and_then(|index| self.origins.get(index)) {

@@ -34,7 +34,7 @@ pub fn copy_bandwidth(gpu: &Gpu, Rounds { copies, rounds }: Rounds) -> Result<f6
     let length = wanted.min(most);
     let from = Buffer::<[f32; 4]>::new(gpu, "copy source", length)?;
     let to = Buffer::<[f32; 4]>::new(gpu, "copy target", length)?;
-    let kernel = Kernel::new(gpu, "copy.wgsl", "copy", &Constants::default())?;
+    let kernel = Kernel::new(gpu, "step/copy.wgsl", "copy", &Constants::default())?;
     let bound = kernel.bind(gpu, &[("from_here", from.raw()), ("to_there", to.raw())])?;
     let mut fastest = f64::INFINITY;
     for _ in 0..=rounds {

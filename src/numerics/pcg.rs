@@ -257,7 +257,7 @@ impl Pcg {
         let constants = source();
         let bound = |entry: &str| -> Result<Bound> {
             let constants = Constants { overrides: &[], source: &constants };
-            let kernel = Kernel::new(gpu, "linear_algebra.wgsl", entry, &constants)?;
+            let kernel = Kernel::new(gpu, "numerics/linear_algebra.wgsl", entry, &constants)?;
             let used = |name: &str| kernel.bindings().iter().any(|binding| binding.name == name);
             let buffers: Vec<_> = named.iter().copied().filter(|(name, _)| used(name)).collect();
             kernel.bind(gpu, &buffers)

@@ -37,7 +37,7 @@ impl Reduce {
             Operator::Min => "reduce_min",
             Operator::Max => "reduce_max",
         };
-        let kernel = Kernel::new(gpu, "reduce.wgsl", entry, &Constants::default())?;
+        let kernel = Kernel::new(gpu, "numerics/reduce.wgsl", entry, &Constants::default())?;
         let groups = count.div_ceil(WORKGROUP).clamp(1, MAX_GROUPS);
         let partial = Buffer::<f32>::new(gpu, "reduce partial results", groups as usize)?;
         let result = Buffer::<f32>::new(gpu, "reduce result", 1)?;

@@ -39,8 +39,8 @@ impl Scan {
     /// Those of [`Buffer::new`] and [`Kernel::new`].
     pub fn over(gpu: &Gpu, input: &wgpu::Buffer, output: &wgpu::Buffer, n: u32, outputs: u32) -> Result<Scan> {
         let constants = Constants { overrides: &[("SCAN_ITEMS", f64::from(SCAN_ITEMS))], source: "" };
-        let blocks_kernel = Kernel::new(gpu, "scan.wgsl", "scan_blocks", &constants)?;
-        let offsets_kernel = Kernel::new(gpu, "scan.wgsl", "scan_offsets", &constants)?;
+        let blocks_kernel = Kernel::new(gpu, "numerics/scan.wgsl", "scan_blocks", &constants)?;
+        let offsets_kernel = Kernel::new(gpu, "numerics/scan.wgsl", "scan_offsets", &constants)?;
         let mut scan = Scan { dispatches: Vec::new(), scratch: Vec::new() };
         let mut down = Vec::new();
         let mut inputs = n;

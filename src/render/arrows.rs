@@ -15,7 +15,7 @@ pub(super) fn sample(gpu: &Gpu, sources: &Sources, gas: &Gas, count: [u32; 2]) -
     let arrows: Buffer<[f32; 4]> = Buffer::new(gpu, "arrows", total)?;
     let state = [("conserved", &sources.conserved), ("cells", &sources.cells)];
     let own = [("view", gas.view.raw()), ("arrows", arrows.raw())];
-    let kernel = bind(gpu, "arrows.wgsl", "sample_arrows", &[&state[..], &own].concat())?;
+    let kernel = bind(gpu, "picture/arrows.wgsl", "sample_arrows", &[&state[..], &own].concat())?;
     let mut pass = Pass::new(gpu, "arrows");
     pass.dispatch(&kernel, &Extent::Threads(total as u64));
     pass.submit()?;

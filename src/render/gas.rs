@@ -67,7 +67,7 @@ impl Gas {
             ("maps", sources.maps.as_ref().unwrap_or(nothing.raw())),
             ("cells", &sources.cells),
         ];
-        let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "field.wgsl", entry, buffers);
+        let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "picture/field.wgsl", entry, buffers);
         let bricks_and_tables = [("bricks", bricks.raw()), ("visible", visible.raw())];
         Ok(Self {
             evaluate_field: bind("evaluate_field", &[&state[..], &[shared, of_field, of_heat]].concat())?,

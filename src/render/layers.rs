@@ -109,7 +109,7 @@ impl LayerKernel {
             ("layers", layers.raw()),
         ];
         let number = [("OBSTACLES", shared.bodies as f64 + 1.0)];
-        let finish = bind_numbers(gpu, "layers.wgsl", "finish_layers", &number, &[&own[..], &drawn].concat())?;
+        let finish = bind_numbers(gpu, "picture/layers.wgsl", "finish_layers", &number, &[&own[..], &drawn].concat())?;
         Ok(Self { finish, layers })
     }
 

@@ -48,7 +48,7 @@ impl Light {
         let grid: Buffer<u32> = Buffer::new(gpu, "light grid", LIGHT_CELLS.pow(3) as usize)?;
         let shared = [("view", gas.view.raw()), ("shadow_bits", shadow_map.raw())];
         let bind = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
-            kernels::bind(gpu, "light.wgsl", entry, &[&shared[..], own].concat())
+            kernels::bind(gpu, "picture/light.wgsl", entry, &[&shared[..], own].concat())
         };
         let look = [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("colors", gas.colors.raw())];
         let glow_grid: Buffer<[f32; 4]> = Buffer::new(gpu, "glow grid", 2 * GLOW_CELLS.pow(3) as usize)?;
@@ -58,7 +58,7 @@ impl Light {
         };
         let trace = || bind("trace_shadow", &[("distance", distance.nodes.raw())]);
         Ok(Self {
-            clear_shadow: kernels::bind(gpu, "light.wgsl", "clear_shadow", &shared[1..])?,
+            clear_shadow: kernels::bind(gpu, "picture/light.wgsl", "clear_shadow", &shared[1..])?,
             splat_shadow: particles.map(splat).transpose()?,
             trace_shadow: (distance.fineness > 0).then(trace).transpose()?,
             cast_light: bind("cast_light", &[&look[..], &[("light_grid", grid.raw())]].concat())?,
@@ -107,7 +107,7 @@ impl Glow {
         let (of_sources, of_blocks) = (("sources", sources.raw()), ("blocks", blocks.raw()));
         let look = [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("colors", gas.colors.raw())];
         let bind = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
-            kernels::bind(gpu, "glow.wgsl", entry, &[&[of_view], own].concat())
+            kernels::bind(gpu, "picture/glow.wgsl", entry, &[&[of_view], own].concat())
         };
         let bodies = |own: &Particles| {
             let bound = bind("block_bodies", &[of_blocks, ("balls", own.balls.raw())])?;

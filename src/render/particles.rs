@@ -46,11 +46,17 @@ impl Particles {
         let around = [("position", &own.position), ("stress", &own.stress), ("heat", gas.heat.raw())];
         let tables = [("colors", gas.colors.raw()), ("names", of_names.raw())];
         let mixed = [around[0], tables[0], tables[1], ("balls", balls.raw())];
-        let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "points.wgsl", entry, buffers);
+        let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "picture/points.wgsl", entry, buffers);
         Ok(Self {
             measure: bind("measure", &[&shared[..], &state, &around].concat())?,
             find_range: bind("find_particle_range", &[&shared[..], &[("ranges", ranges.raw())]].concat())?,
-            mix_paint: bind_numbers(gpu, "points.wgsl", "mix_paint", &bodies, &[&shared[..], &state, &mixed].concat())?,
+            mix_paint: bind_numbers(
+                gpu,
+                "picture/points.wgsl",
+                "mix_paint",
+                &bodies,
+                &[&shared[..], &state, &mixed].concat(),
+            )?,
             count: own.count.into(),
             balls,
             deformation: own.deformation.clone(),

@@ -141,7 +141,7 @@ impl Screen {
             let field =
                 [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("bricks", gas.bricks.raw()), tables];
             let own = [("edges", edges.raw()), ("solid", solid.raw()), ("light_grid", light.grid.raw())];
-            bind_with(gpu, "volume.wgsl", "draw_volume", &key.switches(), &[&drawn[..], &field, &own].concat())?
+            bind_with(gpu, "picture/volume.wgsl", "draw_volume", &key.switches(), &[&drawn[..], &field, &own].concat())?
         } else {
             let own = [
                 ("cells", &sources.cells),
@@ -150,12 +150,12 @@ impl Screen {
                 ("distance", distance.nodes.raw()),
                 tables,
             ];
-            bind(gpu, "slice.wgsl", "draw_slice", &[&drawn[..], &own].concat())?
+            bind(gpu, "picture/slice.wgsl", "draw_slice", &[&drawn[..], &own].concat())?
         };
         let trace = || {
             let shade = light.of_surfaces();
             let own = [of_view, ("distance", distance.nodes.raw()), ("solid", solid.raw())];
-            bind_with(gpu, "solids.wgsl", "trace_solids", &key.switches(), &[&shade[..], &own].concat())
+            bind_with(gpu, "picture/solids.wgsl", "trace_solids", &key.switches(), &[&shade[..], &own].concat())
         };
         let skin = shared.particles.map(|own| Skin::new(shared, own, (view, &key), band_rows, &surface)).transpose()?;
         let samples = skin.as_ref().map(|skin| [&skin.depth, if key.smooth { &skin.kept } else { &skin.nearest }]);
@@ -167,7 +167,7 @@ impl Screen {
             trace_solids: volume.then(trace).transpose()?,
             optics: (view.optics > 0).then(optics).transpose()?,
             draw,
-            finish: bind(gpu, "finish.wgsl", "finish", &[of_view, drawn[2], ("pixels", pixels.raw())])?,
+            finish: bind(gpu, "picture/finish.wgsl", "finish", &[of_view, drawn[2], ("pixels", pixels.raw())])?,
             deep: depth.fine.then(|| Deep::new(gpu, &[of_view, drawn[2]], pixels.len())).transpose()?,
             layers: depth.layers.then(layered).transpose()?,
             skin,
@@ -232,7 +232,7 @@ impl Deep {
     fn new(gpu: &Gpu, shared: &[(&str, &wgpu::Buffer)], pixels: usize) -> Result<Self> {
         let light: Buffer<[f32; 4]> = Buffer::new(gpu, "deep pixels", pixels)?;
         let own = [shared, &[("deep", light.raw())]].concat();
-        Ok(Self { toned: bind(gpu, "finish.wgsl", "finish_deep", &own)?, light })
+        Ok(Self { toned: bind(gpu, "picture/finish.wgsl", "finish_deep", &own)?, light })
     }
 
     /// What the kernel makes of the band drawn last.
@@ -267,11 +267,12 @@ impl Skin {
         let groups: Buffer<u32> = Buffer::indirect(gpu, "skin groups", 3)?;
         let of_covered = ("covered", covered.raw());
         let of_splat = [of_view, balls, ("deformation", &own.deformation), ("depth_bits", depth.raw())];
-        let splat =
-            |entry: &str, own: &[(&str, &wgpu::Buffer)]| bind(gpu, "points.wgsl", entry, &[&of_splat, own].concat());
+        let splat = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
+            bind(gpu, "picture/points.wgsl", entry, &[&of_splat, own].concat())
+        };
         let smoothed = |from: &Buffer<u32>, to: &Buffer<u32>| {
             let own = [of_view, of_shown, balls, ("depth_in", from.raw()), ("depth_out", to.raw())];
-            bind(gpu, "skin.wgsl", "smooth_depth", &own)
+            bind(gpu, "picture/skin.wgsl", "smooth_depth", &own)
         };
         let back = [("depth_in", depth.raw()), ("depth_out", smooth.raw()), ("kept", kept.raw())];
         let shade = light.of_surfaces();
@@ -282,15 +283,20 @@ impl Skin {
             samples: samples as u64,
             splat_depth: splat("splat_depth", &[])?,
             splat_nearest: splat("splat_nearest", &[of_nearest])?,
-            draw_back: bind(gpu, "skin.wgsl", "draw_back", &[&[of_view, of_nearest, balls][..], &back].concat())?,
+            draw_back: bind(
+                gpu,
+                "picture/skin.wgsl",
+                "draw_back",
+                &[&[of_view, of_nearest, balls][..], &back].concat(),
+            )?,
             smooth_depth: [smoothed(&smooth, &depth)?, smoothed(&depth, &smooth)?],
             list_skin: bind(
                 gpu,
-                "skin.wgsl",
+                "picture/skin.wgsl",
                 "list_skin",
                 &[of_view, of_shown, of_covered, ("skin_groups", groups.raw())],
             )?,
-            shade_skin: bind_with(gpu, "skin.wgsl", "shade_skin", &switches, &[&shade[..], &result].concat())?,
+            shade_skin: bind_with(gpu, "picture/skin.wgsl", "shade_skin", &switches, &[&shade[..], &result].concat())?,
             depth,
             nearest,
             kept,
@@ -330,8 +336,9 @@ impl Optics {
         let columns: Buffer<f32> = Buffer::new(gpu, "columns", rays)?;
         let ranges: Buffer<[f32; 2]> = Buffer::new(gpu, "column ranges", RANGE_GROUPS as usize)?;
         let both = [("view", gas.view.raw()), ("columns", columns.raw())];
-        let bind =
-            |entry: &str, own: &[(&str, &wgpu::Buffer)]| bind(gpu, "optics.wgsl", entry, &[&both[..], own].concat());
+        let bind = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
+            bind(gpu, "picture/optics.wgsl", entry, &[&both[..], own].concat())
+        };
         let drawn = [("surface", surface.raw()), ("solid", solid.raw()), ("light", light.raw())];
         Ok(Self {
             integrate_lines: bind("integrate_lines", &[("field", gas.field.raw())])?,

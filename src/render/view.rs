@@ -1,4 +1,4 @@
-//! What a picture shows and from where; mirror of `shaders/shared/view.wgsl`.
+//! What a picture shows and from where; mirror of `shaders/picture/view.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4};

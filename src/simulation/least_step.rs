@@ -130,7 +130,7 @@ fn position(now: &Snapshot, cell: usize) -> [usize; 3] {
     [cell % nx, cell / nx % ny, cell / (nx * ny)]
 }
 
-/// Rate of a gas cell, as `shaders/time_step.wgsl` has it away from sides.
+/// Rate of a gas cell, as `shaders/step/time_step.wgsl` has it away from sides.
 fn rate(now: &Snapshot, edge: f64, cell: usize) -> f64 {
     let at = position(now, cell);
     let steps = [1, now.grid.cells[0] as usize, (now.grid.cells[0] * now.grid.cells[1]) as usize];

@@ -37,13 +37,13 @@ impl InterfaceStage {
     /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         let gpu = &state.gpu;
-        let mark = |entry: &str| state.bind("interface_mark.wgsl", entry, &[], &[]);
+        let mark = |entry: &str| state.bind("interface/interface_mark.wgsl", entry, &[], &[]);
         let scan = |counts: &str, places: &str| {
             let (slots, [counts, places]) = (state.params.slots, [counts, places].map(|name| state.lent(name)));
             Scan::over(gpu, counts, places, slots, slots + 1)
         };
-        let fill = |entry: &str| state.bind("interface.wgsl", entry, &[], &[]);
-        let ledger = |entry: &str| state.bind("ledger.wgsl", entry, &[], &[]);
+        let fill = |entry: &str| state.bind("interface/interface.wgsl", entry, &[], &[]);
+        let ledger = |entry: &str| state.bind("interface/ledger.wgsl", entry, &[], &[]);
         let solids = if state.has_solids() {
             Some(Solids {
                 fill: fill("interface_fill")?,

@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use crate::numerics::pcg;
 use crate::scene::{Pair, Preconditioner, Scene};
 
-/// Mirror of `Grid` in `shaders/shared/coarse.wgsl`: a space on one level.
+/// Mirror of `Grid` in `shaders/solve/coarse.wgsl`: a space on one level.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub(crate) struct Grid {
@@ -19,7 +19,7 @@ pub(crate) struct Grid {
     wraps: u32,
 }
 
-/// Mirror of `Level` in `shaders/shared/coarse.wgsl`.
+/// Mirror of `Level` in `shaders/solve/coarse.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub(crate) struct Level {

@@ -140,5 +140,10 @@ pub fn source_for(shader: &str) -> String {
 }
 
 /// Shaders that include `shared/material.wgsl`.
-const MATERIAL_SHADERS: [&str; 5] =
-    ["interface.wgsl", "g2p.wgsl", "diagnostics.wgsl", "time_step.wgsl", "elastic_solve.wgsl"];
+const MATERIAL_SHADERS: [&str; 5] = [
+    "interface/interface.wgsl",
+    "solid/g2p.wgsl",
+    "step/diagnostics.wgsl",
+    "step/time_step.wgsl",
+    "solid/elastic_solve.wgsl",
+];

@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::gpu::{Buffer, Gpu};
 use crate::scene::{GaugePlace, Scene};
 
-/// vec4 entries of a point in its history ring: position, velocity, affine matrix, deformation, stress. Mirror of `shaders/gauges.wgsl`.
+/// vec4 entries of a point in its history ring: position, velocity, affine matrix, deformation, stress. Mirror of `shaders/step/gauges.wgsl`.
 pub const GAUGE_WIDTH: u32 = 10;
 
 /// Buffers of the points.

@@ -3,7 +3,7 @@
 use super::{Grid, HISTORY, Openings};
 use crate::scene::{CutGeometry, GaugePlace, Scene};
 
-/// Numbers of a load: force, power, moment, force of the pressure alone, area. Mirror of `shaders/loads.wgsl`.
+/// Numbers of a load: force, power, moment, force of the pressure alone, area. Mirror of `shaders/step/loads.wgsl`.
 pub const LOAD_NUMBERS: u32 = 9;
 /// vec4 entries of a load in its history ring.
 pub const LOAD_WIDTH: usize = 3;

@@ -77,7 +77,7 @@ pub struct State {
     pub particles: Particles,
     /// Least p / rho^gamma of the gas of the start and of what may flow in \[Pa (m^3/kg)^gamma\].
     pub start_entropy: f64,
-    /// Unknowns of the pressure system: X. Behind them what each vertex asks of the gas around it (`shaders/parting.wgsl`).
+    /// Unknowns of the pressure system: X. Behind them what each vertex asks of the gas around it (`shaders/interface/parting.wgsl`).
     pub pressure: Buffer<f32>,
     /// S^-1 of each unknown.
     pub stiffness: Buffer<f32>,

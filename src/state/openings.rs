@@ -30,7 +30,7 @@ pub struct Opening {
     pub unused: [u32; 2],
 }
 
-/// One entry of a table of times. Mirror of `Knot` in `shaders/openings.wgsl`.
+/// One entry of a table of times. Mirror of `Knot` in `shaders/gas/openings.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Knot {

@@ -29,7 +29,7 @@ pub struct Particles {
     pub node: Buffer<[f32; 4]>,
     /// Mass that the pressure solve gives to the nodes \[kg\].
     pub inertia: Buffer<f32>,
-    /// What the pressure solve is told of elasticity, see `shaders/elastic_reaction.wgsl`.
+    /// What the pressure solve is told of elasticity, see `shaders/solid/elastic_reaction.wgsl`.
     pub elastic: Buffer<[f32; 4]>,
 }
 

@@ -26,7 +26,7 @@ pub struct Support {
     pub clamped: u32,
 }
 
-/// One entry of a motion over time. Mirror of `MotionAt` in `shaders/supports.wgsl`.
+/// One entry of a motion over time. Mirror of `MotionAt` in `shaders/solid/supports.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct MotionAt {

@@ -168,13 +168,16 @@ fn a_refused_shader_is_a_bug_of_whoever_wrote_it() {
     own.folder = Folder::Given(std::iter::once(("own.wgsl".to_owned(), String::new())).collect());
     let blocks = |gpu: &Gpu, source: &str, items: f64| {
         let overrides = [("SCAN_ITEMS", items)];
-        Kernel::new(gpu, "scan.wgsl", "scan_blocks", &Constants { overrides: &overrides, source })?;
+        Kernel::new(gpu, "numerics/scan.wgsl", "scan_blocks", &Constants { overrides: &overrides, source })?;
         gpu.finish_kernels()
     };
     for (source, items) in [("const oops: u32 = -1;", 4.0), ("", -1.0)] {
         let error = blocks(&gpu, source, items).unwrap_err();
         let text = error.to_string();
-        assert!(matches!(error, Error::Bug(_)) && text.lines().count() == 1 && text.contains("scan.wgsl"), "{text}");
+        assert!(
+            matches!(error, Error::Bug(_)) && text.lines().count() == 1 && text.contains("numerics/scan.wgsl"),
+            "{text}"
+        );
         assert!(matches!(blocks(&own, source, items), Err(Error::Shader(_))));
     }
 }

@@ -37,7 +37,7 @@ fn a_wrong_stage_fails_the_selftest_by_name() {
     assert!(report["device"]["limits"]["maxStorageBuffersPerShaderStage"].as_u64() >= Some(8), "{report}");
 
     let shaders = folder.path().join("shaders");
-    shaders_with(&shaders, "scan.wgsl", "output[i] += offsets[block];", "output[i] += offsets[block] + 1u;");
+    shaders_with(&shaders, "numerics/scan.wgsl", "output[i] += offsets[block];", "output[i] += offsets[block] + 1u;");
     let output = brisance(&arguments).env("BRISANCE_SHADERS", &shaders).output().unwrap();
     let text = err(&output);
     assert_eq!(output.status.code(), Some(8), "{text}");
@@ -55,7 +55,7 @@ fn nodes_and_order_of_particles_are_those_of_the_host() {
     let arguments = ["selftest", "--filter", "particles", "--out", file.to_str().unwrap()];
     assert!(succeeds(&arguments).contains("3 of 3 cases passed"));
     let shaders = folder.path().join("shaders");
-    let from = "shared/place.wgsl";
+    let from = "solid/place.wgsl";
     shaders_with(&shaders, from, "let low = 0.5 * (0.5 - f)", "let low = 0.501 * (0.5 - f)");
     let output = brisance(&arguments).env("BRISANCE_SHADERS", &shaders).output().unwrap();
     let text = err(&output);

@@ -40,15 +40,15 @@ fn same_members(shader: &str, name: &str, members: &[(&str, usize)], size: usize
 
 #[test]
 fn generated_structures() {
-    same_members("time_step.wgsl", "Params", Params::MEMBERS, size_of::<Params>());
-    same_members("time_step.wgsl", "Control", Control::MEMBERS, size_of::<Control>());
-    same_members("linear_algebra.wgsl", "Pcg", PcgControl::MEMBERS, size_of::<PcgControl>());
+    same_members("step/time_step.wgsl", "Params", Params::MEMBERS, size_of::<Params>());
+    same_members("step/time_step.wgsl", "Control", Control::MEMBERS, size_of::<Control>());
+    same_members("numerics/linear_algebra.wgsl", "Pcg", PcgControl::MEMBERS, size_of::<PcgControl>());
 }
 
 #[test]
 fn material() {
     same_layout!(
-        "g2p.wgsl",
+        "solid/g2p.wgsl",
         "MaterialParams",
         MaterialParams,
         [

@@ -9,8 +9,8 @@ use brisance::simulation::Simulation;
 use brisance::state::{Over, State};
 
 use crate::common::{Random, gpu_or_skip};
-use crate::reference::coupled_solve::block_with_images;
 use crate::reference::grid::add;
+use crate::reference::solve::coupled_solve::block_with_images;
 use crate::reference::{GAS, Problem, SOLID, interface};
 use crate::twins::problem_of;
 
@@ -173,7 +173,7 @@ fn error_of_forces(gpu: &Gpu, problem: &Problem, (state, marks): (&State, &Marks
     let work = Buffer::from_slice(gpu, "work", &work).unwrap();
     let inertia = Buffer::from_slice(gpu, "inertia", &vec![1.0_f32; slots]).unwrap();
     let named = [("x", x_buffer.raw()), ("work", work.raw()), ("inertia", inertia.raw())];
-    run(gpu, state, "solve_forces.wgsl", "solve_forces", &named);
+    run(gpu, state, "solve/solve_forces.wgsl", "solve_forces", &named);
     let found = readback::read(gpu, &work).unwrap();
     let mut expected = vec![[0.0; 3]; 2 * slots];
     for entry in entries {
@@ -201,7 +201,7 @@ fn error_of_rows(gpu: &Gpu, problem: &Problem, (state, marks): (&State, &Marks),
     let zero = Buffer::from_slice(gpu, "stiffness", &vec![0.0_f32; length]).unwrap();
     let y = Buffer::from_slice(gpu, "y", &vec![0.0_f32; length]).unwrap();
     let named = [("x", zero.raw()), ("y", y.raw()), ("work", work.raw()), ("stiffness", zero.raw())];
-    run(gpu, state, "solve_operator.wgsl", "solve_operator", &named);
+    run(gpu, state, "solve/solve_operator.wgsl", "solve_operator", &named);
     let found = readback::read(gpu, &y).unwrap();
     let mut expected = vec![0.0; length];
     for entry in entries {
@@ -231,7 +231,7 @@ fn error_of_diagonal(gpu: &Gpu, problem: &Problem, (state, marks): (&State, &Mar
     let zero = Buffer::from_slice(gpu, "stiffness", &vec![0.0_f32; length]).unwrap();
     let inverse = Buffer::from_slice(gpu, "inverse_diagonal", &vec![0.0_f32; length]).unwrap();
     let named = [("work", work_buffer.raw()), ("stiffness", zero.raw()), ("inverse_diagonal", inverse.raw())];
-    run(gpu, state, "solve_diagonal.wgsl", "solve_diagonal", &named);
+    run(gpu, state, "solve/solve_diagonal.wgsl", "solve_diagonal", &named);
     let found = readback::read(gpu, &inverse).unwrap();
     let mut sums = BTreeMap::<_, f64>::new();
     for entry in entries {

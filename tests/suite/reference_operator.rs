@@ -1,11 +1,17 @@
 //! The CPU reference piece by piece: pressure operator, element stencils, stress, plasticity, elastic waves.
 
 use crate::common::Random;
-use crate::reference::coupled_solve::{Inputs, System, assemble, dot};
+use crate::reference::gas::gas_advection;
+use crate::reference::gas::intermediate_pressure;
 use crate::reference::grid::Grid;
-use crate::reference::material::Material;
+use crate::reference::interface;
+use crate::reference::solid::g2p;
+use crate::reference::solid::material::Material;
+use crate::reference::solid::mpm_grid_update;
+use crate::reference::solid::p2g;
+use crate::reference::solid::particle_sort;
+use crate::reference::solve::coupled_solve::{Inputs, System, assemble, dot};
 use crate::reference::{Gas, Pair, Particle, Problem, SOLID, Shared, Side, State, internal_energy};
-use crate::reference::{g2p, gas_advection, interface, intermediate_pressure, mpm_grid_update, p2g, particle_sort};
 use crate::reference_solids::lattice;
 use crate::reference_tables::Noise;
 use glam::DMat3;

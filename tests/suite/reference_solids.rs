@@ -1,7 +1,7 @@
 //! The CPU reference with solids: motion of a slab, rest states, conservation, the operator.
 
 use crate::reference::grid::Grid;
-use crate::reference::material::Material;
+use crate::reference::solid::material::Material;
 use crate::reference::step::{Report, advance_to, step};
 use crate::reference::{GAS, Particle, Problem, Shared, Side, State};
 use crate::reference_exact::slab_path;

@@ -1,7 +1,7 @@
 //! The CPU reference against exact solutions and known error tables.
 
 use crate::analytic::TUBES;
-use crate::reference::gas_advection::fill_ghosts;
+use crate::reference::gas::gas_advection::fill_ghosts;
 use crate::reference::grid::Grid;
 use crate::reference::step::{Report, advance_to, step};
 use crate::reference::{Numerics, Pair, Problem, Side, State, Weno};

@@ -282,7 +282,7 @@ fn pictures_to_look_at() {
 
 #[test]
 fn view_has_the_offsets_of_the_shader() {
-    let shader = Shader::load("slice.wgsl", &brisance::render::shader_constants(), &Folder::Embedded).unwrap();
+    let shader = Shader::load("picture/slice.wgsl", &brisance::render::shader_constants(), &Folder::Embedded).unwrap();
     let compiled = shader.compile().unwrap();
     let (_, view) = compiled.module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("View")).unwrap();
     let wgpu::naga::TypeInner::Struct { members, span } = &view.inner else { panic!("View is a struct") };

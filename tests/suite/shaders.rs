@@ -8,18 +8,18 @@ use wgpu::naga;
 
 /// Shaders of the pictures; all others belong to the step.
 const PICTURES: [&str; 12] = [
-    "arrows.wgsl",
-    "field.wgsl",
-    "finish.wgsl",
-    "glow.wgsl",
-    "layers.wgsl",
-    "light.wgsl",
-    "optics.wgsl",
-    "points.wgsl",
-    "skin.wgsl",
-    "slice.wgsl",
-    "solids.wgsl",
-    "volume.wgsl",
+    "picture/arrows.wgsl",
+    "picture/field.wgsl",
+    "picture/finish.wgsl",
+    "picture/glow.wgsl",
+    "picture/layers.wgsl",
+    "picture/light.wgsl",
+    "picture/optics.wgsl",
+    "picture/points.wgsl",
+    "picture/skin.wgsl",
+    "picture/slice.wgsl",
+    "picture/solids.wgsl",
+    "picture/volume.wgsl",
 ];
 
 /// The text injected before a shader's source.
@@ -54,9 +54,9 @@ pub(crate) fn files() -> BTreeMap<String, String> {
     found
 }
 
-/// Files with entry points: those in no sub-folder.
+/// Files with entry points.
 pub(crate) fn stages() -> Vec<String> {
-    files().into_keys().filter(|name| !name.contains('/')).collect()
+    files().into_iter().filter(|(_, text)| text.contains("\n@compute")).map(|(name, _)| name).collect()
 }
 
 fn report(failures: &[String]) {

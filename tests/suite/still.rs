@@ -130,7 +130,7 @@ fn short_marches() {
 }
 
 /// Slots that motion gets on in a step of so many iterations: residual of the solve, momentum, energy. Seven until the solve, as counted in
-/// shaders/still.wgsl; one each for the pressure of the predictor, that of the vertices and the right-hand side; one per iteration; and for
+/// shaders/gas/still.wgsl; one each for the pressure of the predictor, that of the vertices and the right-hand side; one per iteration; and for
 /// the energy one each for the carrier and what that brings through a face.
 fn counted(iterations: u32) -> [u32; 3] {
     [7 + 3 + iterations, 7 + 3 + iterations, 7 + 3 + iterations + 2]
@@ -213,7 +213,7 @@ fn motion_gets_as_far_as_counted() {
 }
 
 /// Gas that moves at once beside gas at rest: what goes wrong within the reach of one step shows in the first one. In y the halo
-/// is as wide as written (see ADVECTION_SPAN in shaders/still.wgsl).
+/// is as wide as written (see ADVECTION_SPAN in shaders/gas/still.wgsl).
 #[test]
 fn fronts() {
     let front = "[[gas.regions]]\nshape = { sphere = { center = [0.35, 0.4, 0.7], radius = 0.15 } }\ndensity = 0.5\n\

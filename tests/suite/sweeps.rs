@@ -7,7 +7,7 @@ use brisance::state::Phase;
 use crate::shaders::files;
 
 /// Who writes the lists of slots.
-const WRITER: &str = "interface_mark.wgsl";
+const WRITER: &str = "interface/interface_mark.wgsl";
 /// Who reads them.
 const READER: &str = "shared/sweep.wgsl";
 

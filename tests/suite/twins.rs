@@ -12,9 +12,9 @@ type Components = fn(&Particle) -> Vec<f64>;
 
 use crate::common::{Borrowed, Random};
 use crate::reference::grid::Grid;
-use crate::reference::material::Material;
+use crate::reference::solid::material::Material;
+use crate::reference::step::time_step::time_step;
 use crate::reference::step::{Report, Trace, traced_step};
-use crate::reference::time_step::time_step;
 use crate::reference::{self as twin, GAS, Particle, Problem, SOLID, Shared, Side, State};
 
 /// The fixed parts of a scene for the twin.
@@ -168,7 +168,7 @@ impl Twins {
                 state.gas.set(slot, conserved(&flow, &energy, slot));
             }
         }
-        twin::gas_advection::fill_ghosts(&problem, &state.cells.clone(), &mut state.gas);
+        twin::gas::gas_advection::fill_ghosts(&problem, &state.cells.clone(), &mut state.gas);
         Twins { gpu, simulation, problem, state, recordings: 0, failures: Vec::new() }
     }
 

@@ -266,7 +266,7 @@ fn a_failed_gate_has_an_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     copy_shaders(&Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders"), folder.path());
     // A table that mistakes the sign of the lowest pressure is what the gate on it must not let pass.
-    let path = folder.path().join("diagnostics.wgsl");
+    let path = folder.path().join("step/diagnostics.wgsl");
     let text = std::fs::read_to_string(&path).unwrap();
     let wrong = text.replace("-u.flow.x, p, -p)", "-u.flow.x, p, p)");
     assert_ne!(text, wrong, "the test breaks a line that is no more");

@@ -1,12 +1,12 @@
 //! The other forms of the coupling: local gradients, elasticity before the solve, shared volume.
 
-use super::coupled_solve::{H, Inputs, P, Q, Solution};
-use super::element;
-use super::grid::{add, shift};
-use super::interface::elements_of;
-use super::mpm_grid_update::{add_forces, walls};
-use super::p2g::Nodes;
-use super::{GAS, GHOST, Pair, Particle, Problem, SOLID, WALL};
+use crate::reference::grid::{add, shift};
+use crate::reference::interface::elements_of;
+use crate::reference::solid::mpm_grid_update::{add_forces, walls};
+use crate::reference::solid::p2g::Nodes;
+use crate::reference::solve::coupled_solve::{H, Inputs, P, Q, Solution};
+use crate::reference::solve::element;
+use crate::reference::{GAS, GHOST, Pair, Particle, Problem, SOLID, WALL};
 
 /// Acceleration of a node by the gradient of its own cell; None at walls, which keep the forces of the solve.
 pub(crate) fn local_gradient(inputs: &Inputs, pressure: &[Vec<f64>; 3], c: [i32; 3], mass: f64) -> Option<[f64; 3]> {

@@ -1,13 +1,16 @@
 //! Two solves per step for gas alone: the implicit half of ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6], the explicit one of
 //! Wicker and Skamarock [2002], in the stages' own terms.
 
-use super::coupled_solve::{Inputs, Solution, coupled_solve};
-use super::grid::shift;
-use super::interface::Interface;
-use super::p2g::Nodes;
-use super::particle_sort::Bins;
-use super::step::Report;
-use super::{Gas, Problem, State, boundary, fluid_update, gas_advection, intermediate_pressure};
+use crate::reference::gas::fluid_update;
+use crate::reference::gas::gas_advection;
+use crate::reference::gas::intermediate_pressure;
+use crate::reference::grid::shift;
+use crate::reference::interface::Interface;
+use crate::reference::solid::p2g::Nodes;
+use crate::reference::solid::particle_sort::Bins;
+use crate::reference::solve::coupled_solve::{Inputs, Solution, coupled_solve};
+use crate::reference::step::Report;
+use crate::reference::{Gas, Problem, State, boundary};
 
 /// What is left of the advected gas without the central heat of `held` that `carrying` has carried over the span of a solve.
 fn without_central_heat(problem: &Problem, faces: &Interface, [advected, carrying, held]: [&Gas; 3], dt: f64) -> Gas {

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::grid::{add, shift};
-use super::{GAS, GHOST, Gas, Problem, Side, internal_energy, kinetic_energy};
+use crate::reference::grid::{add, shift};
+use crate::reference::{GAS, GHOST, Gas, Problem, Side, internal_energy, kinetic_energy};
 
 /// An open face: u = velocity + (p - reference) / Z along the outward normal.
 #[derive(Clone, Copy, Debug)]

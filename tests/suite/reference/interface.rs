@@ -1,10 +1,13 @@
 //! Where gas and solid meet: cell kinds, interface faces, shared vertices, film traction at walls.
 
-use super::element;
-use super::grid::{add, shift, subtract};
-use super::p2g::Nodes;
-use super::particle_sort::Bins;
-use super::{GAS, GHOST, Pair, Problem, SOLID, Shared, Side, WALL};
+pub(crate) mod ledger;
+pub(crate) mod parting;
+
+use crate::reference::grid::{add, shift, subtract};
+use crate::reference::solid::p2g::Nodes;
+use crate::reference::solid::particle_sort::Bins;
+use crate::reference::solve::element;
+use crate::reference::{GAS, GHOST, Pair, Problem, SOLID, Shared, Side, WALL};
 
 /// Result of the interface stage.
 pub(crate) struct Interface {

@@ -3,26 +3,12 @@
 pub(crate) mod ablation;
 pub(crate) mod ars222;
 pub(crate) mod boundary;
-pub(crate) mod carrier;
-pub(crate) mod coupled_solve;
-pub(crate) mod elastic_reaction;
-pub(crate) mod elastic_solve;
-pub(crate) mod element;
-pub(crate) mod fluid_update;
-pub(crate) mod g2p;
-pub(crate) mod gas_advection;
+pub(crate) mod gas;
 pub(crate) mod grid;
 pub(crate) mod interface;
-pub(crate) mod intermediate_pressure;
-pub(crate) mod ledger;
-pub(crate) mod material;
-pub(crate) mod mpm_grid_update;
-pub(crate) mod p2g;
-pub(crate) mod particle_sort;
-pub(crate) mod parting;
+pub(crate) mod solid;
+pub(crate) mod solve;
 pub(crate) mod step;
-pub(crate) mod time_step;
-pub(crate) mod two_spaces;
 
 use std::collections::HashMap;
 
@@ -176,7 +162,7 @@ pub(crate) struct Problem {
     pub(crate) ambient: (f64, f64),
     /// p / rho^gamma that no gas falls below.
     pub(crate) least_entropy: f64,
-    pub(crate) materials: Vec<material::Material>,
+    pub(crate) materials: Vec<solid::material::Material>,
     pub(crate) numerics: Numerics,
 }
 
@@ -351,9 +337,9 @@ impl State {
             let (density, velocity, pressure) = gas(grid.centre(c));
             cells_gas.set(grid.slot(c), Gas::conserved_from_primitive(density, velocity, pressure, problem.gamma));
         }
-        let mut bins = particle_sort::bin(problem, &particles);
+        let mut bins = solid::particle_sort::bin(problem, &particles);
         let cells = interface::kinds(problem, &mut bins, &vec![GAS; grid.slots()]);
-        gas_advection::fill_ghosts(problem, &cells, &mut cells_gas);
+        gas::gas_advection::fill_ghosts(problem, &cells, &mut cells_gas);
         Self {
             gas: cells_gas,
             cells,

@@ -1,13 +1,23 @@
 //! One step in the order of the method.
 
-use super::coupled_solve::{Inputs, Solution, coupled_solve};
-use super::elastic_reaction::Spread;
-use super::p2g::Nodes;
-use super::{Problem, State};
-use super::{
-    ablation, ars222, boundary, elastic_reaction, elastic_solve, fluid_update, g2p, gas_advection, interface,
-    intermediate_pressure, ledger, mpm_grid_update, p2g, particle_sort, time_step,
-};
+pub(crate) mod time_step;
+pub(crate) mod two_spaces;
+
+use crate::reference::gas::fluid_update;
+use crate::reference::gas::gas_advection;
+use crate::reference::gas::intermediate_pressure;
+use crate::reference::interface::ledger;
+use crate::reference::solid::elastic_reaction;
+use crate::reference::solid::elastic_reaction::Spread;
+use crate::reference::solid::elastic_solve;
+use crate::reference::solid::g2p;
+use crate::reference::solid::mpm_grid_update;
+use crate::reference::solid::p2g;
+use crate::reference::solid::p2g::Nodes;
+use crate::reference::solid::particle_sort;
+use crate::reference::solve::coupled_solve::{Inputs, Solution, coupled_solve};
+use crate::reference::{Problem, State};
+use crate::reference::{ablation, ars222, boundary, interface};
 
 /// What a step did.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,0 +1,90 @@
+// fluid_update, last part: the energy floor, kinetic energy first. At closed faces the interface pressure changes momentum
+// without energy, so a cell squeezed between faces may hold more kinetic than total energy. Its momentum is scaled until a tenth
+// of the internal energy before the pressure step is left, and the entropy of no gas that was there; the ledger takes the momentum.
+// Only if the total energy itself is below that floor is energy borrowed from the ledger. Every floored cell is counted.
+// The plain form runs only if fluid_energy has found a cell that may need it.
+// What has crossed the boundary goes from the slot where it was collected to the ledger, where all of it is.
+#include "shared/index.wgsl"
+#include "shared/sweep.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/control.wgsl"
+#include "shared/ars.wgsl"
+#include "shared/cut.wgsl"
+#include "shared/books.wgsl"
+#include "gas/floor.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> fill: array<vec2f>;       // y: 1 / (gamma p*)
+@group(0) @binding(4) var<storage, read_write> conserved: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;
+@group(0) @binding(6) var<storage, read_write> owed_flow: array<vec4f>;
+@group(0) @binding(7) var<storage, read_write> owed_energy: array<f32>;
+@group(0) @binding(8) var<storage, read> extra: array<u32>;
+
+// Adds what a step brought to what crossed before, per cell volume, and leaves what float32 could not add: it comes with the next
+// step. Thousands of equal parts, as those of an inlet, would else be cut short by the same amount each. (A driver that reorders sums
+// would leave nothing; the books then wear as without.)
+fn keep_crossed(slot: u32) {
+    let book = book_of(slot);
+    let flow = owed_flow[book];
+    let total = owed_energy[book];
+    owed_flow[book] = flow + conserved[slot];
+    owed_energy[book] = total + energy[slot];
+    conserved[slot] -= owed_flow[book] - flow;
+    energy[slot] -= owed_energy[book] - total;
+}
+
+// Adds to one of the numbers in control.borrowed.
+fn borrow(number: u32, value: f32) {
+    let size = abs(value);
+    let whole = u32(floor(size));
+    let part = u32(fract(size) * 4294967296.0);
+    if value < 0.0 {
+        let old = atomicSub(&control.borrowed[2u * number], part);
+        atomicSub(&control.borrowed[2u * number + 1u], whole + u32(old < part));
+    } else {
+        let old = atomicAdd(&control.borrowed[2u * number], part);
+        atomicAdd(&control.borrowed[2u * number + 1u], whole + u32(old > ~part));
+    }
+}
+
+// What a gas cell has lost.
+fn book_loss(slot: u32, momentum: vec3f, heat: f32) {
+    if !RING_BOOKS {
+        owed_flow[slot] += vec4f(0.0, momentum);
+        owed_energy[slot] += heat;
+        return;
+    }
+    let unit = borrowed_unit();
+    for (var a = 0u; a < DIM; a++) { borrow(a, momentum[a] / unit.x); }
+    borrow(3u, heat / unit.y);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = swept_slot(thread_index(group, lane));
+    if slot >= params.slots { return; }
+    let kind = kind_of(cells[slot]);
+    // Between two solves of a step the second still builds upon what the first collected.
+    if (kind == GHOST || kind == WALL) && !(ARS && control.stage == 0u) { keep_crossed(slot); }
+    if kind != GAS { return; }
+    let flow = in_space(conserved[slot]);
+    let total = energy[slot];
+    if is_unsound(flow.x, total) {
+        atomicMin(&control.fault, (STAGE_FLUID_UPDATE << 27u) | slot);
+        return;
+    }
+    let before = 1.0 / (params.gamma * fill[slot].y * (params.gamma - 1.0));
+    let least = least_energy(flow.x, total, before);
+    let kinetic = kinetic_energy(flow);
+    if total - kinetic >= least { return; }
+    // What the first of two solves loses counts more than once in the second [shared/ars.wgsl].
+    let booked = select(1.0, ARS_RETURNED, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
+    atomicAdd(&control.floored, 1u);
+    let left = flow.yzw * select(0.0, sqrt((total - least) / kinetic), total > least);
+    book_loss(slot, (flow.yzw - left) * booked, min(total - least, 0.0) * booked);
+    energy[slot] = max(total, least);
+    conserved[slot] = vec4f(flow.x, left);
+}

@@ -1,0 +1,279 @@
+// gas_advection: where does the gas carry itself?
+// Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
+// TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
+// ARS: one stage before the first of two solves, two before the second, see shared/ars.wgsl. The method: docs/method/gas_advection.md.
+// Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
+// over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
+#include "shared/index.wgsl"
+#include "shared/arrays.wgsl"
+#include "shared/sweep.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/gas.wgsl"
+#include "shared/boundary.wgsl"
+#include "shared/control.wgsl"
+#include "shared/ars.wgsl"
+#include "gas/reconstruct.wgsl"
+#include "gas/flux.wgsl"
+#include "gas/limiter.wgsl"
+#include "shared/carrier.wgsl"
+#include "shared/cut.wgsl"
+#include "gas/cut_carrier.wgsl"
+#include "shared/still.wgsl"
+#include "gas/faces.wgsl"
+
+override STAGE: u32;    // of the Runge-Kutta scheme: 0, 1, and with ARS 2
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
+@group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> energy: array<f32>;
+@group(0) @binding(6) var<storage, read> node: array<vec4f>;
+@group(0) @binding(8) var<storage, read> extra: array<u32>;
+@group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
+
+fn source(slot: u32) -> Gas {
+    if STAGE == select(1u, 2u, ARS) { return Gas(in_space(work[part(STAGE_FLOW, slot)]), energy[part(STAGE_ENERGY, slot)]); }
+    return Gas(in_space(conserved[slot]), energy[slot]);
+}
+
+// `share`: of the high-order flux that the cells of the face allow; below 0 no high-order part, and 1 + share of the first-order flux.
+// `sign`: 1 into the cell, -1 out of it; times the open share of the face.
+fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
+    let scale = sign * stage_span() / params.spacing;
+    let blend = max(share, 0.0);
+    let drain = 1.0 + min(share, 0.0);
+    let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, share == 1.0);
+    let heat = select(drain * (f.low.energy + blend * (f.high.energy - f.low.energy)), f.high.energy, share == 1.0);
+    var implicit = 0.0;
+    if ARS {
+        // The solve carries this part, over its own share of the step.
+        (*change).heat += sign * control.dt / params.spacing * f.heat;
+        if STAGE == 1u { implicit = f.heat; }
+        if STAGE == 2u { implicit = (1.0 - ARS_SHARE) * f.heat; }
+    }
+    let through = scale * flow;
+    (*change).high.flow += vec4f(whole(through.x, f.unit), through.yzw);
+    (*change).high.energy += scale * (heat - implicit);
+    (*change).low.flow += scale * f.low.flow;
+    (*change).low.energy += scale * (f.low.energy - implicit);
+    add_excess(change, scale * (f.high.flow - f.low.flow), scale * (f.high.energy - f.low.energy));
+}
+
+// dt L(U) of a slot inside the domain; of all cells that share its state together.
+fn change_of(slot: u32, limited: bool) -> Change {
+    var change: Change;
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { add_faces(&change, at, limited, at == slot); }
+    if CUT { change = scaled(change, 1.0 / cluster_share(slot)); }
+    return change;
+}
+
+// What passes the faces of a slot if it is GAS, else those it shares with GAS cells. `gives`: to slots of the ring what passes towards them.
+fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool, gives: bool) {
+    let c = cell_of(slot);
+    let is_gas = kind_of(cells[slot]) == GAS;
+    if is_gas { (*change).velocity = velocity_of(source(slot).flow); }
+    // Slots without gas around them, as deep inside a body, have nothing to do.
+    let axes = select(0u, DIM, has(cells[slot], NODE_GAS));
+    for (var n = 0u; n < axes; n++) {
+        let row = row_around(slot, c, n);
+        var along: Change;
+        along.velocity = (*change).velocity;
+        for (var side = 0u; side < 2u; side++) {
+            let up = side == 1u;
+            let other = select(c - axis(n), c + axis(n), up);
+            let r = row_at_face(row, up);
+            if !is_gas && !(inside(other) && kind_of(select(r.c.word, r.d.word, up)) == GAS) { continue; }
+            var part = 1.0;
+            if limited { part = min(theta[slot], theta[slot_of(other)]); }
+            let f = face_fluxes(slot, c, n, up, r);
+            let open = select(1.0, -1.0, up) * aperture(select(slot_of(other), slot, is_gas), n, up == is_gas);
+            add_face(&along, f, part, open);
+            if is_gas && gives && !inside(other) { give(slot_of(other), f, part, -open); }
+        }
+        *change = plus(*change, along);
+    }
+}
+
+// What passes through the side to a slot of the ring, which has no other face.
+fn give(slot: u32, f: Fluxes, part: f32, sign: f32) {
+    var change: Change;
+    add_face(&change, f, part, sign);
+    write_result(slot, start_of(slot, source(slot)), change);
+}
+
+// Fluxes deep inside the gas, through the face above slot `low`.
+fn interior_fluxes(n: u32, low: u32, stencil: Stencil) -> Fluxes {
+    let held = heat_between(stencil, low, low + step_of(n));
+    if !CONSISTENT { return face_fluxes_of(n, stencil, held); }
+    let below = node[low];
+    let above = node[low + step_of(n)];
+    let carried = carried_velocity(n, below, stencil.c.flow.x, above, stencil.d.flow.x);
+    return carried_fluxes(stencil, carried, carrier_spread(below[n], above[n]), held);
+}
+
+// The same through both faces across one axis, far from walls, bodies and open sides.
+fn axis_change(velocity: vec3f, slot: u32, word: u32, n: u32, here: Gas) -> Change {
+    var change: Change;
+    change.velocity = velocity;
+    let s = step_of(n);
+    let last = params.slots - 1u;
+    let a = source(max(slot, 3u * s) - 3u * s);
+    let b = source(slot - 2u * s);
+    let c = source(slot - s);
+    let e = source(slot + s);
+    let f = source(slot + 2u * s);
+    let g = source(min(slot + 3u * s, last));
+    let low = stencil_inside(n, is_wide(word, n, false), ends_in_image(word, n, false), false, a, b, c, here, e, f);
+    let high = stencil_inside(n, is_wide(word, n, true), false, ends_in_image(word, n, true), b, c, here, e, f, g);
+    add_face(&change, interior_fluxes(n, slot - s, low), 1.0, 1.0);
+    add_face(&change, interior_fluxes(n, slot, high), 1.0, -1.0);
+    return change;
+}
+
+// The state that the change of this stage is added to.
+fn start_of(slot: u32, here: Gas) -> Gas {
+    if !ARS || STAGE == 0u { return here; }
+    // Density is never the solve's: it starts from that of U0 to the last bit.
+    let factor = select(ARS_MIDDLE, ARS_RETURNED, STAGE == 2u);
+    let gained = in_space(conserved[slot]) - in_space(work[part(KEPT_FLOW, slot)]);
+    return Gas(in_space(work[part(START_FLOW, slot)]) + factor * gained,
+        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]));
+}
+
+fn write_result(slot: u32, before: Gas, all: Change) {
+    let change = all.high;
+    if ARS && STAGE != 1u {
+        work[part(ADVECTED_FLOW, slot)] = before.flow + change.flow;
+        energy[part(ADVECTED_ENERGY, slot)] = before.energy + change.energy;
+        energy[part(COLD_ENERGY, slot)] = before.energy + change.energy - all.heat;
+        if STAGE == 2u { return; }
+        work[part(START_FLOW, slot)] = before.flow;
+        work[part(KEPT_FLOW, slot)] = before.flow + change.flow;
+        energy[part(START_ENERGY, slot)] = before.energy;
+        energy[part(KEPT_ENERGY, slot)] = before.energy + change.energy - all.heat;
+        energy[part(START_HEAT, slot)] = internal_energy(before);
+    } else if !ARS && STAGE == 1u {
+        work[part(ADVECTED_FLOW, slot)] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
+        energy[part(ADVECTED_ENERGY, slot)] = 0.5 * (energy[slot] + before.energy + change.energy);
+    } else {
+        work[part(STAGE_FLOW, slot)] = before.flow + change.flow;
+        energy[part(STAGE_ENERGY, slot)] = before.energy + change.energy;
+    }
+}
+
+fn finish(slot: u32, here: Gas, change: Change) {
+    let before = start_of(slot, here);
+    var share = 1.0;
+    if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
+    theta[slot] = share;
+    if share < 1.0 { atomicAdd(&control.limited, 1u); }
+    write_result(slot, before, change);
+}
+
+// Whether nothing passes through the faces of a slot: its state is then the same in all Runge-Kutta stages. Clusters of cut cells reach further, and the second of two solves starts from
+// what the first has moved.
+fn stays(slot: u32) -> bool { return !CUT && !(ARS && STAGE > 0u) && is_still(slot); }
+
+fn stay(slot: u32) {
+    theta[slot] = 1.0;
+    write_result(slot, Gas(in_space(conserved[slot]), energy[slot]), Change());
+}
+
+// Whether a slot of the ring gets what passes through the side from the cell before it.
+fn is_served(c: vec3i) -> bool {
+    let near = nearest_inside(c);
+    let steps = abs(near - c);
+    return steps.x + steps.y + steps.z == 1 && kind_of(cells[slot_of(near)]) == GAS && !stays(slot_of(near));
+}
+
+// One slot of the list.
+@compute @workgroup_size(WORKGROUP)
+fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = swept_slot(thread_index(group, lane));
+    if slot >= params.slots { return; }
+    let c = cell_of(slot);
+    let beyond = !inside(c);
+    let still = stays(slot);
+    if beyond {
+        theta[slot] = 1.0;
+        if !is_served(c) { write_result(slot, start_of(slot, source(slot)), Change()); }
+    } else if still {
+        stay(slot);
+    }
+    for (var turn = 0u; turn < when(!still && !beyond); turn++) { finish(slot, source(slot), change_of(slot, false)); }
+}
+
+// A column of params.march slots along the last axis: each state there is read once, each face computed once. Slots that are not INTERIOR
+// lie in columns, too: what is written there is overwritten by advect_listed, which runs afterwards.
+@compute @workgroup_size(WORKGROUP)
+fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let n = DIM - 1u;
+    let s = step_of(n);
+    let thread = thread_index(group, lane);
+    let first = swept_slot(thread);
+    let last = params.slots - 1u;
+    if first > last { return; }
+    let moving = moving_rows(thread, CUT || (ARS && STAGE > 0u));
+    for (var k = 0u; k < params.march; k++) {
+        let slot = first + k * s;
+        if slot <= last && (k < moving.x || k >= moving.y) { stay(slot); }
+    }
+    if moving.x == moving.y { return; }
+    let begin = first + moving.x * s;
+    let end = min(first + moving.y * s, params.slots);
+    let below = max(begin, s) - s;
+    var b = source(max(begin, 2u * s) - 2u * s);
+    var c = source(below);
+    var here = source(begin);
+    var e = source(min(begin + s, last));
+    var f = source(min(begin + 2u * s, last));
+    var word = cells[begin];
+    let a = source(max(begin, 3u * s) - 3u * s);
+    var low = interior_fluxes(n, below, stencil_inside(n, is_wide(word, n, false), ends_in_image(word, n, false), false, a, b, c, here, e, f));
+    for (var slot = begin; slot < end; slot += s) {
+        let g = source(min(slot + 3u * s, last));
+        // Of a face below an INTERIOR slot that slot knows, too.
+        let next = cells[min(slot + s, last)];
+        let known = has(word, INTERIOR);
+        let all_gas = select(is_wide(next, n, false), is_wide(word, n, true), known);
+        let low_image = !known && ends_in_image(next, n, false);
+        let high = interior_fluxes(n, slot, stencil_inside(n, all_gas, low_image, known && ends_in_image(word, n, true), b, c, here, e, f, g));
+        if known {
+            var change: Change;
+            change.velocity = velocity_of(here.flow);
+            var along = change;
+            add_face(&along, low, 1.0, 1.0);
+            add_face(&along, high, 1.0, -1.0);
+            change = plus(change, along);
+            for (var m = 0u; m < n; m++) { change = plus(change, axis_change(change.velocity, slot, word, m, here)); }
+            finish(slot, here, change);
+        }
+        low = high;
+        word = next;
+        b = c;
+        c = here;
+        here = e;
+        e = f;
+        f = g;
+    }
+}
+
+// Only where the limiter acted somewhere: the slots whose faces carry less than the full flux once more.
+@compute @workgroup_size(WORKGROUP)
+fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
+    if slot >= params.slots { return; }
+    let c = cell_of(slot);
+    if !inside(c) || is_alias(c) || stays(slot) { return; }
+    var least = theta[slot];
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
+        let member = cell_of(at);
+        for (var n = 0u; n < DIM; n++) {
+            if in_ring(member - axis(n)) { least = min(least, theta[slot_of(member - axis(n))]); }
+            if in_ring(member + axis(n)) { least = min(least, theta[slot_of(member + axis(n))]); }
+        }
+    }
+    if least == 1.0 { return; }
+    write_result(slot, start_of(slot, source(slot)), change_of(slot, true));
+}

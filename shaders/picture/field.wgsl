@@ -1,0 +1,287 @@
+// The quantity a picture shows, from the state of the gas.
+// evaluate_field: reads conserved, energy, owed_flow, cells, maps; writes field and heat (p / rho), NO_VALUE where there is no gas.
+// find_range: reads field; writes the least and largest value that each workgroup saw.
+// pack_corners: reads field; writes, per cube between eight cell centres, their fractions of the range in 8 bits each.
+// pack_glow: reads heat; writes the same cubes' places in the black-body ramp.
+// mark_bricks: reads corners, glow, visible; writes 1 for every brick of cubes that the ray march must enter.
+
+#include "shared/thread.wgsl"
+#include "shared/reduce.wgsl"
+#include "picture/view.wgsl"
+
+@group(0) @binding(1) var<storage, read> conserved: array<vec4f>;
+@group(0) @binding(2) var<storage, read> energy: array<f32>;
+@group(0) @binding(3) var<storage, read> cells: array<u32>;
+@group(0) @binding(4) var<storage, read_write> field: array<f32>;
+@group(0) @binding(5) var<storage, read_write> ranges: array<vec2f>;
+@group(0) @binding(6) var<storage, read_write> corners: array<vec2u>;
+@group(0) @binding(7) var<storage, read_write> bricks: array<u32>;
+@group(0) @binding(8) var<storage, read_write> heat: array<f32>;
+@group(0) @binding(9) var<storage, read_write> glow: array<vec2u>;
+// Per entry of the colour table, how many entries before it are not transparent; then the same of the black-body ramp.
+@group(0) @binding(10) var<storage, read> visible: array<u32>;
+// Mass and momentum that a slot owes; one entry alone where no slot inside the domain has books.
+@group(0) @binding(11) var<storage, read> owed_flow: array<vec4f>;
+
+// Largest pressure, impulse, what rounding took, largest plastic strain so far; one entry alone where no maps are kept.
+@group(0) @binding(12) var<storage, read> maps: array<vec4f>;
+
+fn has_gas(slot: u32) -> bool {
+    return kind_of(cells[slot]) == KIND_GAS;
+}
+
+// Density and velocity.
+fn motion(slot: u32) -> vec4f {
+    let state = conserved[slot];
+    return vec4f(state.x, state.yzw / state.x);
+}
+
+fn pressure(slot: u32) -> f32 {
+    let state = conserved[slot];
+    let kinetic = 0.5 * dot(state.yzw, state.yzw) / state.x;
+    return (view.gamma - 1.0) * (energy[slot] - kinetic);
+}
+
+// Difference quotient of density and velocity along an active axis; one-sided next to cells without gas.
+fn slope(cell: vec3i, axis: u32) -> vec4f {
+    var step = vec3i(0);
+    step[axis] = 1;
+    let here = slot_of(cell);
+    let below = slot_of(cell - step);
+    let above = slot_of(cell + step);
+    let low = select(here, below, has_gas(below));
+    let high = select(here, above, has_gas(above));
+    let distance = view.spacing * f32(u32(low != here) + u32(high != here));
+    if (distance == 0.0) {
+        return vec4f(0.0);
+    }
+    return (motion(high) - motion(low)) / distance;
+}
+
+fn density_gradient(cell: vec3i) -> f32 {
+    var squared = 0.0;
+    for (var axis = 0u; axis < view.dimension; axis++) {
+        let along = slope(cell, axis).x;
+        squared += along * along;
+    }
+    return sqrt(squared);
+}
+
+fn vorticity(cell: vec3i) -> f32 {
+    var gradient = array<vec3f, 3>(vec3f(0.0), vec3f(0.0), vec3f(0.0));
+    for (var axis = 0u; axis < view.dimension; axis++) {
+        gradient[axis] = slope(cell, axis).yzw;
+    }
+    let curl = vec3f(gradient[1].z - gradient[2].y, gradient[2].x - gradient[0].z, gradient[0].y - gradient[1].x);
+    return length(curl);
+}
+
+// Gas that a cell owes per volume, and of a covered cell all that it holds.
+fn owed_gas(slot: u32) -> f32 {
+    var owed = 0.0;
+    if (slot < arrayLength(&owed_flow)) {
+        owed = owed_flow[slot].x / pow(view.spacing, f32(view.dimension));
+    }
+    return owed + select(0.0, conserved[slot].x, is_covered(slot));
+}
+
+fn is_covered(slot: u32) -> bool {
+    return kind_of(cells[slot]) == KIND_SOLID;
+}
+
+fn is_map() -> bool {
+    return view.field == FIELD_PEAK_PRESSURE || view.field == FIELD_IMPULSE || view.field == FIELD_PEAK_PLASTIC_STRAIN;
+}
+
+// What a place has seen so far, also where a body is now.
+fn mapped(slot: u32) -> f32 {
+    if (slot >= arrayLength(&maps) || kind_of(cells[slot]) == KIND_WALL) {
+        return NO_VALUE;
+    }
+    let seen = maps[slot];
+    if (view.field == FIELD_IMPULSE) {
+        return seen.y;
+    }
+    return select(seen.x, seen.w, view.field == FIELD_PEAK_PLASTIC_STRAIN);
+}
+
+fn value(cell: vec3i, slot: u32) -> f32 {
+    let state = motion(slot);
+    let speed = length(state.yzw);
+    switch (view.field) {
+        case FIELD_PRESSURE: { return pressure(slot); }
+        case FIELD_VELOCITY: { return speed; }
+        case FIELD_TEMPERATURE: { return pressure(slot) / state.x; }
+        case FIELD_SCHLIEREN: { return density_gradient(cell); }
+        case FIELD_MACH: { return speed / sqrt(view.gamma * max(pressure(slot), 1e-30) / state.x); }
+        case FIELD_VORTICITY: { return vorticity(cell); }
+        case FIELD_ENTROPY: { return pressure(slot) * pow(state.x, -view.gamma); }
+        case FIELD_OWED: { return owed_gas(slot); }
+        default: { return state.x; }
+    }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
+    if (i >= cell_count()) {
+        return;
+    }
+    let cell = cell_of(i);
+    let slot = slot_of(cell);
+    var result = NO_VALUE;
+    var hot = NO_VALUE;
+    if (has_gas(slot)) {
+        let computed = value(cell, slot);
+        // By its bits: fast arithmetic may take every comparison with NaN for true.
+        if ((bitcast<u32>(computed) & 0x7f800000u) != 0x7f800000u && abs(computed) < -NO_VALUE) {
+            result = computed;
+        }
+        hot = max(pressure(slot) / conserved[slot].x, 0.0);
+    }
+    if (view.field == FIELD_OWED && is_covered(slot)) {
+        result = owed_gas(slot);
+    }
+    if (is_map()) {
+        result = mapped(slot);
+    }
+    field[i] = result;
+    heat[i] = hot;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn find_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    var low = -NO_VALUE;
+    var high = NO_VALUE;
+    for (var i = thread_index(workgroup, local); i < cell_count(); i += RANGE_GROUPS * WORKGROUP) {
+        let seen = field[i];
+        if (seen != NO_VALUE) {
+            low = min(low, seen);
+            high = max(high, seen);
+        }
+    }
+    low = workgroup_min(local, low);
+    high = workgroup_max(local, high);
+    if (local == 0u) {
+        ranges[workgroup.x] = vec2f(low, high);
+    }
+}
+
+// Place of a cell in the arrays without ring; cells beyond the sides are those at the sides.
+fn nearest_cell(cell: vec3i) -> u32 {
+    let inside = vec3u(clamp(cell, vec3i(0), vec3i(view.cells) - 1));
+    return inside.x + view.cells.x * (inside.y + view.cells.y * inside.z);
+}
+
+// The fractions of a cube's eight corners in 8 bits each. Corners without gas are negative; they take the mean of the others,
+// so that bodies have no halo of false values.
+fn packed_corners(given: array<f32, 8>) -> vec2u {
+    var fractions = given;
+    var sum = 0.0;
+    var count = 0.0;
+    for (var corner = 0u; corner < 8u; corner++) {
+        if (fractions[corner] >= 0.0) {
+            sum += fractions[corner];
+            count += 1.0;
+        }
+    }
+    for (var corner = 0u; corner < 8u; corner++) {
+        if (fractions[corner] < 0.0) {
+            fractions[corner] = sum / max(count, 1.0);
+        }
+    }
+    let near = vec4f(fractions[0], fractions[1], fractions[2], fractions[3]);
+    let far = vec4f(fractions[4], fractions[5], fractions[6], fractions[7]);
+    return vec2u(pack4x8unorm(near), pack4x8unorm(far));
+}
+
+// Cube (i, j, k) lies between the centres of cells i-1 and i, and so on: one more than cells per axis.
+fn cube_of(i: u32) -> vec3i {
+    let cubes = view.cells + 1u;
+    return vec3i(vec3u(i % cubes.x, (i / cubes.x) % cubes.y, i / (cubes.x * cubes.y)));
+}
+
+fn cube_count() -> u32 {
+    let cubes = view.cells + 1u;
+    return cubes.x * cubes.y * cubes.z;
+}
+
+fn corner_cell(cube: vec3i, corner: u32) -> vec3i {
+    return cube - 1 + vec3i(vec3u(corner & 1u, (corner >> 1u) & 1u, corner >> 2u));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
+    if (i >= cube_count()) {
+        return;
+    }
+    let cube = cube_of(i);
+    var fractions = array<f32, 8>();
+    for (var corner = 0u; corner < 8u; corner++) {
+        let seen = field[nearest_cell(corner_cell(cube, corner))];
+        let fraction = pow(clamp((seen - view.low) / (view.high - view.low), 0.0, 1.0), view.contrast);
+        fractions[corner] = select(fraction, -1.0, seen == NO_VALUE);
+    }
+    corners[i] = packed_corners(fractions);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pack_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
+    if (i >= cube_count()) {
+        return;
+    }
+    let cube = cube_of(i);
+    var fractions = array<f32, 8>();
+    for (var corner = 0u; corner < 8u; corner++) {
+        let seen = heat[nearest_cell(corner_cell(cube, corner))];
+        fractions[corner] = select(clamp(seen * view.heat_scale - view.heat_offset, 0.0, 1.0), -1.0, seen == NO_VALUE);
+    }
+    glow[i] = packed_corners(fractions);
+}
+
+// Whether something between two entries of a table is not transparent; the bounds are 8-bit fractions.
+fn sees(low: f32, high: f32, table: u32) -> bool {
+    let first = u32(low * f32(COLOR_COUNT - 1u));
+    let last = min(u32(high * f32(COLOR_COUNT - 1u) + 1.0), COLOR_COUNT - 1u);
+    let start = table * (COLOR_COUNT + 1u);
+    return visible[start + last + 1u] > visible[start + first];
+}
+
+// Least and largest of eight packed fractions and what was seen before.
+fn widened(bounds: vec2f, packed: vec2u) -> vec2f {
+    let near = unpack4x8unorm(packed.x);
+    let far = unpack4x8unorm(packed.y);
+    let low = min(near, far);
+    let high = max(near, far);
+    return vec2f(min(bounds.x, min(min(low.x, low.y), min(low.z, low.w))),
+                 max(bounds.y, max(max(high.x, high.y), max(high.z, high.w))));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
+    let grid = (view.cells + BRICK) / BRICK;
+    if (i >= grid.x * grid.y * grid.z) {
+        return;
+    }
+    let cubes = view.cells + 1u;
+    let first = BRICK * vec3u(i % grid.x, (i / grid.x) % grid.y, i / (grid.x * grid.y));
+    let end = min(first + BRICK, cubes);
+    var bounds = vec2f(1.0, 0.0);
+    var hot = vec2f(1.0, 0.0);
+    for (var z = first.z; z < end.z; z++) {
+        for (var y = first.y; y < end.y; y++) {
+            for (var x = first.x; x < end.x; x++) {
+                let cube = x + cubes.x * (y + cubes.y * z);
+                bounds = widened(bounds, corners[cube]);
+                if (view.heat_opacity > 0.0) {
+                    hot = widened(hot, glow[cube]);
+                }
+            }
+        }
+    }
+    let shines = view.heat_opacity > 0.0 && sees(hot.x, hot.y, 1u);
+    bricks[i] = u32(sees(bounds.x, bounds.y, 0u) || shines);
+}

@@ -1,0 +1,49 @@
+// coupled_solve, second half of the operator: y = S^-1 x + dt^2 C^T (M^-1 C x), and the partial sums of x . y.
+#include "shared/index.wgsl"
+#include "shared/sweep.wgsl"
+#include "shared/cell.wgsl"
+#include "shared/control.wgsl"
+#include "shared/element.wgsl"
+#include "shared/system.wgsl"
+#include "shared/cut_system.wgsl"
+#include "solve/gather.wgsl"
+#include "shared/reduce4.wgsl"
+
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> cells: array<u32>;
+@group(0) @binding(3) var<storage, read> extra: array<u32>;
+@group(0) @binding(4) var<storage, read> work: array<vec4f>;
+@group(0) @binding(5) var<storage, read> stiffness: array<f32>;
+@group(0) @binding(6) var<storage, read> x: array<f32>;
+@group(0) @binding(7) var<storage, read_write> y: array<f32>;
+@group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let scale = control.dt * control.dt * face_area();
+    var product = 0.0;
+    let thread = thread_index(group, lane);
+    for (var k = thread; k < swept_threads(); k += striding_threads()) {
+        let slot = swept_slot(k);
+        if slot >= params.slots { continue; }
+        let rows = gather_rows(slot, cells[slot]);
+        let own = stiffness[slot] * x[slot] + scale * rows.own;
+        y[slot] = own;
+        product += x[slot] * own;
+        if SWEEP != OVER_LISTED { continue; }
+        let i = interface_index(slot);
+        if i != slot {
+            let j = ghost_index(slot);
+            let h = scale * rows.h;
+            let q = stiffness[j] * x[j] + scale * rows.q;
+            y[i] = h;
+            y[j] = q;
+            product += x[i] * h + x[j] * q;
+        }
+    }
+    let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
+    if lane != 0u { return; }
+    // The listed form comes first; the plain one adds to what it left.
+    let at = thread / WORKGROUP;
+    if SWEEP == OVER_LISTED { partials[at] = sum; } else { partials[at] += sum; }
+}

@@ -1,0 +1,17 @@
+//! What happens to the gas alone.
+
+mod carrier;
+mod detonate;
+mod fluid_update;
+mod gas_advection;
+mod intermediate_pressure;
+mod odd_even;
+mod still;
+
+pub use carrier::{Carried, CarrierVelocity};
+pub use detonate::Detonate;
+pub use fluid_update::FluidUpdate;
+pub use gas_advection::GasAdvection;
+pub use intermediate_pressure::IntermediatePressure;
+pub use odd_even::OddEven;
+pub use still::Still;

@@ -1,0 +1,74 @@
+//! `carrier`: which velocity carries the gas through its faces? One that compresses only what the pressure solve can see.
+
+use crate::error::Result;
+use crate::gpu::Pass;
+use crate::stage::sweep::Form;
+use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
+
+/// The state whose velocity carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carried {
+    /// The state now.
+    Now = 0,
+    /// After the first Runge-Kutta stage of the advection.
+    First = 1,
+    /// After the advection.
+    Star = 2,
+    /// The state now, after the solve, which also moves still air.
+    Solved = 3,
+    /// Before the second of two solves: as [`Carried::First`], in air that the first has moved.
+    Middle = 4,
+}
+
+/// Kernels of the stage in order, for each state that carries; none where the cells' own velocities do.
+#[derive(Debug)]
+pub struct CarrierVelocity {
+    kernels: Vec<(Carried, Vec<Form>)>,
+}
+
+impl CarrierVelocity {
+    /// Binds for the states that carry in a step of so many solves; if it is not `wanted`, its recordings are empty.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(state: &State, wanted: bool, solves: u32) -> Result<Self> {
+        let of = |carried: &Carried| {
+            let (source, solved) = match *carried {
+                Carried::Solved => (Carried::Now, 1.0),
+                Carried::Middle => (Carried::First, 1.0),
+                unsolved => (unsolved, 0.0),
+            };
+            let form = |over: Over, entry: &str| {
+                Form::new(
+                    state,
+                    over,
+                    ["gas/carrier.wgsl", entry],
+                    &[],
+                    &[("SOURCE", f64::from(source as u32)), ("SOLVED", solved)],
+                )
+            };
+            let [average, divergence] = ["carrier_average", "carrier_divergence"];
+            let march = state.grid.dimension == 2;
+            let plain = |entry: &str| (!march).then(|| form(Over::Interior, entry)).transpose();
+            let first = if march { Some(form(Over::Marches, "carrier_march")?) } else { plain(average)? };
+            let kernels =
+                [first, Some(form(Over::Listed, average)?), plain(divergence)?, Some(form(Over::Listed, divergence)?)];
+            Ok((*carried, kernels.into_iter().flatten().collect()))
+        };
+        let carrying: &[Carried] = match (wanted, solves) {
+            (false, _) => &[],
+            (true, 1) => &[Carried::Now, Carried::First, Carried::Star, Carried::Solved],
+            (true, _) => &[Carried::Now, Carried::Solved, Carried::Middle],
+        };
+        Ok(Self { kernels: carrying.iter().map(of).collect::<Result<_>>()? })
+    }
+
+    /// Carrier of a state, in a phase.
+    pub fn record(&self, pass: &mut Pass, state: &State, source: Carried, phase: Phase) {
+        pass.stage(Stage::Carrier.name());
+        for form in self.kernels.iter().filter(|(carried, _)| *carried == source).flat_map(|(_, all)| all) {
+            form.record(pass, state, phase);
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! `gas_advection`: where does the gas carry itself? WENO with local Lax-Friedrichs splitting, TVD-RK2 or, with two solves, three stages; conservative limiter.
+//! [Cao et al. 2022, eqs. 10-12] Marches come first: what they write into listed slots is overwritten.
+
+use crate::error::Result;
+use crate::gpu::{Bound, Pass};
+use crate::stage::TimeStep;
+use crate::stage::sweep::Form;
+use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
+
+/// Kernels of the stage: two Runge-Kutta stages, each with its correction by the limiter; with two solves one before the first and two
+/// before the second.
+#[derive(Debug)]
+pub struct GasAdvection {
+    stages: Vec<RungeKuttaStage>,
+}
+
+#[derive(Debug)]
+struct RungeKuttaStage {
+    forms: [Form; 2],
+    limited: Bound,
+}
+
+impl RungeKuttaStage {
+    fn new(state: &State, stage: u32) -> Result<Self> {
+        let (shader, switches) = ("gas/gas_advection.wgsl", [("STAGE", f64::from(stage))]);
+        let form = |over: Over, entry: &str| Form::new(state, over, [shader, entry], &[], &switches);
+        Ok(Self {
+            forms: [form(Over::Marches, "advect_interior")?, form(Over::Listed, "advect_listed")?],
+            limited: state.bind(shader, "advect_limited", &[], &switches)?,
+        })
+    }
+}
+
+impl GasAdvection {
+    /// Binds.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(state: &State, solves: u32) -> Result<Self> {
+        Ok(Self { stages: (0..=solves).map(|stage| RungeKuttaStage::new(state, stage)).collect::<Result<_>>()? })
+    }
+
+    /// One of the stages, from 0, in a phase: two belong to one advection, or with two solves one to the first and two to the second.
+    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: Phase) {
+        pass.stage(Stage::GasAdvection.name());
+        let kernels = &self.stages[stage];
+        for form in &kernels.forms {
+            form.record(pass, state, phase);
+        }
+        control.record_limiter(pass);
+        pass.dispatch(&kernels.limited, &state.extent(Phase::Limit, Over::Slots));
+    }
+}

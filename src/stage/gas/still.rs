@@ -1,0 +1,31 @@
+//! `still`: where does nothing move? Kernels before the solve leave out gas that motion does not reach by then.
+
+use crate::error::Result;
+use crate::gpu::{Bound, Pass};
+use crate::state::stages::Stage;
+use crate::state::{Over, Phase, State};
+
+/// Kernels of the stage.
+#[derive(Debug)]
+pub struct Still {
+    mark: [Bound; 3],
+}
+
+impl Still {
+    /// Binds.
+    ///
+    /// # Errors
+    /// If a shader or buffer is wrong.
+    pub fn new(state: &State) -> Result<Self> {
+        let bind = |entry: &str| state.bind("gas/still.wgsl", entry, &[], &[]);
+        Ok(Self { mark: [bind("still_find")?, bind("still_along")?, bind("still_spread")?] })
+    }
+
+    /// Marks the rows in which there is something to do.
+    pub fn record(&self, pass: &mut Pass, state: &State) {
+        pass.stage(Stage::Still.name());
+        for kernel in &self.mark {
+            pass.dispatch(kernel, &state.extent(Phase::Begin, Over::Reduce));
+        }
+    }
+}

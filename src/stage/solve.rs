@@ -1,0 +1,5 @@
+//! The pressure of gas and bodies.
+
+mod coupled_solve;
+
+pub use coupled_solve::CoupledSolve;

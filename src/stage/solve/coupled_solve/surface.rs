@@ -1,0 +1,80 @@
+//! The preconditioner of the interface pressures: their own block of the system, inverted nearly by a Chebyshev polynomial.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::error::Result;
+use crate::gpu::{Bound, Buffer, Pass};
+use crate::numerics::Block;
+use crate::stage::sweep::Form;
+use crate::state::surface::{TERMS, row_length};
+use crate::state::{Over, Phase, State};
+
+/// Mirror of `Turn` in `shaders/solve/solve_surface.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Turn {
+    number: u32,
+    count: u32,
+}
+
+/// Kernels of the preconditioner.
+#[derive(Debug)]
+pub(super) struct Surface {
+    begin: Bound,
+    rows: Form,
+    terms: Vec<Bound>,
+    direction: Bound,
+    _buffers: Buffers,
+}
+
+/// What the kernels hold, for the books of memory.
+#[derive(Debug)]
+struct Buffers {
+    rows: Buffer<f32>,
+    bound: Buffer<u32>,
+    turns: Vec<Buffer<Turn>>,
+}
+
+impl Surface {
+    /// Binds, in scenes with bodies.
+    pub(super) fn new(state: &State) -> Result<Option<Self>> {
+        let gpu = &state.gpu;
+        let count = state.params.surface_rows as usize;
+        if count == 0 {
+            return Ok(None);
+        }
+        let length = count * row_length(state.grid.dimension as usize);
+        let buffers = Buffers {
+            rows: Buffer::new(gpu, "surface rows", length)?,
+            bound: Buffer::new(gpu, "surface bound", 1)?,
+            turns: (0..TERMS).map(|_| Buffer::uniform(gpu, "turn", 1)).collect::<Result<_>>()?,
+        };
+        let shared = [("rows", buffers.rows.raw()), ("bound", buffers.bound.raw())];
+        let bind = |entry: &str, more: &[(&str, &wgpu::Buffer)]| {
+            let named = [&shared[..], more].concat();
+            state.bind("solve/solve_surface.wgsl", entry, &named, &[])
+        };
+        let term = |(number, turn): (u32, &Buffer<Turn>)| {
+            turn.write(gpu, 0, &[Turn { number, count: TERMS }]);
+            bind("surface_term", &[("turn", turn.raw())])
+        };
+        Ok(Some(Self {
+            begin: bind("surface_begin", &[])?,
+            rows: Form::new(state, Over::Listed, ["solve/solve_surface.wgsl", "surface_rows"], &shared, &[])?,
+            terms: (0..).zip(&buffers.turns).map(term).collect::<Result<_>>()?,
+            direction: bind("surface_direction", &[])?,
+            _buffers: buffers,
+        }))
+    }
+
+    /// The rows of a solve, in a phase; masses of the nodes must be there.
+    pub(super) fn record_rows(&self, pass: &mut Pass, state: &State, phase: Phase) {
+        pass.dispatch(&self.begin, &state.extent(phase, Over::Single));
+        self.rows.record(pass, state, phase);
+    }
+
+    /// The block that it preconditions.
+    pub(super) fn block(&self) -> Block<'_> {
+        Block { terms: self.terms.iter().collect(), direction: Some(&self.direction) }
+    }
+}
