@@ -3,11 +3,12 @@
 #![allow(clippy::disallowed_macros, reason = "the streams belong to the program")]
 
 use brisance::quantity::Values;
+use brisance::scene::Changes;
 use brisance::{Gpu, Result, Scene, Simulation};
 
 fn main() -> Result<()> {
-    let changes = ["variant=small", "time.until=0.02"].map(str::to_owned);
-    let scene = Scene::shipped("paper/fig03_elastic_shell_2d.toml", &changes)?;
+    let changes = Changes::variant("small").set("time.until=0.02");
+    let scene = Scene::shipped("paper/fig03_elastic_shell_2d.toml", changes)?;
     let mut simulation = Simulation::new(&Gpu::best()?, &scene)?;
     simulation.advance_to(scene.time.until)?;
 

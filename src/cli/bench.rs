@@ -145,7 +145,7 @@ fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Resul
         iterations: timed.iterations,
         substeps: timed.substeps,
         carrier: scene.consistent(),
-        quadratic: simulation.state.is_quadratic(),
+        quadratic: simulation.state.quadratic,
     };
     let per_second = |count: u64| count as f64 * whole.steps as f64 / seconds;
     Ok(Measurement {

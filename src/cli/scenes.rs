@@ -2,25 +2,24 @@
 
 use super::args::SceneOptions;
 use crate::Result;
-use crate::scene::{Scene, scene_file};
+use crate::scene::{Changes, Scene, scene_file};
 
-/// Reads the scene that the options name, in the variants asked for, with `further` overrides, at the resolution asked for.
+/// Reads the scene that the options name, in the variants asked for, with `further` keys, at the resolution asked for.
 ///
 /// # Errors
 /// [`crate::Error::Scene`] if there is none of that name or it is wrong.
 pub(super) fn load(options: &SceneOptions, further: &[String]) -> Result<Scene> {
-    let scene = Scene::find(&options.scene, &overrides(options, further))?;
+    let scene = Scene::find(&options.scene, changes(options, further))?;
     match options.resolution {
         Some(cells) => scene.with_resolution(cells),
         None => Ok(scene),
     }
 }
 
-/// Everything that the options and `further` change about a scene, in the order in which it is changed.
-pub(super) fn overrides(options: &SceneOptions, further: &[String]) -> Vec<String> {
-    let variants = options.variant.iter().map(|name| format!("variant={name}"));
-    let outside = options.allow_outside.then(|| "allow_outside=true".to_owned());
-    variants.chain(outside).chain(options.set.iter().chain(further).cloned()).collect()
+/// Everything that the options and `further` change about a scene.
+pub(super) fn changes(options: &SceneOptions, further: &[String]) -> Changes {
+    let set = options.set.iter().chain(further).cloned().collect();
+    Changes { variants: options.variant.clone(), set, outside: options.allow_outside }
 }
 
 /// Where a scene lies: the whole path of a file, or the name of a shipped scene.

@@ -14,7 +14,7 @@ pub(super) fn view(options: Option<&ViewOptions>, cli: &Cli) -> Result<()> {
 
     let request = options.map(|ViewOptions { scene, .. }| Request {
         name: scene.scene.clone(),
-        overrides: super::scenes::overrides(scene, &[]),
+        changes: super::scenes::changes(scene, &[]),
         resolution: scene.resolution,
     });
     if let Some(request) = &request {

@@ -162,12 +162,11 @@ impl Joiner<'_> {
             let entry = || (line.to_owned(), (file, index + 1));
             let word = line.trim_start();
             if word.starts_with('#') {
-                self.include(word).map_err(|error| match error {
-                    Error::Shader(reason) if !reason.contains("included from") => {
-                        Error::Shader(format!("{reason}, included from {name}:{}", index + 1))
-                    }
+                let included = self.included(word).map_err(|error| match error {
+                    Error::Shader(reason) => Error::Shader(format!("{reason}, included from {name}:{}", index + 1)),
                     other => other,
                 })?;
+                included.map_or(Ok(()), |(path, text)| self.join(path, &text))?;
             } else if ["enable ", "requires ", "diagnostic("].iter().any(|directive| word.starts_with(directive)) {
                 self.head.push(entry());
             } else {
@@ -178,8 +177,8 @@ impl Joiner<'_> {
         Ok(())
     }
 
-    /// Follows one `#include "path"`.
-    fn include(&mut self, directive: &str) -> Result<()> {
+    /// Path and text that one `#include "path"` names; nothing if it has been joined before.
+    fn included<'d>(&self, directive: &'d str) -> Result<Option<(&'d str, String)>> {
         let Some(path) =
             directive.strip_prefix("#include").and_then(|rest| rest.trim().strip_prefix('"')?.strip_suffix('"'))
         else {
@@ -191,9 +190,8 @@ impl Joiner<'_> {
             return Err(Error::Shader(format!("cycle of includes: {} -> {path}", self.open[position..].join(" -> "))));
         }
         if self.files.iter().any(|file| file == path) {
-            return Ok(());
+            return Ok(None);
         }
-        let text = self.folder.text(path)?;
-        self.join(path, &text)
+        Ok(Some((path, self.folder.text(path)?)))
     }
 }

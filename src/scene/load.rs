@@ -10,78 +10,68 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use super::mended::Mended;
 use super::mesh::MeshFolder;
 use super::source::{self, Finding, Source};
-use super::{Material, Scene, budget, check, look, variants, vocabulary};
+use super::{Changes, Material, Scene, budget, check, look, variants, vocabulary};
 use crate::material::{PRESETS, Units};
 use crate::{Error, Result, input};
 
-/// The override that lets mesh files lie outside of the scene's folder.
-const OUTSIDE: &str = "allow_outside";
-
 impl Scene {
-    /// Reads a scene file and applies overrides of the form `key=value`, such as `gas.ambient.density=2` or
-    /// `bodies[0].material=rubber`. Values are TOML; what is no TOML value is taken as a string. `variant=NAME` makes the changes of
-    /// one of the scene's variants; `allow_outside=true` lets mesh files lie outside of the scene's folder. Overrides apply in their order.
+    /// Reads a scene file and makes changes: a list of keys with values, such as `gas.ambient.density=2`, or [`Changes`] that name variants
+    /// as well.
     ///
     /// # Errors
     /// [`Error::Io`] if the file cannot be read; [`Error::Scene`] with every mistake, its file, line, key and what is allowed.
-    pub fn load(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
+    pub fn load(path: impl AsRef<Path>, changes: impl Into<Changes>) -> Result<Scene> {
         let path = path.as_ref();
         let text = input::text(path, input::MOST_SCENE).map_err(|source| unreadable(path, source))?;
-        Scene::written(&text, &path.display().to_string(), overrides)
+        Scene::written(&text, &path.display().to_string(), &changes.into())
     }
 
     /// Like [`Scene::parse`] for what people wrote: of a length that is read in a moment.
     ///
     /// # Errors
     /// [`Error::Scene`] with every mistake, or that there is too much of it.
-    pub(super) fn written(text: &str, file_name: &str, overrides: &[String]) -> Result<Scene> {
-        let mut source = Source::new(text, file_name, overrides);
-        read(&mut source, budget::MOST_VALUES).map_err(|findings| Error::Scene(source.report(&findings)))
+    pub(super) fn written(text: &str, file_name: &str, changes: &Changes) -> Result<Scene> {
+        let mut source = Source::new(text, file_name, &changes.set);
+        read(&mut source, changes, budget::MOST_VALUES).map_err(|findings| Error::Scene(source.report(&findings)))
     }
 
     /// Like [`Scene::load`] with the text at hand; `file_name` appears in messages.
     ///
     /// # Errors
     /// [`Error::Scene`] with every mistake.
-    pub fn parse(text: &str, file_name: &str, overrides: &[String]) -> Result<Scene> {
-        let mut source = Source::new(text, file_name, overrides);
-        read(&mut source, u64::MAX).map_err(|findings| Error::Scene(source.report(&findings)))
+    pub fn parse(text: &str, file_name: &str, changes: impl Into<Changes>) -> Result<Scene> {
+        let changes = changes.into();
+        let mut source = Source::new(text, file_name, &changes.set);
+        read(&mut source, &changes, u64::MAX).map_err(|findings| Error::Scene(source.report(&findings)))
     }
 
-    /// A scene that a run in a folder wrote down, with overrides. Files outside of that folder are read only if `outside` says so, from
+    /// A scene that a run in a folder wrote down, with keys changed. Files outside of that folder are read only if `outside` says so, from
     /// where the run found them, beside `scene_file`.
     ///
     /// # Errors
     /// [`Error::Scene`] with every mistake, and what to do about a file that lies elsewhere.
-    pub fn recorded(
-        text: &str,
-        (folder, scene_file): (&Path, &str),
-        overrides: &[String],
-        outside: bool,
-    ) -> Result<Scene> {
-        let all: Vec<String> =
-            std::iter::once(format!("{OUTSIDE}={outside}")).chain(overrides.iter().cloned()).collect();
+    pub fn recorded(text: &str, (folder, scene_file): (&Path, &str), set: &[String], outside: bool) -> Result<Scene> {
+        let changes = Changes { outside, ..Changes::from(set) };
         if outside {
-            return Scene::parse(text, scene_file, &all);
+            return Scene::parse(text, scene_file, changes);
         }
-        Scene::parse(text, &folder.join("scene.toml").display().to_string(), &all).map_err(|error| match error {
-            Error::Scene(text) if text.contains(".mesh.path") || text.contains("render.font") => {
-                let hint = "nothing outside of the folder of the run is read; --allow-outside reads meshes and fonts where the \
-                            run found them";
-                Error::Scene(format!("{text}\n{hint}"))
-            }
-            error => error,
+        let mut source = Source::new(text, &folder.join("scene.toml").display().to_string(), set);
+        read(&mut source, &changes, u64::MAX).map_err(|findings| {
+            let of_files = |own: &Finding| own.path.ends_with(".mesh.path") || own.path.ends_with("font");
+            let hint = "\nnothing outside of the folder of the run is read; --allow-outside reads meshes and fonts where the run \
+                        found them";
+            Error::Scene(source.report(&findings) + if findings.iter().any(of_files) { hint } else { "" })
         })
     }
 
-    /// Reads a shipped scene by its path below `scenes/`, as the program carries it, and applies overrides.
+    /// Reads a shipped scene by its path below `scenes/`, as the program carries it, and makes changes as [`Scene::load`] does.
     ///
     /// # Errors
-    /// [`Error::Scene`] if there is none of that path or an override is wrong.
-    pub fn shipped(path: &str, overrides: &[String]) -> Result<Scene> {
+    /// [`Error::Scene`] if there is none of that path or a change is wrong.
+    pub fn shipped(path: &str, changes: impl Into<Changes>) -> Result<Scene> {
         let found = super::EMBEDDED.iter().find(|(own, _)| *own == path);
         let (_, text) = found.ok_or_else(|| Error::Scene(format!("no shipped scene scenes/{path}")))?;
-        Scene::parse(text, &format!("scenes/{path}"), overrides)
+        Scene::parse(text, &format!("scenes/{path}"), changes)
     }
 
     /// The same scene with `cells` cells along its longest axis.
@@ -153,8 +143,12 @@ fn least_multiple(a: u32, b: u32) -> u32 {
     a / greatest_divisor(a, b) * b
 }
 
-/// The scene of a text with overrides, or all that is wrong with it.
-pub(super) fn read(source: &mut Source, most_values: u64) -> std::result::Result<Scene, Vec<Finding>> {
+/// The scene of a text with changes, whose keys the source has, or all that is wrong with it.
+pub(super) fn read(
+    source: &mut Source,
+    changes: &Changes,
+    most_values: u64,
+) -> std::result::Result<Scene, Vec<Finding>> {
     let text = source.text().to_owned();
     let (root, errors) = DeTable::parse_recoverable(&text);
     if !errors.is_empty() {
@@ -166,24 +160,14 @@ pub(super) fn read(source: &mut Source, most_values: u64) -> std::result::Result
         return Err(vec![finding]);
     }
     let documents = override_documents(source)?;
-    let mut findings = Vec::new();
-    let mut outside = false;
+    let mut findings = variants::apply_all(&mut root, &changes.variants, &text);
     for (index, (key, texts)) in documents.iter().enumerate() {
-        let applied = parse_value(texts).and_then(|value| match value.get_ref().as_str() {
-            Some(name) if key == variants::KEY => variants::apply(&mut root, name, &text),
-            _ if key == OUTSIDE => value
-                .get_ref()
-                .as_bool()
-                .map(|allowed| outside = allowed)
-                .ok_or_else(|| format!("{key} is true or false")),
-            _ => {
-                (key == look::KEY).then(|| look::forget(&mut root));
-                source::set(&mut root, key, value)
-            }
+        let applied = parse_value(texts).and_then(|value| {
+            (key == look::KEY).then(|| look::forget(&mut root));
+            source::set(&mut root, key, value)
         });
         if let Err(message) = applied {
-            let help = "name an existing key or entry, for example gas.ambient.density=2 or bodies[0].density=3, or one of the \
-                        scene's variants";
+            let help = "name an existing key or entry, for example gas.ambient.density=2 or bodies[0].density=3";
             findings.push(Finding {
                 span: Some(source.override_place(index)),
                 ..Finding::new("", format!("--set: {message}"), help)
@@ -202,7 +186,7 @@ pub(super) fn read(source: &mut Source, most_values: u64) -> std::result::Result
     scene.resolve();
     let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
     let dimension = scene.domain.dimension;
-    let meshes = MeshFolder { folder, outside, dimension };
+    let meshes = MeshFolder { folder, outside: changes.outside, dimension };
     let mut shapes = scene.resolve_shapes(meshes);
     shapes.extend(scene.resolve_cameras(meshes));
     let concerning =

@@ -106,7 +106,7 @@ pub use settings::{Output, Time};
 pub use shape::Shape;
 pub use shipped::{STANDARD_INPUT, Shipped, scene_file, shipped, shipped_named, stem};
 pub use shot::{Shot, ShotKeys};
-pub use variants::SMALL;
+pub use variants::{Changes, SMALL};
 pub use vortex::Vortex;
 pub use warned::Warned;
 pub use wave::Wave;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Scene;
+use super::{Changes, Scene};
 use crate::{Error, Result, input, spelling};
 
 /// The name of the scene that comes on standard input.
@@ -84,20 +84,21 @@ pub fn scene_file(name: &str) -> Option<&Path> {
 }
 
 impl Scene {
-    /// Reads a scene file, the shipped scene of that name, or for `-` standard input, and applies overrides as [`Scene::load`] does.
+    /// Reads a scene file, the shipped scene of that name, or for `-` standard input, and makes changes as [`Scene::load`] does.
     ///
     /// # Errors
     /// [`Error::Scene`] if there is none of that name or it is wrong.
-    pub fn find(name: &str, overrides: &[String]) -> Result<Scene> {
+    pub fn find(name: &str, changes: impl Into<Changes>) -> Result<Scene> {
+        let changes = changes.into();
         if name == STANDARD_INPUT {
             let text = input::standard(input::MOST_SCENE);
             let text = text.map_err(|source| Error::Scene(format!("standard input: {source}")))?;
-            return Scene::written(&text, "standard input", overrides);
+            return Scene::written(&text, "standard input", &changes);
         }
         if let Some(path) = scene_file(name) {
-            return Scene::load(path, overrides);
+            return Scene::load(path, changes);
         }
         let scene = shipped_named(name)?;
-        Scene::parse(&scene.text, &format!("scenes/{}", scene.path), overrides)
+        Scene::parse(&scene.text, &format!("scenes/{}", scene.path), changes)
     }
 }

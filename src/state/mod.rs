@@ -36,7 +36,7 @@ pub use supports::{MotionAt, Support, Supports};
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel, Settings};
 use crate::numerics::PcgVectors;
-use crate::scene::Scene;
+use crate::scene::{Pair, Scene};
 use params::{DeviceLimits, SolidLimits};
 
 /// Materials that one scene may use.
@@ -106,6 +106,10 @@ pub struct State {
     pub maps: Buffer<[f32; 4]>,
     /// Points of bodies that have gauges.
     pub gauges: GaugeBuffers,
+    /// Whether the gas element pair is B2B1.
+    pub quadratic: bool,
+    /// Whether some material breaks.
+    pub breaks: bool,
     overrides: Vec<(&'static str, f64)>,
 }
 
@@ -132,11 +136,10 @@ impl State {
     /// # Errors
     /// If the device has no room, or a driver error.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<State> {
-        let domain = &scene.domain;
-        let (grid, start) = (Grid::of(domain), ParticleStart::new(scene));
+        let (grid, start) = (Grid::of(&scene.domain), ParticleStart::new(scene));
         let limits = SolidLimits { particles: start.len() as u32, max_density: start.max_density };
         let slots = grid.slots();
-        let capacity = extra_capacity(slots, start.len(), domain.dimension);
+        let capacity = extra_capacity(slots, start.len(), grid.dimension);
         let unknowns = slots + 2 * capacity;
         let (openings, supports) = (Openings::new(scene), Supports::new(scene));
         let geometry = scene.cut_geometry();
@@ -146,11 +149,10 @@ impl State {
             least_entropy: gas::least_entropy(scene, start_entropy),
             ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.settings == Settings::Software, capacity))
         };
-        let (table, load_count) = (cut::table(&grid, &geometry), loads::count(scene));
+        let table = cut::table(&grid, &geometry);
         let mut overrides = params::overrides(scene, !start.is_empty());
         overrides.extend(loads::overrides(scene, &start_gas, &openings));
-        overrides.extend(switches(&supports, table.is_empty()));
-        overrides.push(("RULES_USED", f64::from(openings.rules_used())));
+        overrides.extend(switches(&supports, &openings, table.is_empty()));
         let state = State {
             gpu: gpu.clone(),
             grid,
@@ -165,7 +167,7 @@ impl State {
             motions: Buffer::from_slice(gpu, "motions", &supports.motions)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * MATERIAL_WIDTH)?,
             gas: GasState::new(gpu, scene, &grid, start.len())?,
-            interface: Interface::new(gpu, &params, domain.dimension, !start.is_empty(), table.len())?,
+            interface: Interface::new(gpu, &params, grid.dimension, !start.is_empty(), table.len())?,
             particles: Particles::new(gpu, slots, &start, scene.consistent(), scene.elastic_vectors())?,
             pressure: Buffer::new(gpu, "pressure", unknowns + slots)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
@@ -173,14 +175,16 @@ impl State {
             elastic_solve: ElasticBuffers::new(gpu, scene, slots, &start)?,
             partials: Buffer::new(gpu, "partials", (constants::BLOCKS * constants::PARTIALS) as usize)?,
             loads: Buffer::from_slice(gpu, "loads", &loads::start(scene, &grid, &geometry))?,
-            load_history: Buffer::new(gpu, "load_history", loads::history_length(load_count))?,
-            load_count,
+            load_history: Buffer::new(gpu, "load_history", loads::history_length(loads::count(scene)))?,
+            load_count: loads::count(scene),
             start_momentum: cut::momentum(scene, &geometry, &start_gas),
             history: Buffer::new(gpu, "history", (HISTORY * constants::HISTORY_WIDTH) as usize)?,
             probe_cells: Buffer::from_slice(gpu, "probe_cells", &probe_slots(scene, &grid))?,
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
             gauges: GaugeBuffers::new(gpu, scene, &start)?,
             maps: Buffer::new(gpu, "maps", if scene.keeps_maps() { slots } else { 0 })?,
+            quadratic: scene.numerics.pair == Pair::B2b1,
+            breaks: scene.breaks(),
             overrides,
         };
         state.fill(gpu, scene);
@@ -197,12 +201,6 @@ impl State {
         self.params_buffer.write(gpu, 0, &[self.params]);
         self.control.write(gpu, 0, &[Control { fault: constants::NO_FAULT, ..Control::default() }]);
         self.materials.write(gpu, 0, bytemuck::cast_slice(&scene.material_parameters()));
-    }
-
-    /// Whether some material breaks.
-    #[must_use]
-    pub fn breaks(&self) -> bool {
-        self.overrides.contains(&("FRACTURE", 1.0))
     }
 
     /// Initial gas and kinds of all slots.
@@ -248,12 +246,6 @@ impl State {
     #[must_use]
     pub fn has_solids(&self) -> bool {
         self.particles.count > 0
-    }
-
-    /// Whether the gas element pair is B2B1.
-    #[must_use]
-    pub fn is_quadratic(&self) -> bool {
-        self.overrides.contains(&("QUADRATIC", 1.0))
     }
 
     /// Compiles an entry point with this scene's switches and binds the buffers that it names. `renamed` adds names, or gives
@@ -373,10 +365,15 @@ impl State {
     }
 }
 
-/// What bodies and obstacles switch on.
-fn switches(supports: &Supports, whole: bool) -> [(&'static str, f64); 3] {
-    [("DRIVEN", supports.driven), ("FRICTION", supports.friction), ("CUT", !whole)]
-        .map(|(name, on)| (name, f64::from(u8::from(on))))
+/// What bodies, obstacles and open sides switch on.
+fn switches(supports: &Supports, openings: &Openings, whole: bool) -> [(&'static str, f64); 4] {
+    let flag = |on: bool| f64::from(u8::from(on));
+    [
+        ("DRIVEN", flag(supports.driven)),
+        ("FRICTION", flag(supports.friction)),
+        ("CUT", flag(!whole)),
+        ("RULES_USED", f64::from(openings.rules_used())),
+    ]
 }
 
 /// Slot of the cell that each probe looks at.

@@ -20,8 +20,8 @@ pub(super) fn top(ui: &mut Ui, view: Option<&View>, request: Option<&Request>) -
         }
         let title = view.map_or_else(|| request.map_or("", |request| &request.name), |view| &view.scene.title);
         ui.label(RichText::new(title).strong());
-        let changes = request.map(|request| request.overrides.join(", ")).unwrap_or_default();
-        ui.label(RichText::new(changes.replace("variant=", "")).color(theme::FAINT));
+        let changes = request.map(|request| request.changes.words().join(", ")).unwrap_or_default();
+        ui.label(RichText::new(changes).color(theme::FAINT));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             for (text, key, action) in [("Help", "H", Action::Help), ("Panel", "P", Action::Panel)] {
                 if ui.button(text).on_hover_text(key).clicked() {

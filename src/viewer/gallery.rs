@@ -4,7 +4,7 @@ use egui::{RichText, ScrollArea, Ui, Vec2};
 
 use super::model::Request;
 use super::theme;
-use crate::scene::{SMALL, Shipped, shipped};
+use crate::scene::{Changes, SMALL, Shipped, shipped};
 
 /// Groups in the order of the page, with what they are; other folders follow.
 const GROUPS: [(&str, &str); 5] = [
@@ -39,8 +39,8 @@ impl Entry {
     /// The scene, at its small size if that is wished for and there is one, in one of its variants.
     fn request(&self, small: bool, variant: Option<&str>) -> Request {
         let small = Some(SMALL).filter(|_| small && self.variants.iter().any(|name| name == SMALL));
-        let overrides = small.into_iter().chain(variant).map(|name| format!("variant={name}")).collect();
-        Request { overrides, ..Request::of(&format!("{}.toml", self.name)) }
+        let variants = small.into_iter().chain(variant).map(str::to_owned).collect();
+        Request { changes: Changes { variants, ..Changes::default() }, ..Request::of(&format!("{}.toml", self.name)) }
     }
 }
 
@@ -199,10 +199,10 @@ mod tests {
         let gallery = Gallery::new();
         let bullets = gallery.entries.iter().find(|entry| entry.name.ends_with("fig05_bullets_2d")).unwrap();
         let cells = |request: Request| request.load().unwrap().domain.cells;
-        assert_eq!(bullets.request(true, Some("light")).overrides, ["variant=small", "variant=light"]);
-        assert_eq!(bullets.request(false, Some("light")).overrides, ["variant=light"]);
+        assert_eq!(bullets.request(true, Some("light")).changes.variants, ["small", "light"]);
+        assert_eq!(bullets.request(false, Some("light")).changes.variants, ["light"]);
         assert!(cells(bullets.request(true, None))[0] < cells(bullets.request(false, None))[0]);
         let sod = gallery.entries.iter().find(|entry| entry.name.ends_with("sod")).unwrap();
-        assert_eq!(sod.request(true, None).overrides, Vec::<String>::new());
+        assert_eq!(sod.request(true, None).changes, Changes::default());
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::past;
 use crate::diagnostics::StepRecord;
 use crate::render::Picture;
-use crate::scene::{Camera, Field, RenderSettings, Scene};
+use crate::scene::{Camera, Changes, Field, RenderSettings, Scene};
 use crate::{Error, Result};
 
 /// A scene to open: file or name of a shipped one, and what to change about it.
@@ -14,8 +14,8 @@ use crate::{Error, Result};
 pub struct Request {
     /// Path of a scene file, name of a shipped scene, or folder of a run.
     pub name: String,
-    /// Changes of keys, as `--set` takes them.
-    pub overrides: Vec<String>,
+    /// What to change about it.
+    pub changes: Changes,
     /// Cells along the longest axis, if not the scene's own.
     pub resolution: Option<u32>,
 }
@@ -33,25 +33,18 @@ impl Request {
     /// Those of [`Scene::find`].
     pub fn load(&self) -> Result<Scene> {
         if let Some(run) = self.run() {
-            let outside = self.allows_outside();
-            if self.overrides.len() > usize::from(outside) || self.resolution.is_some() {
+            if !self.changes.words().is_empty() || self.resolution.is_some() {
                 let text =
                     "a run is shown as it was; what may change does so in the window, or by `brisance run --branch`";
                 return Err(Error::Usage(format!("{}: {text}", run.display())));
             }
-            return past::of_run(run, outside).map(|recorded| recorded.scene);
+            return past::of_run(run, self.changes.outside).map(|recorded| recorded.scene);
         }
-        let scene = Scene::find(&self.name, &self.overrides)?;
+        let scene = Scene::find(&self.name, &self.changes)?;
         match self.resolution {
             Some(cells) => scene.with_resolution(cells),
             None => Ok(scene),
         }
-    }
-
-    /// Whether meshes may lie outside of the folder of the scene or run.
-    #[must_use]
-    pub fn allows_outside(&self) -> bool {
-        self.overrides.iter().any(|change| change == "allow_outside=true")
     }
 
     /// The folder of a run, if it is one.

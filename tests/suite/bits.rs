@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use brisance::gpu::{Gpu, readback};
-use brisance::scene::Scene;
+use brisance::scene::{Changes, SMALL, Scene};
 use brisance::simulation::Simulation;
 
 use crate::common::gpu_or_skip;
@@ -75,14 +75,14 @@ fn scene_files(folder: &Path) -> Vec<PathBuf> {
 
 /// The scene in its small variant, or at a third of its resolution at most; nothing where the method does not suit it.
 fn small(path: &Path, method: &str) -> Option<Scene> {
-    let set = |variant: &str| {
-        let texts = [variant, method].map(str::to_owned);
-        Scene::load(path, &texts.into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>())
+    let load = |changes: Changes| {
+        let set = if method.is_empty() { Vec::new() } else { vec![method.to_owned()] };
+        Scene::load(path, Changes { set, ..changes })
     };
-    if let Ok(scene) = set("variant=small") {
+    if let Ok(scene) = load(Changes::variant(SMALL)) {
         return Some(scene);
     }
-    let scene = set("").ok()?;
+    let scene = load(Changes::default()).ok()?;
     let longest = *scene.domain.cells.iter().max()?;
     let most = MOST_CELLS[scene.domain.dimension as usize].min(longest / 3).max(1);
     // The nearest resolution that keeps the cells cubic and the scene valid.

@@ -1,7 +1,7 @@
 //! Equal runs give equal bits; the two forms of particle-to-grid transfer agree.
 
 use brisance::gpu::{Gpu, readback};
-use brisance::scene::Scene;
+use brisance::scene::{Changes, Scene};
 use brisance::simulation::Simulation;
 
 use crate::common::gpu_or_skip;
@@ -11,8 +11,8 @@ const STEPS: u64 = 20;
 /// All that the state holds after some steps of the shrunk shell, as words, by name.
 fn run(gpu: &Gpu, transfer: &str) -> Vec<(&'static str, Vec<u32>)> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/paper/fig03_elastic_shell_2d.toml");
-    let mut scene =
-        Scene::load(path, &["variant=small".to_owned(), format!("numerics.expert.transfer={transfer}")]).unwrap();
+    let changes = Changes::variant("small").set(format!("numerics.expert.transfer={transfer}"));
+    let mut scene = Scene::load(path, changes).unwrap();
     scene = scene.with_resolution(48).unwrap();
     scene.time.fixed_step = Some(1e-3);
     let mut simulation = Simulation::new(gpu, &scene).unwrap();

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use brisance::export::Origin;
 use brisance::gpu::GpuOptions;
 use brisance::render::{Renderer, SceneBuffers};
-use brisance::scene::{Field, Scene};
+use brisance::scene::{Changes, Field, Scene};
 use brisance::simulation::Simulation;
 use brisance::viewer::model::{Command, Look, Outbox, Pace, Phase, Request, Shown, Strike, Weight};
 use brisance::viewer::record;
@@ -221,7 +221,10 @@ fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
     }
     let worker = Worker::start(GpuOptions::default(), || {});
     let mut seen = Outbox::default();
-    worker.send(Command::Open(Request { overrides: vec!["gas.gamma=0.5".to_owned()], ..Request::of("gas/sod") }, None));
+    worker.send(Command::Open(
+        Request { changes: Changes::default().set("gas.gamma=0.5"), ..Request::of("gas/sod") },
+        None,
+    ));
     wait(&worker, &mut seen, "finding", |seen| seen.status.phase == Phase::Failed);
     assert!(seen.notes[0].text.contains("gamma") && seen.notes[0].weight == Weight::Wrong, "{:?}", seen.notes);
     worker.send(Command::Open(Request { resolution: Some(50), ..Request::of("gas/sod") }, None));

@@ -15,7 +15,7 @@ use crate::export::checkpoint;
 use crate::export::container::Head;
 use crate::gpu::Gpu;
 use crate::math::plain;
-use crate::scene::{self, Scene};
+use crate::scene::{self, Changes, Scene};
 use crate::simulation::{Saved, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result, input};
@@ -296,11 +296,9 @@ impl From {
         let (head, text, about) = checkpoint::read_texts(path)?;
         let about: About = toml::from_str(&about)
             .map_err(|error| Error::Usage(format!("{}: {}: {error}", path.display(), checkpoint::RUN)))?;
-        let outside = about.options.scene.allow_outside.then(|| "allow_outside=true".to_owned());
-        let parsed = |changes: &[String]| {
-            let all: Vec<String> = outside.iter().chain(changes).cloned().collect();
-            Scene::parse(&text, &head.source.scene_file, &all)
-        };
+        let outside = about.options.scene.allow_outside;
+        let parsed =
+            |set: &[String]| Scene::parse(&text, &head.source.scene_file, Changes { outside, ..Changes::from(set) });
         let foreign = |reason: &str| Error::Usage(format!("{}: {reason}", path.display()));
         if parsed(&[])?.hash() != head.source.scene_hash {
             return Err(foreign(

@@ -3,6 +3,7 @@
 use super::{BASE, parse, report};
 use crate::scene::load::read;
 use crate::scene::source::Source;
+use crate::scene::{Changes, Scene};
 
 /// The report must hold every one of the words.
 fn expect(text: &str, overrides: &[&str], words: &[&str]) {
@@ -52,11 +53,15 @@ fn unknown_key_inside_a_region() {
 #[test]
 fn variants_that_are_wrong() {
     let text = with("[variants.small]\n\"domain.cels\" = [10, 5]\n[variants.long]\n\"probes[0].name\" = \"a\"\n");
-    expect(&text, &["variant=large"], &["no variant `large`", "`long`", "`small`"]);
-    expect(&text, &["variant=small"], &["test.toml:14:1", "unknown field `cels`", "`cells`"]);
-    expect(BASE, &["variant=a"], &["no variants"]);
+    let expect = |text: &str, name: &str, words: &[&str]| {
+        let told = Scene::parse(text, "test.toml", Changes::variant(name)).unwrap_err().to_string();
+        words.iter().for_each(|word| assert!(told.contains(word), "no `{word}` in\n{told}"));
+    };
+    expect(&text, "large", &["test.toml:13:2", "no variant `large`", "`long`", "`small`"]);
+    expect(&text, "small", &["test.toml:14:1", "unknown field `cels`", "`cells`"]);
+    expect(BASE, "a", &["no variants"]);
     let listed = text.replace("title", "probes = []\ntitle");
-    expect(&listed, &["variant=long"], &["variant `long`", "`0` is no entry of a list of 0"]);
+    expect(&listed, "long", &["variant `long`", "`0` is no entry of a list of 0"]);
 }
 
 #[test]
@@ -283,7 +288,7 @@ fn overrides_have_their_own_place_in_messages() {
 
 #[test]
 fn file_that_does_not_exist() {
-    let error = crate::scene::Scene::load("/no/such.toml", &[]).expect_err("there is no such file");
+    let error = Scene::load("/no/such.toml", &[]).expect_err("there is no such file");
     assert_eq!(error.exit_code(), 9);
     assert!(error.to_string().contains("/no/such.toml"));
 }
@@ -370,7 +375,7 @@ fn what_its_reader_refuses_hides_no_other_mistake() {
         "obstacles[0].shape: lies outside the domain",
     ];
     let text = format!("{}{more}", BASE.replace("until = 1.0", "until = 1e-39"));
-    let findings = read(&mut Source::new(&text, "test.toml", &[]), u64::MAX).unwrap_err();
+    let findings = read(&mut Source::new(&text, "test.toml", &[]), &Changes::default(), u64::MAX).unwrap_err();
     let told: Vec<String> = findings.iter().map(|finding| format!("{}: {}", finding.path, finding.message)).collect();
     let all = told.join("\n");
     for words in wanted {

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::{BASE, parse};
 use crate::scene::limits::allowed;
-use crate::scene::{Boundary, Scene, schema};
+use crate::scene::{Boundary, Changes, SMALL, Scene, schema};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -29,8 +29,8 @@ fn every_scene_loads() {
     files.par_iter().for_each(|path| {
         let full = Scene::load(path, &[]).unwrap_or_else(|error| panic!("{error}"));
         // gas and particles at the small size, where there is one: full sizes take seconds each
-        let small = full.variants.contains_key("small").then(|| "variant=small".to_owned());
-        let scene = Scene::load(path, small.as_slice()).unwrap_or_else(|error| panic!("{error}"));
+        let small = if full.variants.contains_key(SMALL) { Changes::variant(SMALL) } else { Changes::default() };
+        let scene = Scene::load(path, small).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(scene.initial_gas().len(), scene.domain.cell_count());
         assert_eq!(scene.seed_particles().is_empty(), scene.bodies.is_empty(), "{}", path.display());
         let text = std::fs::read_to_string(path).expect("it was read before");
@@ -49,7 +49,7 @@ fn every_variant_loads() {
     scene_files(&root().join("scenes")).par_iter().for_each(|path| {
         let scene = Scene::load(path, &[]).unwrap_or_else(|error| panic!("{error}"));
         for name in scene.variants.keys() {
-            Scene::load(path, &[format!("variant={name}")]).unwrap_or_else(|error| panic!("{error}"));
+            Scene::load(path, Changes::variant(name)).unwrap_or_else(|error| panic!("{error}"));
         }
     });
 }
@@ -65,16 +65,19 @@ fn variants_change_keys_in_their_order() {
     let text = text.replace("outlet_of = 1", state);
     let plain = parse(&text, &[]);
     assert_eq!((plain.domain.cells, plain.time.until), ([20, 10, 1], 1.0));
-    let fine = parse(&text, &["variant=fine", "time.frames=3"]);
+    let changed =
+        |changes: Changes| Scene::parse(&text, "test.toml", changes).unwrap_or_else(|error| panic!("{error}"));
+    let two = |names: [&str; 2]| changed(Changes { variants: names.map(str::to_owned).into(), ..Changes::default() });
+    let fine = changed(Changes::variant("fine").set("time.frames=3"));
     assert_eq!((fine.domain.cells, fine.time.until, fine.time.frames), ([40, 20, 1], 3.0, 3));
-    let both = parse(&text, &["variant=fine", "variant=open"]);
+    let both = two(["fine", "open"]);
     assert_eq!((both.domain.cells, both.time.until), ([40, 20, 1], 4.0));
     // dotted keys and headers lead inside, an inline table replaces
     assert_eq!((fine.time.cfl, both.time.cfl), (0.25, 0.25));
     assert!(
         matches!(both.boundary.x_max, Boundary::FarField(state) if state.density == 2.0 && state.velocity == [0.0; 3])
     );
-    assert_eq!(parse(&text, &["variant=open", "variant=fine"]).time.until, 3.0);
+    assert_eq!(two(["open", "fine"]).time.until, 3.0);
     assert_eq!(both.variants.keys().collect::<Vec<_>>(), ["fine", "open"]);
 }
 

@@ -2,7 +2,7 @@
 
 use super::meshes::{ball, gltf, load, refused, stl, volume};
 use super::{BASE, owned};
-use crate::scene::Scene;
+use crate::scene::{Changes, Scene};
 
 /// Corners of a box from the origin, and its twelve triangles.
 fn cuboid(size: [f64; 3], at: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
@@ -129,7 +129,8 @@ fn a_link_out_of_the_folder_is_refused_however_the_scene_is_named() {
     refused(&folder, "path = \"link.stl\"", &["lies outside"]);
     std::os::unix::fs::symlink("/dev/zero", folder.join("zero.stl")).unwrap();
     refused(&folder, "path = \"zero.stl\"", &["lies outside"]);
-    let text = load(&folder, "path = \"zero.stl\"", &["allow_outside=true"]).map(|_| ()).unwrap_err();
+    let text =
+        load(&folder, "path = \"zero.stl\"", Changes { outside: true, ..Changes::default() }).map(|_| ()).unwrap_err();
     assert!(text.contains("no regular file"), "{text}");
     // the folder of a file without one is the one that we stand in
     let text = BASE

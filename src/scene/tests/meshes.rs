@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::{BASE, owned};
-use crate::scene::Scene;
+use crate::scene::{Changes, Scene};
 
 pub(super) type Surface = (Vec<[f64; 3]>, Vec<[usize; 3]>);
 
@@ -95,14 +95,14 @@ pub(super) fn gltf((points, triangles): &Surface, claimed: usize, uri: &str) -> 
 }
 
 /// A scene with a body from a mesh file in `folder`.
-pub(super) fn load(folder: &Path, mesh: &str, overrides: &[&str]) -> Result<Scene, String> {
+pub(super) fn load(folder: &Path, mesh: &str, changes: impl Into<Changes>) -> Result<Scene, String> {
     let base = BASE.replace("dimension = 2", "dimension = 3").replace("[20, 10]", "[32, 32, 32]");
     let base = base.replace("[2.0, 1.0]", "[1.0, 1.0, 1.0]");
     let body =
         format!("[[bodies]]\nname = \"b\"\nmaterial = \"rubber\"\ndensity = 2.0\nshape = {{ mesh = {{ {mesh} }} }}\n");
     let path = folder.join("scene.toml");
     std::fs::write(&path, format!("{base}{body}")).expect("a folder of our own");
-    Scene::load(&path, &owned(overrides)).map_err(|error| error.to_string())
+    Scene::load(&path, changes).map_err(|error| error.to_string())
 }
 
 pub(super) fn volume(scene: &Scene) -> f64 {
@@ -202,7 +202,8 @@ fn files_that_are_damaged_or_elsewhere() {
     write("a.gltf", gltf(&surface, surface.0.len(), "../ball.bin").0.as_bytes());
     std::fs::write(root.path().join("ball.bin"), &buffer).expect("our own folder");
     refused(&folder, "path = \"a.gltf\"", &["`../ball.bin` lies outside", "--allow-outside"]);
-    load(&folder, "path = \"a.gltf\"", &["allow_outside=true"]).unwrap_or_else(|error| panic!("{error}"));
+    load(&folder, "path = \"a.gltf\"", Changes { outside: true, ..Changes::default() })
+        .unwrap_or_else(|error| panic!("{error}"));
     write("a.glb", b"glTF\x02\x00\x00\x00\xff\xff\xff\x7f");
     refused(&folder, "path = \"a.glb\"", &["cannot be read"]);
     refused(&folder, "path = \"../a.obj\"", &["lies outside", "--allow-outside"]);
@@ -230,7 +231,7 @@ fn a_body_that_does_not_fit_is_told_what_would_make_it_fit() {
         ("lying", "[0.125, 0.125, 0.5]", &tower, [turn, "`up` of a mesh; "]),
         ("lying", "[0.125, 0.125, 0.1]", &tower, [turn, "`up` of a mesh, at another place; "]),
     ] {
-        let told = load(root.path(), &format!("path = \"{file}.obj\", offset = {offset}"), overrides);
+        let told = load(root.path(), &format!("path = \"{file}.obj\", offset = {offset}"), &owned(overrides));
         let told = told.map(|_| ()).unwrap_err();
         assert!(words.iter().all(|word| told.contains(word)), "{file} {offset}: {told}");
     }

@@ -83,7 +83,7 @@ fn flag(on: bool) -> f64 {
 
 /// Whether the driver of fracture goes with a stress: with that of the particles, where some material breaks.
 fn driver(state: &State, stress: &wgpu::Buffer) -> bool {
-    state.breaks() && stress == state.particles.stress.raw()
+    state.breaks && stress == state.particles.stress.raw()
 }
 
 impl Kernels {

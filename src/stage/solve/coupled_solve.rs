@@ -57,7 +57,7 @@ impl Vertices {
         let diagonal = Sweep::new(state, "solve/solve_diagonal.wgsl", "solve_diagonal")?;
         let operator = Sweep::over(state, Over::Interior, ["solve/solve_operator.wgsl", "solve_operator"], &direction)?;
         let listed = [residual.listed, diagonal.listed];
-        if state.is_quadratic() {
+        if state.quadratic {
             let setup = [residual.plain, diagonal.plain].into_iter().chain(listed).collect();
             let operator = [operator.plain.kernel, operator.listed.kernel];
             return Ok(Self { setup, operator, nodes: Over::Interior });
@@ -81,7 +81,7 @@ impl CoupledSolve {
         let gpu = &state.gpu;
         let limits = (state.params.tolerance, state.params.max_iterations);
         // Interface pressures have a preconditioner of their own, and the B2B1 operator has no room for another buffer.
-        let dots = if state.has_solids() || state.is_quadratic() { Dots::Product } else { Dots::Both };
+        let dots = if state.has_solids() || state.quadratic { Dots::Product } else { Dots::Both };
         let layout = Layout {
             threads: state.grid.slots(),
             groups: state.params.groups,

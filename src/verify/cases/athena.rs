@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::Result;
 use crate::render::{Plot, Style};
-use crate::scene::Pair;
+use crate::scene::{Changes, Pair};
 use crate::verify::exact::profile::{DENSITY, PRESSURE, Profile, VELOCITY};
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Integrator, Run, Session, Setting};
@@ -126,13 +126,13 @@ fn linear_wave(session: &mut Session<'_>) -> Result<()> {
     let mut plot = Plot::new("Linear waves: RMS of the L1 errors over the amplitude", "cells", "error").logarithmic();
     for (wave, amplitude) in ["sound", "entropy"].into_iter().zip(AMPLITUDES) {
         let sound = wave == "sound";
-        let overrides = if sound { Vec::new() } else { vec!["variant=entropy".to_owned()] };
+        let changes = if sound { Changes::default() } else { Changes::variant("entropy") };
         let exact = if sound { sound_wave } else { entropy_wave };
         for integrator in [Integrator::Predictor, Integrator::Ars222] {
             let mut points: Vec<[f64; 2]> = Vec::new();
             for cells in [32, 64, 128] {
                 let setting = Setting { pair: Pair::default(), integrator, cells };
-                let run = session.run("validation/linear_wave.toml", setting, &overrides)?;
+                let run = session.run("validation/linear_wave.toml", setting, &changes)?;
                 let error = rms(conserved_errors(&run, |x| exact(x, run.snapshot.time))) / amplitude;
                 let quantity = format!("{wave} wave: RMS of the L1 errors over the amplitude");
                 session.check(&run, &quantity, error).source("exact");

@@ -2,6 +2,7 @@
 
 use crate::Result;
 use crate::render::{Plot, Style};
+use crate::scene::Changes;
 use crate::snapshot::kind;
 use crate::verify::exact::gasdynamics::{self, AIR, normal_shock_pressure};
 use crate::verify::exact::profile::{DENSITY, PRESSURE, Profile};
@@ -82,7 +83,7 @@ fn sphere(session: &mut Session<'_>) -> Result<()> {
         report_sphere(session, &run);
     }
     // the gate of the pressure is for 40 cells per radius or more; with 64 there are 14 between shock and nose
-    let run = session.run("validation/sphere.toml", Setting::standard(0), &["variant=fine".to_owned()])?;
+    let run = session.run("validation/sphere.toml", Setting::standard(0), Changes::variant("fine"))?;
     report_sphere(session, &run);
     Ok(())
 }

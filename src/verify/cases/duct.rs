@@ -2,6 +2,7 @@
 
 use crate::Result;
 use crate::render::{Plot, Style};
+use crate::scene::Changes;
 use crate::verify::exact::gasdynamics::total_pressure;
 use crate::verify::exact::profile::{Profile, VELOCITY};
 use crate::verify::harness::row::Limit;
@@ -24,10 +25,9 @@ const ISENTROPIC: &str = "isentropic flow";
 const MACH: f64 = 0.5;
 
 fn duct(session: &mut Session<'_>) -> Result<()> {
-    for variant in [None, Some("variant=fixed".to_owned())] {
-        let overrides: Vec<String> = variant.into_iter().collect();
-        let run = session.run("validation/subsonic_duct.toml", Setting::standard(0), &overrides)?;
-        report(session, &run, if overrides.is_empty() { "total inlet" } else { "fixed inlet" });
+    for (changes, inlet) in [(Changes::default(), "total inlet"), (Changes::variant("fixed"), "fixed inlet")] {
+        let run = session.run("validation/subsonic_duct.toml", Setting::standard(0), changes)?;
+        report(session, &run, inlet);
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Walls that bear a load: at rest the gas on either side keeps its temperature, whatever the step and the mass of the wall.
 
 use crate::Result;
-use crate::scene::Pair;
+use crate::scene::{Changes, Pair};
 use crate::snapshot::{Snapshot, kind};
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Journey, Session, Setting, Suite};
@@ -30,7 +30,7 @@ pub(super) const CASES: &[Case] = &[
 /// One way to run a wall.
 struct Way {
     pair: Pair,
-    overrides: Vec<String>,
+    changes: Changes,
     /// For tables.
     label: String,
     /// End \[s\].
@@ -45,14 +45,12 @@ struct Way {
 const START: &str = "a plate of a fiftieth of its column's mass takes its load within a step; what that leaves beside it at the start stays";
 
 impl Way {
-    fn new((pair, implicit, courant): (Pair, bool, f64), until: f64, overrides: &[String]) -> Self {
+    fn new((pair, implicit, courant): (Pair, bool, f64), until: f64, changes: impl Into<Changes>) -> Self {
         let elasticity = if implicit { "implicit" } else { "explicit" };
-        let mut all = overrides.to_vec();
-        all.push(format!("time.until={until:?}"));
-        all.push(format!("time.max_courant={courant:?}"));
-        all.push(format!("numerics.elasticity={elasticity}"));
+        let changes = changes.into().set(format!("time.until={until:?}")).set(format!("time.max_courant={courant:?}"));
+        let changes = changes.set(format!("numerics.elasticity={elasticity}"));
         let label = format!("Courant {courant}, {elasticity}");
-        Way { pair, overrides: all, label, until, temperature: 0.03, known: None }
+        Way { pair, changes, label, until, temperature: 0.03, known: None }
     }
 }
 
@@ -110,7 +108,7 @@ fn rings(session: &mut Session<'_>) -> Result<()> {
         way.temperature = if thickness < 2.0 { 0.1 } else { 0.03 };
         wall(session, "validation/loaded_ring.toml", cells, way)?;
     }
-    let space = Way::new((Pair::B1b0, false, 2.0), 0.5, &["variant=space".to_owned()]);
+    let space = Way::new((Pair::B1b0, false, 2.0), 0.5, Changes::variant("space"));
     wall(session, "validation/loaded_ring.toml", 0, Way { temperature: 0.1, ..space })
 }
 
@@ -118,7 +116,7 @@ fn rings(session: &mut Session<'_>) -> Result<()> {
 fn wall(session: &mut Session<'_>, path: &str, cells: u32, way: Way) -> Result<()> {
     let setting = Setting { pair: way.pair, ..Setting::standard(cells) };
     let times = [0.25, 0.5, 0.75, 1.0].map(|share| share * way.until);
-    let mut journey = session.follow(path, setting, &way.overrides, times)?;
+    let mut journey = session.follow(path, setting, &way.changes, times)?;
     journey.run.label = format!("{}, {}", journey.run.label, way.label);
     let (stops, run) = (&journey.stops[1..], &journey.run);
     let most = stops.iter().map(warmth).fold(0.0, f64::max);

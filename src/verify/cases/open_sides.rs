@@ -1,6 +1,7 @@
 //! Open sides: what lay far away at the start is there when the waves have left, and air under gravity stays at rest.
 
 use crate::Result;
+use crate::scene::Changes;
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
@@ -69,11 +70,9 @@ const AIR: &[(&[&str], bool)] = &[(&[], false), (&["x_min"], false), (&["y_max"]
 
 fn air(session: &mut Session<'_>) -> Result<()> {
     for &(walls, space) in AIR {
-        let mut overrides: Vec<String> = walls.iter().map(|side| format!("boundary.{side}=wall")).collect();
-        if space {
-            overrides.push("variant=space".to_owned());
-        }
-        let run = session.run("validation/still_air.toml", Setting::standard(0), &overrides)?;
+        let mut changes = if space { Changes::variant("space") } else { Changes::default() };
+        changes.set.extend(walls.iter().map(|side| format!("boundary.{side}=wall")));
+        let run = session.run("validation/still_air.toml", Setting::standard(0), changes)?;
         let name =
             if walls.is_empty() { "largest speed".to_owned() } else { format!("largest speed, wall at {}", walls[0]) };
         session.check(&run, &name, run.summary.max_speed).reference(0.0, "exact").pass(Limit::AtMost(0.01));

@@ -3,6 +3,7 @@
 use crate::Result;
 use crate::render::{Plot, Style};
 use crate::riemann::ExactRiemann;
+use crate::scene::Changes;
 use crate::verify::exact::muscl_plane;
 use crate::verify::exact::profile::{DENSITY, PRESSURE, Profile};
 use crate::verify::harness::row::Limit;
@@ -52,11 +53,11 @@ fn riemann(session: &mut Session<'_>) -> Result<()> {
     let (cells, count): (&[u32], _) = if quick { (&[100], 1) } else { (&[100, 200], CONFIGURATIONS.len()) };
     for configuration in &CONFIGURATIONS[..count] {
         let number = configuration.number;
-        let variant = (number != 3).then(|| format!("variant=configuration_{number}"));
-        let overrides: Vec<String> = variant.into_iter().collect();
+        let variant = (number != 3).then(|| format!("configuration_{number}"));
+        let changes = Changes { variants: variant.into_iter().collect(), ..Changes::default() };
         let mut fine = None;
         for &cells in cells {
-            let run = session.run("validation/riemann_2d.toml", Setting::standard(cells), &overrides)?;
+            let run = session.run("validation/riemann_2d.toml", Setting::standard(cells), &changes)?;
             report_edges(session, &run, configuration);
             let density: Vec<f64> = run.snapshot.density.iter().copied().map(f64::from).collect();
             if configuration.symmetric {

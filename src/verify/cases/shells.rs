@@ -2,6 +2,7 @@
 
 use crate::Result;
 use crate::render::{Plot, Style};
+use crate::scene::Changes;
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Journey, Run, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
@@ -20,19 +21,21 @@ pub(super) const CASES: &[Case] = &[Case {
 /// A variant: its name, what differs from the scene, and the energy it may lose.
 struct Shell {
     name: &'static str,
-    overrides: &'static [&'static str],
+    variant: Option<&'static str>,
+    set: &'static [&'static str],
     energy: f64,
 }
 
 const SHELLS: [Shell; 7] = [
-    Shell { name: "base", overrides: &[], energy: 0.015 },
-    Shell { name: "in space", overrides: &["variant=space"], energy: 0.015 },
-    Shell { name: "light", overrides: &["bodies[0].density=1.0"], energy: 0.04 },
-    Shell { name: "stiff", overrides: &["materials.rubber.neo_hookean.young_modulus=1e4"], energy: 0.015 },
-    Shell { name: "tearing", overrides: &["materials.rubber.neo_hookean.young_modulus=10.0"], energy: 0.04 },
+    Shell { name: "base", variant: None, set: &[], energy: 0.015 },
+    Shell { name: "in space", variant: Some("space"), set: &[], energy: 0.015 },
+    Shell { name: "light", variant: None, set: &["bodies[0].density=1.0"], energy: 0.04 },
+    Shell { name: "stiff", variant: None, set: &["materials.rubber.neo_hookean.young_modulus=1e4"], energy: 0.015 },
+    Shell { name: "tearing", variant: None, set: &["materials.rubber.neo_hookean.young_modulus=10.0"], energy: 0.04 },
     Shell {
         name: "hot",
-        overrides: &[
+        variant: None,
+        set: &[
             "gas.regions[0].density=10.0",
             "gas.regions[0].pressure=100.0",
             "bodies[0].particles_per_cell=4", // grown to 2.2 times its diameter it is still whole
@@ -41,7 +44,8 @@ const SHELLS: [Shell; 7] = [
     },
     Shell {
         name: "hot torn",
-        overrides: &["gas.regions[0].density=10.0", "gas.regions[0].pressure=100.0"],
+        variant: None,
+        set: &["gas.regions[0].density=10.0", "gas.regions[0].pressure=100.0"],
         energy: 0.06,
     },
 ];
@@ -60,9 +64,11 @@ fn shells(session: &mut Session<'_>) -> Result<()> {
     let cells = if quick { 64 } else { 96 };
     let mut plot = Plot::new("Exploding shells: radius of the ring", "time", "mean radius");
     for shell in SHELLS.iter().filter(|shell| !quick || shell.name == "base") {
-        let overrides: Vec<String> = shell.overrides.iter().map(|&text| text.to_owned()).collect();
+        let [variants, set] =
+            [shell.variant.as_slice(), shell.set].map(|words| words.iter().map(|&word| word.to_owned()).collect());
+        let changes = Changes { variants, set, outside: false };
         let cells = if shell.name == "in space" { 48 } else { cells };
-        let mut journey = session.follow(PATH, Setting::standard(cells), &overrides, TIMES)?;
+        let mut journey = session.follow(PATH, Setting::standard(cells), changes, TIMES)?;
         journey.run.label = format!("{} {}", journey.run.label, shell.name);
         report(session, &journey, shell);
         plot = plot.with(shell.name, Style::Both, radii(&journey));

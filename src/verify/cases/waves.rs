@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::render::{Plot, Style};
 use crate::riemann::ExactRiemann;
-use crate::scene::{self, Pair};
+use crate::scene::{self, Changes, Pair};
 use crate::verify::exact::profile::{DENSITY, PRESSURE, Profile, VELOCITY};
 use crate::verify::harness::row::{Limit, Row};
 use crate::verify::harness::session::{Integrator, Run, Session, Setting};
@@ -269,11 +269,11 @@ fn acoustic_wave(session: &mut Session<'_>) -> Result<()> {
 fn small_steps(session: &mut Session<'_>) -> Result<()> {
     let one = Setting::standard(200);
     let two = Setting { integrator: Integrator::Auto, ..one };
-    for (setting, steps, source, most) in [
-        (two, "variant=small_steps", "explicit schemes", 0.005),
-        (one, "time.max_courant=0.5", "first order in time: 0.0076", 0.008),
+    for (setting, changes, source, most) in [
+        (two, Changes::variant("small_steps"), "explicit schemes", 0.005),
+        (one, Changes::default().set("time.max_courant=0.5"), "first order in time: 0.0076", 0.008),
     ] {
-        let run = session.run("validation/acoustic_wave.toml", setting, &[steps.to_owned()])?;
+        let run = session.run("validation/acoustic_wave.toml", setting, changes)?;
         let ours = Profile::of(&run.scene, &run.snapshot);
         let error = ours.l1(&standing_wave(&run, &ours), PRESSURE) / (SOUND[0] + SOUND[1]);
         let row = session.check(&run, "L1 pressure error over amplitude, Courant 0.5", error);

@@ -11,7 +11,7 @@ use crate::diagnostics::StepRecord;
 use crate::expect::{Budget, Summary};
 use crate::gpu::Gpu;
 use crate::render::{Plot, Style};
-use crate::scene::{self, Pair, Scene};
+use crate::scene::{self, Changes, Pair, Scene};
 use crate::simulation::Simulation;
 use crate::snapshot::Snapshot;
 use crate::verify::exact::muscl;
@@ -52,10 +52,6 @@ impl Integrator {
             Integrator::Ars222 => "ars222",
             Integrator::Auto => "auto",
         }
-    }
-
-    fn overrides(self) -> Vec<String> {
-        vec![format!("numerics.integrator={}", self.name())]
     }
 
     /// That of a scene, which has made its choice.
@@ -208,12 +204,12 @@ impl<'a> Session<'a> {
         (session.findings, outcome)
     }
 
-    /// Runs a shipped scene (path below `scenes/`) with overrides of the form `key=value`.
+    /// Runs a shipped scene (path below `scenes/`) with changes as [`Scene::load`] takes them.
     ///
     /// # Errors
-    /// As [`Simulation::advance_to`]; a wrong override.
-    pub fn run(&mut self, path: &str, setting: Setting, overrides: &[String]) -> Result<Run> {
-        let (scene, label) = self.prepare(path, setting, overrides)?;
+    /// As [`Simulation::advance_to`]; a wrong change.
+    pub fn run(&mut self, path: &str, setting: Setting, changes: impl Into<Changes>) -> Result<Run> {
+        let (scene, label) = self.prepare(path, setting, changes.into())?;
         let mut simulation = Simulation::new(self.gpu, &scene)?;
         let records = simulation.advance_to(scene.time.until)?;
         let snapshot = simulation.snapshot()?;
@@ -228,10 +224,10 @@ impl<'a> Session<'a> {
         &mut self,
         path: &str,
         setting: Setting,
-        overrides: &[String],
+        changes: impl Into<Changes>,
         times: impl IntoIterator<Item = f64>,
     ) -> Result<Journey> {
-        let (scene, label) = self.prepare(path, setting, overrides)?;
+        let (scene, label) = self.prepare(path, setting, changes.into())?;
         let mut simulation = Simulation::new(self.gpu, &scene)?;
         let start = Budget::read(&simulation, &scene, 0.0)?;
         let (mut records, mut stops) = (Vec::new(), vec![simulation.snapshot()?]);
@@ -244,12 +240,12 @@ impl<'a> Session<'a> {
         Ok(Journey { run: self.finish(run), books: [start, end], stops })
     }
 
-    /// The scene with its overrides, and the name of the run.
-    fn prepare(&self, path: &str, setting: Setting, overrides: &[String]) -> Result<(Scene, String)> {
+    /// The scene with its changes, and the name of the run.
+    fn prepare(&self, path: &str, setting: Setting, mut changes: Changes) -> Result<(Scene, String)> {
         let Setting { pair, integrator, cells } = setting;
-        let mut all = vec![format!("numerics.pair={}", pair_name(pair))];
-        all.extend(integrator.overrides().into_iter().chain(overrides.iter().cloned()));
-        let mut scene = Scene::shipped(path, &all)?;
+        let method = [("pair", pair_name(pair)), ("integrator", integrator.name())];
+        changes.set.splice(0..0, method.map(|(key, value)| format!("numerics.{key}={value}")));
+        let mut scene = Scene::shipped(path, changes)?;
         if cells > 0 {
             scene = scene.with_resolution(cells)?;
         }
