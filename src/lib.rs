@@ -54,6 +54,8 @@ pub mod spelling;
 pub mod stage;
 #[doc(hidden)]
 pub mod state;
+#[doc(hidden)]
+pub mod structure;
 #[cfg(feature = "verify")]
 #[doc(hidden)]
 pub mod verify;

@@ -5,13 +5,13 @@
 #include "shared/cut.wgsl"
 #include "shared/reduce.wgsl"
 
-// Mirror of Blast in src/stage/detonate.rs.
+// Generated from src/stage/gas/detonate.rs by scripts/generate.
 struct Blast {
-    center: vec3f,      // in cells from the low corner of the domain
-    radius: f32,        // in cells
-    rise: f32,          // [J m^-3]
-    unused: vec3f,
+    center: vec3f,              // Its middle, in cells from the low corner of the domain
+    radius: f32,                // In cells
+    rise: f32,                  // Energy per volume [J m^-3]
 }
+// End of what is generated.
 
 @group(0) @binding(1) var<uniform> blast: Blast;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

@@ -4,12 +4,14 @@
 #include "shared/control.wgsl"
 #include "shared/opening.wgsl"
 
+// Generated from src/state/openings.rs by scripts/generate.
 struct Knot {
-    velocity: vec3f,    // [m s^-1]
-    time: f32,          // [s]
-    density: f32,       // [kg m^-3]
-    pressure: f32,      // [Pa]
+    velocity: vec3f,            // Velocity [m s^-1]
+    time: f32,                  // When [s]
+    density: f32,               // Density [kg m^-3]
+    pressure: f32,              // Pressure [Pa]
 }
+// End of what is generated.
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> knots: array<Knot>;

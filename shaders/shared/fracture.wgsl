@@ -6,7 +6,6 @@
 #include "shared/ghost.wgsl"
 #include "shared/matrix.wgsl"
 
-const SOFTENING_EXPONENTIAL = 2u;
 // Ratio of the driver at full damage to that at the onset, at least.
 const LEAST_RATIO = 1.02;
 // A crack drives what is beside it by up to this much of the driver at full damage: without it flanks would bear stress for ever.

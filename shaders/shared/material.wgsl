@@ -1,19 +1,21 @@
-// What every material law takes and gives. Mirror of MaterialParams: src/material/mod.rs.
+// What every material law takes and gives.
 
+// Generated from src/material/mod.rs by scripts/generate.
 struct MaterialParams {
-    mu: f32,            // shear modulus [Pa]
-    lambda: f32,        // first Lame constant of the body [Pa]
-    yield_stress: f32,  // [Pa]; the largest f32 for laws that do not yield
-    kind: u32,          // position in the registry
-    ghost_modulus: f32, // of the ghost pressure, at the pressure that bodies start with [Pa]
-    hardening: f32,     // growth of the yield stress per equivalent plastic strain [Pa]
-    friction: f32,      // growth of the yield stress over minus the trace of the Kirchhoff stress [1]
-    elastic_lambda: f32, // what the ghost pressure leaves of lambda to the elastic stress [Pa]
-    tensile_strength: f32, // [Pa]; 0 for what does not break
-    toughness: f32,     // twice the fracture energy over the width of a band, times the modulus of pressure waves [Pa^2]
-    softening: u32,     // SOFTENING_LINEAR or SOFTENING_EXPONENTIAL
-    crack_modulus: f32, // density times the square of the largest rate of damage [kg m^-3 s^-2]
+    mu: f32,                    // Shear modulus [Pa]
+    lambda: f32,                // First Lame constant of the body [Pa]
+    yield_stress: f32,          // Yield stress [Pa]; f32::MAX for laws that do not yield
+    kind: u32,                  // Position in KINDS
+    ghost_modulus: f32,         // Modulus of the ghost pressure at the pressure that bodies start with [Pa]
+    hardening: f32,             // Growth of the yield stress per equivalent plastic strain [Pa]
+    friction: f32,              // Growth of the yield stress over minus the trace of the Kirchhoff stress [1]
+    elastic_lambda: f32,        // What the ghost pressure leaves of lambda to the elastic stress [Pa]
+    tensile_strength: f32,      // Tensile strength [Pa]; 0 for what does not break
+    toughness: f32,             // Twice the fracture energy over the width of a band, times the modulus of pressure waves [Pa^2]
+    softening: u32,             // Softening as a number
+    crack_modulus: f32,         // Density times the square of the rate of damage at most: Rayleigh's waves over the width of a band [kg m^-3 s^-2]
 }
+// End of what is generated.
 
 // The index of a material, the low half of a particle's word; the high half has what scatters its strength [shared/fracture.wgsl].
 fn material_index(word: f32) -> u32 { return bitcast<u32>(word) & 0xffffu; }

@@ -1,12 +1,14 @@
-// How a body is held. Mirror of src/state/supports.rs (Support).
+// How a body is held.
 
+// Generated from src/state/supports.rs by scripts/generate.
 struct Support {
-    velocity: vec3f,    // [m s^-1] of the driven part now
-    friction: f32,      // coefficient at walls and obstacles [1]; STICK for a body that sticks
-    spin: vec3f,        // [rad s^-1] of the driven part now
-    first: u32,         // first entry of its motion over time
-    pivot: vec3f,       // [m] the point it turns about, at the start of the step
-    entries: u32,       // entries of its motion over time
-    advance: vec3f,     // [m] how far that point moves in this step
-    clamped: u32,       // 1 where only a part of the body is driven
+    velocity: vec3f,            // Velocity of the driven part now [m s^-1]
+    friction: f32,              // Coefficient of friction at walls and obstacles [1]; STICK for a body that sticks
+    spin: vec3f,                // Angular velocity of the driven part now [rad s^-1]
+    first: u32,                 // First entry of the motion over time
+    pivot: vec3f,               // The point that the driven part turns about, at the start of the step [m]
+    entries: u32,               // Entries of the motion over time
+    advance: vec3f,             // How far that point moves in this step [m]
+    clamped: u32,               // 1 where only a part of the body is driven: that part strains next to the rest
 }
+// End of what is generated.

@@ -3,11 +3,13 @@
 #include "shared/control.wgsl"
 #include "shared/support.wgsl"
 
+// Generated from src/state/supports.rs by scripts/generate.
 struct MotionAt {
-    velocity: vec3f,    // [m s^-1]
-    time: f32,          // [s]
-    spin: vec3f,        // [rad s^-1]
+    velocity: vec3f,            // Velocity [m s^-1]
+    time: f32,                  // When [s]
+    spin: vec3f,                // Angular velocity [rad s^-1]
 }
+// End of what is generated.
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> motions: array<MotionAt>;

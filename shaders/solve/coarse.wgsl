@@ -3,16 +3,22 @@
 // hat functions, and per pair of axes hats along these two alone, with that sign. A coarse vertex lies on every other vertex of the
 // level below it along the axes that its space coarsens.
 
-// A space on one level.
+// A space on one level; a level with all its spaces and those of the level below.
+// Generated from src/state/coarse.rs by scripts/generate.
 struct Grid {
-    count: vec3u,           // vertices
-    first: u32,             // place in `levels`
-    halves: vec3u,          // 1 along the axes that the space coarsens
-    wraps: u32,             // axes whose ends meet, as bits
+    count: vec3u,               // Vertices along the axes
+    first: u32,                 // Place of the first one
+    halves: vec3u,              // 1 along the axes that the space coarsens
+    wraps: u32,                 // Axes whose ends meet, as bits
 }
 
-// A level with all its spaces, and the one below it; `number` 1 is the finest coarse level.
-struct Level { own: array<Grid, SPACES>, below: array<Grid, SPACES>, length: u32, number: u32 }
+struct Level {
+    own: array<Grid, SPACES>,   // One per space
+    below: array<Grid, SPACES>, // The same of the level below
+    length: u32,                // Entries of all spaces
+    number: u32,                // From 1, the finest coarse level
+}
+// End of what is generated.
 
 // Threads of the kernels of a level. Needs the binding pcg.
 fn level_threads(number: u32) -> u32 { return pcg.level_groups[number] * WORKGROUP; }

@@ -13,7 +13,12 @@
 #include "shared/system.wgsl"
 #include "shared/reduce4.wgsl"
 
-struct Turn { number: u32, count: u32 }
+// Generated from src/stage/solve/coupled_solve/surface.rs by scripts/generate.
+struct Turn {
+    number: u32,                // From 0
+    count: u32,                 // Steps of all
+}
+// End of what is generated.
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

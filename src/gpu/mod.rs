@@ -16,7 +16,6 @@ pub mod readback;
 mod reflect;
 mod shader;
 mod sources;
-pub mod structure;
 mod written;
 
 pub use adapters::AdapterSummary;

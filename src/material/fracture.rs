@@ -19,9 +19,9 @@ pub const LEAST_RATIO: f64 = 1.02;
 pub enum Softening {
     /// On a straight line.
     #[default]
-    Linear,
+    Linear = 1,
     /// Fast at first, with a long tail: concrete and stone.
-    Exponential,
+    Exponential = 2,
 }
 
 /// What is kept where cells are too coarse for both the strength and the fracture energy.
@@ -264,10 +264,7 @@ impl Material {
         MaterialParams {
             tensile_strength: strength as f32,
             toughness: (2.0 * fracture.fracture_energy * modulus / band) as f32,
-            softening: match fracture.softening {
-                Softening::Linear => 1,
-                Softening::Exponential => 2,
-            },
+            softening: fracture.softening as u32,
             crack_modulus: (f64::from(params.mu) * (surface / band).powi(2)) as f32,
             ..params
         }

@@ -24,6 +24,8 @@ use std::ops::{Bound, RangeBounds};
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::structure::structure;
+
 /// All kinds of material. The position is the number that shaders see.
 pub const KINDS: [&Kind; 5] =
     [&neo_hookean::KIND, &von_mises::KIND, &fixed_corotated::KIND, &hencky::KIND, &drucker_prager::KIND];
@@ -177,34 +179,35 @@ pub struct Material {
     fracture: Option<Fracture>,
 }
 
-/// A material as the device sees it, 48 bytes; mirror of `MaterialParams` in `shaders/shared/material.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct MaterialParams {
-    /// Shear modulus `[Pa]`.
-    pub mu: f32,
-    /// First Lame constant of the body `[Pa]`.
-    pub lambda: f32,
-    /// Yield stress `[Pa]`; `f32::MAX` for laws that do not yield.
-    pub yield_stress: f32,
-    /// Position in [`KINDS`].
-    pub kind: u32,
-    /// Modulus of the ghost pressure at the pressure that bodies start with `[Pa]`.
-    pub ghost_modulus: f32,
-    /// Growth of the yield stress per equivalent plastic strain `[Pa]`.
-    pub hardening: f32,
-    /// Growth of the yield stress over minus the trace of the Kirchhoff stress `[1]`.
-    pub friction: f32,
-    /// What the ghost pressure leaves of lambda to the elastic stress `[Pa]`.
-    pub elastic_lambda: f32,
-    /// Tensile strength `[Pa]`; 0 for what does not break.
-    pub tensile_strength: f32,
-    /// Twice the fracture energy over the width of a band, times the modulus of pressure waves `[Pa^2]`.
-    pub toughness: f32,
-    /// 1 for linear softening, 2 for exponential.
-    pub softening: u32,
-    /// Density times the square of the rate of damage at most: Rayleigh's waves over the width of a band `[kg m^-3 s^-2]`.
-    pub crack_modulus: f32,
+structure! {
+    /// A material as the device sees it, 48 bytes.
+    #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+    pub MaterialParams as "MaterialParams" {
+        /// Shear modulus `[Pa]`.
+        mu: f32,
+        /// First Lame constant of the body `[Pa]`.
+        lambda: f32,
+        /// Yield stress `[Pa]`; `f32::MAX` for laws that do not yield.
+        yield_stress: f32,
+        /// Position in [`KINDS`].
+        kind: u32,
+        /// Modulus of the ghost pressure at the pressure that bodies start with `[Pa]`.
+        ghost_modulus: f32,
+        /// Growth of the yield stress per equivalent plastic strain `[Pa]`.
+        hardening: f32,
+        /// Growth of the yield stress over minus the trace of the Kirchhoff stress `[1]`.
+        friction: f32,
+        /// What the ghost pressure leaves of lambda to the elastic stress `[Pa]`.
+        elastic_lambda: f32,
+        /// Tensile strength `[Pa]`; 0 for what does not break.
+        tensile_strength: f32,
+        /// Twice the fracture energy over the width of a band, times the modulus of pressure waves `[Pa^2]`.
+        toughness: f32,
+        /// [`Softening`] as a number.
+        softening: u32,
+        /// Density times the square of the rate of damage at most: Rayleigh's waves over the width of a band `[kg m^-3 s^-2]`.
+        crack_modulus: f32,
+    }
 }
 
 impl MaterialParams {

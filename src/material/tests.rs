@@ -81,29 +81,3 @@ fn the_generated_switch_validates() {
         assert!(module.functions.iter().any(|(_, function)| function.name.as_deref() == Some(name)), "{name}");
     }
 }
-
-#[test]
-fn the_host_struct_mirrors_the_shader() {
-    let text = flatten("shared/material.wgsl", &mut BTreeSet::new());
-    let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
-    let (_, params) =
-        module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("MaterialParams")).expect("declared");
-    let naga::TypeInner::Struct { members, span } = &params.inner else { panic!("MaterialParams is a struct") };
-    let offsets =
-        members.iter().map(|member| (member.name.as_deref().unwrap_or(""), member.offset as usize)).collect::<Vec<_>>();
-    let expected = [
-        ("mu", std::mem::offset_of!(MaterialParams, mu)),
-        ("lambda", std::mem::offset_of!(MaterialParams, lambda)),
-        ("yield_stress", std::mem::offset_of!(MaterialParams, yield_stress)),
-        ("kind", std::mem::offset_of!(MaterialParams, kind)),
-        ("ghost_modulus", std::mem::offset_of!(MaterialParams, ghost_modulus)),
-        ("hardening", std::mem::offset_of!(MaterialParams, hardening)),
-        ("friction", std::mem::offset_of!(MaterialParams, friction)),
-        ("elastic_lambda", std::mem::offset_of!(MaterialParams, elastic_lambda)),
-        ("tensile_strength", std::mem::offset_of!(MaterialParams, tensile_strength)),
-        ("toughness", std::mem::offset_of!(MaterialParams, toughness)),
-        ("softening", std::mem::offset_of!(MaterialParams, softening)),
-        ("crack_modulus", std::mem::offset_of!(MaterialParams, crack_modulus)),
-    ];
-    assert_eq!((offsets.as_slice(), *span as usize), (expected.as_slice(), size_of::<MaterialParams>()));
-}

@@ -8,8 +8,8 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::error::Result;
-use crate::gpu::structure::{numbers, structure, wgsl_numbers};
 use crate::gpu::{Bound, Buffer, Constants, Extent, Gpu, Kernel, Pass, WORKGROUP, group_counts};
+use crate::structure::{numbers, structure, wgsl_numbers};
 
 /// Levels at most, the finest included.
 pub const LEVELS: usize = 12;
@@ -78,7 +78,7 @@ impl PcgVectors {
 structure! {
     /// Scalars of a solve.
     #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-    PcgControl as "Pcg" {
+    pub PcgControl as "Pcg" {
         /// r . z, z the preconditioner times r.
         rho: f32,
         /// Step length.

@@ -9,6 +9,7 @@ mod odd_even;
 mod still;
 
 pub use carrier::{Carried, CarrierVelocity};
+pub(super) use detonate::Ball;
 pub use detonate::Detonate;
 pub use fluid_update::FluidUpdate;
 pub use gas_advection::GasAdvection;

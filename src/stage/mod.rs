@@ -9,6 +9,7 @@ mod interface;
 mod solid;
 mod solve;
 mod step;
+pub mod structures;
 mod sweep;
 pub mod traffic;
 

@@ -3,3 +3,4 @@
 mod coupled_solve;
 
 pub use coupled_solve::CoupledSolve;
+pub(super) use coupled_solve::Turn;

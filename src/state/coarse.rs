@@ -4,35 +4,39 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::numerics::pcg;
 use crate::scene::{Pair, Preconditioner, Scene};
+use crate::structure::structure;
+use crate::structure::types::vec3u;
 
-/// Mirror of `Grid` in `shaders/solve/coarse.wgsl`: a space on one level.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-pub(crate) struct Grid {
-    /// Vertices along the axes.
-    count: [u32; 3],
-    /// Place of the first one.
-    first: u32,
-    /// 1 along the axes that the space coarsens.
-    halves: [u32; 3],
-    /// Axes whose ends meet, as bits.
-    wraps: u32,
+structure! {
+    /// A space on one level.
+    #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+    pub(crate) Grid as "Grid" {
+        /// Vertices along the axes.
+        count: vec3u,
+        /// Place of the first one.
+        first: u32,
+        /// 1 along the axes that the space coarsens.
+        halves: vec3u,
+        /// Axes whose ends meet, as bits.
+        wraps: u32,
+    }
 }
 
-/// Mirror of `Level` in `shaders/solve/coarse.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-pub(crate) struct Level {
-    /// One per space.
-    own: [Grid; SPACES],
-    /// The same of the level below.
-    below: [Grid; SPACES],
-    /// Entries of all spaces.
-    length: u32,
-    /// From 1, the finest coarse level.
-    number: u32,
-    /// Fills the last 16 bytes.
-    unused: [u32; 2],
+structure! {
+    /// A level with all its spaces, and the one below it.
+    #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+    pub(crate) Level as "Level" {
+        /// One per space.
+        own: [Grid; SPACES],
+        /// The same of the level below.
+        below: [Grid; SPACES],
+        /// Entries of all spaces.
+        length: u32,
+        /// From 1, the finest coarse level.
+        number: u32,
+        /// Fills the last 16 bytes.
+        unused: [u32; 2],
+    }
 }
 
 /// Axes that the spaces coarsen: hat functions all, those that alternate along two axes these two. In 2D the first two.

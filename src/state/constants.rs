@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::stages::Stage;
-use crate::gpu::structure::wgsl_numbers;
 use crate::material;
+use crate::structure::wgsl_numbers;
 
 /// Cell kinds, low two bits of a cell word.
 pub const GAS: u32 = 0;
@@ -131,6 +131,7 @@ pub fn source_for(shader: &str) -> String {
     let mut text = source();
     if MATERIAL_SHADERS.contains(&shader) {
         let _ = writeln!(text, "const MAX_MATERIALS = {}u;", super::MAX_MATERIALS);
+        let _ = writeln!(text, "const SOFTENING_EXPONENTIAL = {}u;", material::Softening::Exponential as u32);
         let _ = writeln!(text, "const GHOST_STIFFENING = {:?};", material::GHOST_STIFFENING);
         let _ = writeln!(text, "@group(0) @binding(15) var<uniform> materials: array<MaterialParams, MAX_MATERIALS>;");
         text.push_str(&material::wgsl_includes());

@@ -2,13 +2,13 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::structure::structure;
-use crate::gpu::structure::types::atomic_u32;
+use crate::structure::structure;
+use crate::structure::types::atomic_u32;
 
 structure! {
     /// What the device decides: time step, phase, failure, counts.
     #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-    Control as "Control" {
+    pub Control as "Control" {
         /// What one solve spans \[s\].
         dt: f32,
         /// Current step: `dt`, or with two solves the span of both \[s\].

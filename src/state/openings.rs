@@ -4,46 +4,50 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{Grid, constants};
 use crate::scene::{Boundary, GasState, InletRule, MAX_REMEMBERED, Remembered, Scene, TimedState};
+use crate::structure::structure;
+use crate::structure::types::{vec3f, vec4f};
 
 /// Rules that the table has room for: those of the scene, then the states that outlets remember.
 pub const MAX_OPENINGS: usize = crate::scene::MAX_OPENINGS + MAX_REMEMBERED;
 
-/// One rule. Mirror of `Opening` in `shaders/shared/opening.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct Opening {
-    /// Density \[kg m^-3\] and momentum \[kg m^-2 s^-1\] of the state beyond; total density of a reservoir.
-    pub flow: [f32; 4],
-    /// Total energy per volume of that state \[J m^-3\].
-    pub energy: f32,
-    /// Pressure of that state, far or total pressure \[Pa\].
-    pub pressure: f32,
-    /// What is prescribed, `RULE_*` of [`constants::RULES`].
-    pub rule: u32,
-    /// Attenuation \[1\], or relaxation over the length of the domain \[m^-1\].
-    pub share: f32,
-    /// First knot of the table of times.
-    pub first: u32,
-    /// Knots of the table of times, 0 for a constant state.
-    pub knots: u32,
-    /// Fills the last 16 bytes.
-    pub unused: [u32; 2],
+structure! {
+    /// What lies beyond a part of a side: one rule.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+    pub Opening as "Opening" {
+        /// Density \[kg m^-3\] and momentum \[kg m^-2 s^-1\] of the state beyond; total density of a reservoir.
+        flow: vec4f,
+        /// Total energy per volume of that state \[J m^-3\].
+        energy: f32,
+        /// Pressure of that state, far or total pressure \[Pa\].
+        pressure: f32,
+        /// What is prescribed, `RULE_*` of [`constants::RULES`].
+        rule: u32,
+        /// Attenuation \[1\], or relaxation over the length of the domain \[m^-1\].
+        share: f32,
+        /// First knot of the table of times.
+        first: u32,
+        /// Knots of the table of times, 0 for a constant state.
+        knots: u32,
+        /// Fills the last 16 bytes.
+        unused: [u32; 2],
+    }
 }
 
-/// One entry of a table of times. Mirror of `Knot` in `shaders/gas/openings.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct Knot {
-    /// Velocity \[m s^-1\].
-    pub velocity: [f32; 3],
-    /// When \[s\].
-    pub time: f32,
-    /// Density \[kg m^-3\].
-    pub density: f32,
-    /// Pressure \[Pa\].
-    pub pressure: f32,
-    /// Fills the last 16 bytes.
-    pub unused: [u32; 2],
+structure! {
+    /// One entry of a table of times.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+    pub Knot as "Knot" {
+        /// Velocity \[m s^-1\].
+        velocity: vec3f,
+        /// When \[s\].
+        time: f32,
+        /// Density \[kg m^-3\].
+        density: f32,
+        /// Pressure \[Pa\].
+        pressure: f32,
+        /// Fills the last 16 bytes.
+        unused: [u32; 2],
+    }
 }
 
 /// The table of a scene.

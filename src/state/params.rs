@@ -6,15 +6,15 @@ use super::constants::SCAN_DISPATCHES;
 use super::gas::ring_books;
 use super::{Grid, constants, surface};
 use crate::gpu::WORKGROUP;
-use crate::gpu::structure::structure;
-use crate::gpu::structure::types::{vec3f, vec3u, vec4u};
 use crate::numerics::Scan;
 use crate::scene::{Boundary, Ghost, Integrator, InterfacePressure, Pair, Scene};
+use crate::structure::structure;
+use crate::structure::types::{vec3f, vec3u, vec4u};
 
 structure! {
     /// What one run fixes: grid, gas, limits.
     #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-    Params as "Params" {
+    pub Params as "Params" {
         /// Cells per axis, 1 on inactive axes.
         cells: vec3u,
         /// Length of every cell, node and vertex array.

@@ -3,7 +3,7 @@
 use super::State;
 use super::constants::SCAN_DISPATCHES;
 use crate::gpu::Extent;
-use crate::gpu::structure::numbers;
+use crate::structure::numbers;
 
 numbers! {
     /// Dispatches that are opened and closed together.

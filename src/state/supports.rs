@@ -3,41 +3,45 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::scene::{MAX_BODIES, Scene};
+use crate::structure::structure;
+use crate::structure::types::vec3f;
 
-/// How a body is held. Mirror of `Support` in `shaders/shared/support.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct Support {
-    /// Velocity of the driven part now \[m s^-1\].
-    pub velocity: [f32; 3],
-    /// Coefficient of friction at walls and obstacles \[1\]; [`STICK`] for a body that sticks.
-    pub friction: f32,
-    /// Angular velocity of the driven part now \[rad s^-1\].
-    pub spin: [f32; 3],
-    /// First entry of the motion over time.
-    pub first: u32,
-    /// The point that the driven part turns about, at the start of the step \[m\].
-    pub pivot: [f32; 3],
-    /// Entries of the motion over time.
-    pub entries: u32,
-    /// How far that point moves in this step \[m\].
-    pub advance: [f32; 3],
-    /// 1 where only a part of the body is driven: that part strains next to the rest.
-    pub clamped: u32,
+structure! {
+    /// How a body is held.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+    pub Support as "Support" {
+        /// Velocity of the driven part now \[m s^-1\].
+        velocity: vec3f,
+        /// Coefficient of friction at walls and obstacles \[1\]; [`STICK`] for a body that sticks.
+        friction: f32,
+        /// Angular velocity of the driven part now \[rad s^-1\].
+        spin: vec3f,
+        /// First entry of the motion over time.
+        first: u32,
+        /// The point that the driven part turns about, at the start of the step \[m\].
+        pivot: vec3f,
+        /// Entries of the motion over time.
+        entries: u32,
+        /// How far that point moves in this step \[m\].
+        advance: vec3f,
+        /// 1 where only a part of the body is driven: that part strains next to the rest.
+        clamped: u32,
+    }
 }
 
-/// One entry of a motion over time. Mirror of `MotionAt` in `shaders/solid/supports.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct MotionAt {
-    /// Velocity \[m s^-1\].
-    pub velocity: [f32; 3],
-    /// When \[s\].
-    pub time: f32,
-    /// Angular velocity \[rad s^-1\].
-    pub spin: [f32; 3],
-    /// Fills the last 16 bytes.
-    pub unused: u32,
+structure! {
+    /// One entry of a motion over time.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+    pub MotionAt as "MotionAt" {
+        /// Velocity \[m s^-1\].
+        velocity: vec3f,
+        /// When \[s\].
+        time: f32,
+        /// Angular velocity \[rad s^-1\].
+        spin: vec3f,
+        /// Fills the last 16 bytes.
+        unused: u32,
+    }
 }
 
 /// A coefficient of friction that holds everything; the word of a cell has room for it.

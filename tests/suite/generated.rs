@@ -2,19 +2,21 @@
 
 use std::path::Path;
 
-use brisance::numerics::PcgControl;
-use brisance::state::{Control, Params, arrays, stages};
+use brisance::stage::structures;
+use brisance::state::{arrays, stages};
 
 /// File, table that it follows from, and the text.
-fn parts() -> Vec<(&'static str, &'static str, String)> {
-    vec![
+fn parts() -> Vec<(String, &'static str, String)> {
+    let tables = [
         ("shaders/shared/arrays.wgsl", "src/state/arrays.rs", arrays::constants()),
-        ("shaders/shared/params.wgsl", "src/state/params.rs", Params::wgsl()),
-        ("shaders/shared/control.wgsl", "src/state/control.rs", Control::wgsl()),
-        ("shaders/shared/pcg.wgsl", "src/numerics/pcg.rs", PcgControl::wgsl()),
         ("docs/inside/arrays.md", "src/state/arrays.rs", format!("\n{}\n", arrays::table())),
         ("docs/method/overview.md", "src/state/stages.rs", format!("\n{}\n", stages::table())),
-    ]
+    ];
+    let structures = structures::all().into_iter().map(|(file, _, shown)| {
+        let texts: Vec<&str> = shown.iter().map(|own| own.wgsl.as_str()).collect();
+        (format!("shaders/{file}"), shown[0].source, texts.join("\n"))
+    });
+    tables.into_iter().map(|(file, source, text)| (file.to_owned(), source, text)).chain(structures).collect()
 }
 
 /// The text of a file with a part of it written anew.
@@ -31,7 +33,7 @@ fn what_is_generated_is_up_to_date() {
     let write = std::env::var_os("BRISANCE_GENERATE").is_some();
     let mut failures = Vec::new();
     for (name, source, part) in parts() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&name);
         let text = std::fs::read_to_string(&path).unwrap();
         let wanted =
             with_part(&text, source, &part).unwrap_or_else(|| panic!("{name}: no lines around a generated part"));

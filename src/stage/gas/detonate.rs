@@ -5,15 +5,22 @@ use bytemuck::{Pod, Zeroable};
 use crate::error::{Error, Result};
 use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
 use crate::state::State;
+use crate::structure::structure;
+use crate::structure::types::vec3f;
 
-/// Mirror of `Blast` in `shaders/gas/detonate.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-struct Ball {
-    center: [f32; 3],
-    radius: f32,
-    rise: f32,
-    unused: [f32; 7],
+structure! {
+    /// A ball of gas to heat.
+    #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+    pub(crate) Ball as "Blast" {
+        /// Its middle, in cells from the low corner of the domain.
+        center: vec3f,
+        /// In cells.
+        radius: f32,
+        /// Energy per volume \[J m^-3\].
+        rise: f32,
+        /// Fills the last 16 bytes.
+        unused: [f32; 3],
+    }
 }
 
 /// Kernels of a blast.

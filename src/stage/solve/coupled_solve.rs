@@ -5,6 +5,8 @@
 mod coarse;
 mod surface;
 
+pub(in crate::stage) use surface::Turn;
+
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
 use crate::numerics::{Block, Dots, Groups, Layout, Levels, Pcg};

@@ -8,13 +8,17 @@ use crate::numerics::Block;
 use crate::stage::sweep::Form;
 use crate::state::surface::{TERMS, row_length};
 use crate::state::{Over, Phase, State};
+use crate::structure::structure;
 
-/// Mirror of `Turn` in `shaders/solve/solve_surface.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Turn {
-    number: u32,
-    count: u32,
+structure! {
+    /// One step of the polynomial.
+    #[derive(Clone, Copy, Debug, Pod, Zeroable)]
+    pub(crate) Turn as "Turn" {
+        /// From 0.
+        number: u32,
+        /// Steps of all.
+        count: u32,
+    }
 }
 
 /// Kernels of the preconditioner.

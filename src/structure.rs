@@ -11,30 +11,49 @@ pub mod types {
     pub type vec4u = [u32; 4];
     /// Three numbers.
     pub type vec3f = [f32; 3];
+    /// Four of them.
+    pub type vec4f = [f32; 4];
     /// A whole number that threads change together.
     pub type atomic_u32 = u32;
 }
 
-/// Declares a structure with public members, and as `wgsl` the same for shaders, under another name. Members called `unused` fill the space
-/// before vectors, which WGSL leaves by itself.
+/// A structure of both languages, as tests and generated parts of shaders need it.
+#[derive(Debug)]
+pub struct Shared {
+    /// Its name in WGSL.
+    pub name: &'static str,
+    /// The file in Rust that declares it.
+    pub source: &'static str,
+    /// Name and place \[bytes\] of each member.
+    pub members: &'static [(&'static str, usize)],
+    /// Its size \[bytes\].
+    pub size: usize,
+    /// The structure as WGSL.
+    pub wgsl: String,
+}
+
+/// Declares a structure whose members are as visible as it is, and as `shared` the same for shaders, under another name. Members called `unused` fill the
+/// space before vectors and at the end, which WGSL leaves by itself.
 macro_rules! structure {
-    ($(#[$meta:meta])* $name:ident as $shader:literal { $($(#[doc = $doc:literal])+ $member:ident: $kind:tt,)+ }) => {
+    ($(#[$meta:meta])* $vis:vis $name:ident as $shader:literal { $($(#[doc = $doc:literal])+ $member:ident: $kind:tt,)+ }) => {
         $(#[$meta])*
         #[repr(C)]
-        pub struct $name {
-            $($(#[doc = $doc])+ pub $member: $kind,)+
+        $vis struct $name {
+            $($(#[doc = $doc])+ $vis $member: $kind,)+
         }
 
         impl $name {
-            /// Name and place \[bytes\] of each member.
-            pub const MEMBERS: &'static [(&'static str, usize)] =
-                &[$((stringify!($member), std::mem::offset_of!($name, $member))),+];
-
-            /// The structure as WGSL.
+            /// The structure in both languages.
             #[must_use]
-            pub fn wgsl() -> String {
+            $vis fn shared() -> $crate::structure::Shared {
                 let members = [$((stringify!($member), stringify!($kind), concat!($($doc),+))),+];
-                $crate::gpu::structure::wgsl($shader, &members)
+                $crate::structure::Shared {
+                    name: $shader,
+                    source: file!(),
+                    members: &[$((stringify!($member), std::mem::offset_of!($name, $member))),+],
+                    size: size_of::<$name>(),
+                    wgsl: $crate::structure::wgsl($shader, &members),
+                }
             }
         }
     };
@@ -58,7 +77,7 @@ macro_rules! numbers {
             /// The numbers as WGSL, behind a prefix.
             #[must_use]
             pub fn wgsl(prefix: &str) -> String {
-                $crate::gpu::structure::wgsl_numbers(prefix, Self::NAMES)
+                $crate::structure::wgsl_numbers(prefix, Self::NAMES)
             }
         }
     };
