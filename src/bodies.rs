@@ -2,6 +2,7 @@
 
 mod fragments;
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::snapshot::{ParticleSample, Snapshot};
@@ -84,7 +85,7 @@ impl Snapshot {
                 smallest[root] = particle.index.min(smallest[root]);
             }
         }
-        self.particles.iter().map(|particle| root(particle).map_or(particle.index, |root| smallest[root])).collect()
+        self.particles.par_iter().map(|particle| root(particle).map_or(particle.index, |root| smallest[root])).collect()
     }
 
     /// Body and cell of a particle.
@@ -98,8 +99,8 @@ impl Snapshot {
     /// Cells that hold particles that are not broken, body by body, and the first of those that each hangs together with.
     fn groups(&self) -> (Vec<(u32, [i32; 3])>, Vec<usize>) {
         let mut places: Vec<_> =
-            self.particles.iter().filter(|one| one.damage < 1.0).map(|one| self.place(one)).collect();
-        places.sort_unstable();
+            self.particles.par_iter().filter(|one| one.damage < 1.0).map(|one| self.place(one)).collect();
+        places.par_sort_unstable();
         places.dedup();
         let mut groups = Groups::of(places.len());
         for (index, &(body, [z, y, x])) in places.iter().enumerate() {

@@ -1,5 +1,7 @@
 //! The table of quantities: what pictures and files show of a state, by name, unit and caption, and how it is computed.
 
+use rayon::prelude::*;
+
 use crate::snapshot::{ParticleSample, Snapshot, kind};
 
 /// What a quantity belongs to.
@@ -114,6 +116,8 @@ pub fn all(snapshot: &Snapshot, place: Place) -> impl Iterator<Item = &'static Q
     TABLE.iter().filter(move |quantity| quantity.place == place && (kept || !MAPS.contains(&quantity.name)))
 }
 
+/// Elements that one thread takes at least.
+const LEAST: usize = 1 << 12;
 /// Quantities of what has been so far.
 const MAPS: [&str; 3] = ["peak_pressure", "impulse", "peak_plastic_strain"];
 
@@ -123,13 +127,15 @@ fn map(snapshot: &Snapshot, number: usize) -> Values {
     Values::Real(if snapshot.maps.is_empty() { vec![0.0; snapshot.kind.len()] } else { own.collect() })
 }
 
-fn gas<const N: usize>(snapshot: &Snapshot, value: impl Fn(usize) -> [f32; N]) -> Values {
-    let own = |i: usize| if snapshot.kind[i] == kind::GAS { value(i) } else { [0.0; N] };
-    Values::Real((0..snapshot.kind.len()).flat_map(own).collect())
+fn gas<const N: usize>(snapshot: &Snapshot, value: impl Fn(usize) -> [f32; N] + Send + Sync) -> Values {
+    let own = |(i, cell): (usize, &u8)| if *cell == kind::GAS { value(i) } else { [0.0; N] };
+    let all: Vec<[f32; N]> = snapshot.kind.par_iter().with_min_len(LEAST).enumerate().map(own).collect();
+    Values::Real(all.into_flattened())
 }
 
-fn each<const N: usize>(snapshot: &Snapshot, value: impl Fn(&ParticleSample) -> [f32; N]) -> Values {
-    Values::Real(snapshot.particles.iter().flat_map(value).collect())
+fn each<const N: usize>(snapshot: &Snapshot, value: impl Fn(&ParticleSample) -> [f32; N] + Send + Sync) -> Values {
+    let all: Vec<[f32; N]> = snapshot.particles.par_iter().with_min_len(LEAST).map(value).collect();
+    Values::Real(all.into_flattened())
 }
 
 fn whole(snapshot: &Snapshot, value: impl Fn(&ParticleSample) -> u32) -> Values {
@@ -153,6 +159,15 @@ fn von_mises(particle: &ParticleSample) -> f32 {
 
 /// Central difference along each axis; beside cells without gas, and at the edge, that to the one side.
 fn gradient(snapshot: &Snapshot, i: usize, value: impl Fn(usize) -> f32) -> [f32; 3] {
+    neighbours(snapshot, i).map(|near| difference(snapshot, near, &value))
+}
+
+fn difference(snapshot: &Snapshot, [low, high, span]: [usize; 3], value: impl Fn(usize) -> f32) -> f32 {
+    if span == 0 { 0.0 } else { (value(high) - value(low)) / (span as f32 * snapshot.grid.spacing) }
+}
+
+/// Along each axis the cells between which a difference is taken, and how many cells they are apart.
+fn neighbours(snapshot: &Snapshot, i: usize) -> [[usize; 3]; 3] {
     let grid = &snapshot.grid;
     let mut stride = 1;
     std::array::from_fn(|axis| {
@@ -162,13 +177,14 @@ fn gradient(snapshot: &Snapshot, i: usize, value: impl Fn(usize) -> f32) -> [f32
         let open = |near: bool, j: usize| if near && snapshot.kind[j] == kind::GAS { j } else { i };
         let low = open(at > 0, i.wrapping_sub(step));
         let high = open(at + 1 < cells, i + step);
-        let span = (high - low) / step;
-        if span == 0 { 0.0 } else { (value(high) - value(low)) / (span as f32 * grid.spacing) }
+        [low, high, (high - low) / step]
     })
 }
 
 fn vorticity(snapshot: &Snapshot, i: usize) -> [f32; 3] {
-    let [u, v, w] = [0, 1, 2].map(|component| gradient(snapshot, i, |j| snapshot.velocity[j][component]));
+    let near = neighbours(snapshot, i);
+    let of = |component: usize| near.map(|near| difference(snapshot, near, |j| snapshot.velocity[j][component]));
+    let [u, v, w] = [of(0), of(1), of(2)];
     [w[1] - v[2], u[2] - w[0], v[0] - u[1]]
 }
 

@@ -1,5 +1,7 @@
 //! A CPU copy of the state at one time: what tests, tables and exporters see.
 
+use rayon::prelude::*;
+
 use crate::error::Result;
 use crate::gpu::{Gpu, readback};
 use crate::state::{Grid, State};
@@ -179,22 +181,23 @@ impl Snapshot {
     /// From arrays in the layout of the device, of a grid and gas, at a time \[s\] after so many steps.
     #[must_use]
     pub fn of(grid: Grid, gamma: f64, (time, step): (f64, u64), cells: &CellRows, rows: &ParticleRows) -> Snapshot {
-        let flow = grid.unpadded(&cells.conserved);
-        let energy = grid.unpadded(&cells.energy);
-        let pressure = |(u, e): (&[f32; 4], &f32)| {
+        let flow = &cells.conserved;
+        let pressure = |slot: usize| {
+            let u = flow[slot];
             let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
-            (gamma as f32 - 1.0) * (e - kinetic)
+            (gamma as f32 - 1.0) * (cells.energy[slot] - kinetic)
         };
+        let velocity = |slot: usize| [1, 2, 3].map(|axis| flow[slot][axis] / flow[slot][0]);
         Snapshot {
             time,
             step,
             grid,
             gamma,
             kind: grid.unpadded(&cells.kind),
-            density: flow.iter().map(|u| u[0]).collect(),
-            velocity: flow.iter().map(|u| [u[1] / u[0], u[2] / u[0], u[3] / u[0]]).collect(),
-            pressure: flow.iter().zip(&energy).map(pressure).collect(),
-            energy,
+            density: grid.unpadded_by(|slot| flow[slot][0]),
+            velocity: grid.unpadded_by(velocity),
+            pressure: grid.unpadded_by(pressure),
+            energy: grid.unpadded(&cells.energy),
             owed: cells.owed_density(&grid),
             maps: cells.kept_maps(&grid),
             particles: rows.samples(&grid),
@@ -223,7 +226,8 @@ impl CellRows {
         if self.maps.is_empty() {
             return Vec::new();
         }
-        grid.unpadded(&self.maps).into_iter().map(|[peak, impulse, _, strain]| [peak, impulse, strain]).collect()
+        let kept = |[peak, impulse, _, strain]: [f32; 4]| [peak, impulse, strain];
+        grid.unpadded_by(|slot| kept(self.maps[slot]))
     }
 
     /// What cells owe per volume, and in covered cells all that they hold.
@@ -232,10 +236,8 @@ impl CellRows {
             return vec![0.0; grid.cell_count()];
         }
         let volume = grid.spacing.powi(grid.dimension as i32);
-        let (books, flow, kinds) =
-            (grid.unpadded(&self.owed), grid.unpadded(&self.conserved), grid.unpadded(&self.kind));
-        let held = |cell: &u8, u: &[f32; 4]| if *cell == kind::SOLID { u[0] } else { 0.0 };
-        books.iter().zip(flow).zip(kinds).map(|((book, u), cell)| book / volume + held(&cell, &u)).collect()
+        let held = |slot: usize| if self.kind[slot] == kind::SOLID { self.conserved[slot][0] } else { 0.0 };
+        grid.unpadded_by(|slot| self.owed[slot] / volume + held(slot))
     }
 }
 
@@ -258,7 +260,7 @@ impl ParticleRows {
     /// The particles that are inside the domain.
     fn samples(&self, grid: &Grid) -> Vec<ParticleSample> {
         let inside = |p: &usize| self.deformation[3 * p + 1][3] > 0.0;
-        (0..self.position.len()).filter(inside).map(|p| self.sample(grid, p)).collect()
+        (0..self.position.len()).into_par_iter().filter(inside).map(|p| self.sample(grid, p)).collect()
     }
 
     /// One particle.

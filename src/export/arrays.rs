@@ -5,12 +5,13 @@
 use std::path::{Path, PathBuf};
 
 use bytemuck::cast_slice;
+use rayon::prelude::*;
 
 use super::container::{self, Array, Form};
 use super::npy::Kind;
 use crate::Result;
 use crate::export::{Exporter, Moment, Needs};
-use crate::quantity::{Place, Values, all};
+use crate::quantity::{Place, Quantity, Values, all};
 use crate::snapshot::Snapshot;
 
 /// Writes `arrays/NNNN.npz`.
@@ -32,7 +33,7 @@ impl Exporter for ArrayExporter {
         let snapshot = moment.snapshot.expect("a run reads the snapshot when an exporter needs it");
         let path = self.folder.join(format!("{:04}.npz", moment.index));
         let at = (moment.time, moment.step);
-        container::write(&path, (Form::Arrays, &moment.origin.source), at, &[], &arrays(snapshot))
+        container::write(&path, (Form::Arrays, &moment.origin.source), at, &[], arrays(snapshot))
     }
 
     fn needs(&self) -> Needs {
@@ -41,32 +42,37 @@ impl Exporter for ArrayExporter {
 }
 
 /// All quantities of a state, and where its cells and particles are.
-fn arrays(snapshot: &Snapshot) -> Vec<Array> {
-    let grid = &snapshot.grid;
-    let [x, y, z] = grid.cells.map(|n| n as usize);
-    let mut arrays = Vec::new();
-    let mut add = |name: String, shape: &[usize], components: usize, (kind, bytes): (Kind, Vec<u8>), about: String| {
-        let mut shape = shape.to_vec();
-        if components > 1 {
-            shape.push(components);
-        }
-        arrays.push(Array { name, kind, shape, bytes, about });
+fn arrays(snapshot: &Snapshot) -> impl IndexedParallelIterator<Item = Array> {
+    let (grid, particles) = (&snapshot.grid, &snapshot.particles);
+    let position: Vec<f32> = particles.iter().flat_map(|particle| particle.position).collect();
+    let real = |name: &str, shape: &[usize], values: &[f32], about: &str| Array {
+        name: name.to_owned(),
+        kind: Kind::F32,
+        shape: shape.to_vec(),
+        bytes: cast_slice(values).to_vec(),
+        about: about.to_owned(),
     };
-    let position: Vec<f32> = snapshot.particles.iter().flat_map(|particle| particle.position).collect();
-    let count = snapshot.particles.len();
-    add("origin".into(), &[3], 1, (Kind::F32, cast_slice(&grid.origin).to_vec()), "low corner of the cells [m]".into());
-    add("spacing".into(), &[1], 1, (Kind::F32, cast_slice(&[grid.spacing]).to_vec()), "edge of a cell [m]".into());
-    add("particle_position".into(), &[count], 3, (Kind::F32, cast_slice(&position).to_vec()), "position [m]".into());
-    for quantity in all(snapshot, Place::Cell).chain(all(snapshot, Place::Particle)) {
-        let (name, shape) = match quantity.place {
-            Place::Cell => (quantity.name.to_owned(), vec![z, y, x]),
-            Place::Particle => (format!("particle_{}", quantity.name), vec![count]),
-        };
-        let bytes = match quantity.of(snapshot) {
-            Values::Real(values) => (Kind::F32, cast_slice(&values).to_vec()),
-            Values::Whole(values) => (Kind::U32, cast_slice(&values).to_vec()),
-        };
-        add(name, &shape, quantity.components, bytes, format!("{}, unit {}", quantity.caption, quantity.unit));
+    let places = vec![
+        real("origin", &[3], &grid.origin, "low corner of the cells [m]"),
+        real("spacing", &[1], &[grid.spacing], "edge of a cell [m]"),
+        real("particle_position", &[particles.len(), 3], &position, "position [m]"),
+    ];
+    let quantities: Vec<&Quantity> = all(snapshot, Place::Cell).chain(all(snapshot, Place::Particle)).collect();
+    places.into_par_iter().chain(quantities.into_par_iter().map(|quantity| array(snapshot, quantity)))
+}
+
+fn array(snapshot: &Snapshot, quantity: &Quantity) -> Array {
+    let [x, y, z] = snapshot.grid.cells.map(|n| n as usize);
+    let (name, mut shape) = match quantity.place {
+        Place::Cell => (quantity.name.to_owned(), vec![z, y, x]),
+        Place::Particle => (format!("particle_{}", quantity.name), vec![snapshot.particles.len()]),
+    };
+    if quantity.components > 1 {
+        shape.push(quantity.components);
     }
-    arrays
+    let (kind, bytes) = match quantity.of(snapshot) {
+        Values::Real(values) => (Kind::F32, cast_slice(&values).to_vec()),
+        Values::Whole(values) => (Kind::U32, cast_slice(&values).to_vec()),
+    };
+    Array { name, kind, shape, bytes, about: format!("{}, unit {}", quantity.caption, quantity.unit) }
 }

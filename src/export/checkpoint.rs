@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use super::container::{self, Array, Contents, Form, Head, SCENE, Source};
 use super::npy::Kind;
 use super::states::numbered;
@@ -32,8 +34,8 @@ pub fn list(run: &Path) -> Result<Vec<(u64, PathBuf)>> {
 /// [`Error::Io`].
 pub fn write(run: &Path, source: &Source, saved: &Saved, about: &str, keep: usize) -> Result<PathBuf> {
     let path = run.join(file_of(saved.step));
-    let arrays: Vec<Array> = saved.arrays.iter().map(array).collect();
-    container::write(&path, (Form::Full, source), (saved.time, saved.step), &[(RUN, about)], &arrays)?;
+    let arrays = saved.arrays.par_iter().map(array);
+    container::write(&path, (Form::Full, source), (saved.time, saved.step), &[(RUN, about)], arrays)?;
     let all = list(run)?;
     for (_, old) in &all[..all.len().saturating_sub(keep.max(1))] {
         if *old != path {

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Cursor, Read, Seek, Write};
 use std::path::Path;
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, ZipArchive};
@@ -26,6 +27,8 @@ const HEAD: &str = "head.json";
 pub const SCENE: &str = "scene.toml";
 /// Speed before size: a run waits for it.
 const LEVEL: i64 = 1;
+/// Bytes that one thread copies at least.
+const CHUNK: usize = 1 << 18;
 /// Texts of a file at most.
 const MOST_TEXTS: usize = 16;
 /// Bytes of texts and heads of arrays, and what arrays that do not compress may grow by.
@@ -139,7 +142,10 @@ impl Array {
     /// If they are of another size.
     pub fn typed<T: bytemuck::Pod>(&self) -> std::result::Result<Vec<T>, String> {
         if self.bytes.len().is_multiple_of(size_of::<T>()) && size_of::<T>() == self.kind.width() * self.columns() {
-            return Ok(bytemuck::pod_collect_to_vec(&self.bytes));
+            let mut all = vec![T::zeroed(); self.bytes.len() / size_of::<T>()];
+            let into = bytemuck::cast_slice_mut(&mut all).par_chunks_mut(CHUNK);
+            into.zip(self.bytes.par_chunks(CHUNK)).for_each(|(into, from)| into.copy_from_slice(from));
+            return Ok(all);
         }
         Err(format!(
             "array `{}` has elements of {} numbers, which is not what belongs there",
@@ -171,7 +177,7 @@ impl Contents {
     }
 }
 
-/// Writes a state at a time \[s\] after so many steps.
+/// Writes a state at a time \[s\] after so many steps. Each array is made, deflated and dropped by one thread.
 ///
 /// # Errors
 /// [`Error::Io`].
@@ -180,30 +186,45 @@ pub fn write(
     (form, source): (Form, &Source),
     (time, step): (f64, u64),
     texts: &[(&str, &str)],
-    arrays: &[Array],
+    arrays: impl IntoParallelIterator<Item = Array, Iter: IndexedParallelIterator>,
 ) -> Result<()> {
-    let described = arrays.iter().map(|array| (array.name.clone(), array.about.clone())).collect();
+    let packed = arrays
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|array| packed(&array).map(|packed| (array.name, array.about, packed)));
+    let packed: Vec<_> = packed.collect::<io::Result<_>>().map_err(|source| Error::io(path, source))?;
+    let arrays = packed.iter().map(|(name, about, _)| (name.clone(), about.clone())).collect();
     let source = source.clone();
     let scene = source.scene.clone();
-    let head = Head { format: FORMAT.to_owned(), version: VERSION, form, source, time, step, arrays: described };
+    let head = Head { format: FORMAT.to_owned(), version: VERSION, form, source, time, step, arrays };
     atomic::write(path, |out| {
         let mut zip = ZipWriter::new_stream(out);
-        let options =
-            SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).compression_level(Some(LEVEL));
+        let options = deflated();
         zip.start_file(HEAD, options)?;
         serde_json::to_writer_pretty(&mut zip, &head)?;
         for (name, text) in [(SCENE, scene.as_str())].iter().chain(texts) {
             zip.start_file(*name, options)?;
             zip.write_all(text.as_bytes())?;
         }
-        for array in arrays {
-            let large = array.bytes.len() as u64 >= u64::from(u32::MAX);
-            zip.start_file(format!("{}.npy", array.name), options.large_file(large))?;
-            zip.write_all(&npy::head(array.kind, &array.shape))?;
-            zip.write_all(&array.bytes)?;
+        for (_, _, own) in &packed {
+            zip.raw_copy_file(ZipArchive::new(Cursor::new(own))?.by_index_raw(0)?)?;
         }
         zip.finish().map(|_| ()).map_err(io::Error::from)
     })
+}
+
+fn deflated() -> SimpleFileOptions {
+    SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).compression_level(Some(LEVEL))
+}
+
+/// An array as an archive of its own, of which files take over what is deflated.
+fn packed(array: &Array) -> io::Result<Vec<u8>> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let large = array.bytes.len() as u64 >= u64::from(u32::MAX);
+    zip.start_file(format!("{}.npy", array.name), deflated().large_file(large))?;
+    zip.write_all(&npy::head(array.kind, &array.shape))?;
+    zip.write_all(&array.bytes)?;
+    Ok(zip.finish()?.into_inner())
 }
 
 /// Reads a file; its arrays may have `most` bytes in all.
@@ -260,9 +281,13 @@ fn member<R: Read + Seek>(archive: &mut ZipArchive<R>, name: &str, most: u64) ->
         return Err(format!("{name} has {size} bytes, what belongs there has at most {most}"));
     }
     let mut bytes = Vec::new();
-    file.take(most + 1).read_to_end(&mut bytes).map_err(|error| format!("{name}: {error}"))?;
-    if bytes.len() as u64 > most {
-        return Err(format!("{name} has more than {most} bytes"));
+    let room = usize::try_from(size).is_ok_and(|size| bytes.try_reserve_exact(size).is_ok());
+    if !room {
+        return Err(format!("{name}: there is no memory for its {size} bytes"));
+    }
+    file.take(size + 1).read_to_end(&mut bytes).map_err(|error| format!("{name}: {error}"))?;
+    if bytes.len() as u64 > size {
+        return Err(format!("{name} has more than its {size} bytes"));
     }
     Ok(bytes)
 }
@@ -284,23 +309,39 @@ fn texts<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<BTr
 
 fn parse(bytes: &[u8], most: u64) -> std::result::Result<Contents, String> {
     let mut archive = opened(Cursor::new(bytes))?;
-    let head = head(&mut archive)?;
-    let mut contents = Contents { head, texts: texts(&mut archive)?, arrays: Vec::new() };
-    let mut left = most;
-    for name in &names(&mut archive)? {
-        let Some(own) = name.strip_suffix(".npy") else { continue };
-        let whole = member(&mut archive, name, left.saturating_add(npy::MOST_HEAD))?;
-        let (kind, shape, start) = npy::parse(&whole).map_err(|reason| format!("{name}: {reason}"))?;
-        let about = contents.head.arrays.get(own).cloned().unwrap_or_default();
-        let array = Array { name: own.to_owned(), kind, shape, bytes: whole[start..].to_vec(), about };
-        left = left
-            .checked_sub(array.bytes.len() as u64)
-            .ok_or_else(|| format!("{name}: the arrays have more bytes than belong there, which are at most {most}"))?;
-        contents.arrays.push(array);
+    let (head, texts) = (head(&mut archive)?, texts(&mut archive)?);
+    let names: Vec<String> = names(&mut archive)?.into_iter().filter(|name| name.ends_with(".npy")).collect();
+    let mut promised = 0u64;
+    for name in &names {
+        let size = archive.by_name(name).map_err(|error| format!("{name}: {error}"))?.size();
+        promised = promised.saturating_add(size);
+        if size > most.saturating_add(npy::MOST_HEAD) || promised > most.saturating_add(ROOM) {
+            return Err(too_many(name, most));
+        }
     }
-    let missing = contents.head.arrays.keys().find(|name| contents.arrays.iter().all(|array| array.name != **name));
+    let read = |name: &String| array(&mut archive.clone(), name, most);
+    let mut arrays: Vec<Array> = names.par_iter().with_max_len(1).map(read).collect::<std::result::Result<_, _>>()?;
+    let mut left = most;
+    for array in &mut arrays {
+        left = left.checked_sub(array.bytes.len() as u64).ok_or_else(|| too_many(&array.name, most))?;
+        array.about = head.arrays.get(&array.name).cloned().unwrap_or_default();
+    }
+    let missing = head.arrays.keys().find(|name| arrays.iter().all(|array| array.name != **name));
     match missing {
         Some(name) => Err(format!("array `{name}` is missing")),
-        None => Ok(contents),
+        None => Ok(Contents { head, texts, arrays }),
     }
+}
+
+fn too_many(name: &str, most: u64) -> String {
+    format!("{name}: the arrays have more bytes than belong there, which are at most {most}")
+}
+
+/// An array that has a member to itself; nothing is known of what it is.
+fn array<R: Read + Seek>(archive: &mut ZipArchive<R>, name: &str, most: u64) -> std::result::Result<Array, String> {
+    let mut bytes = member(archive, name, most.saturating_add(npy::MOST_HEAD))?;
+    let (kind, shape, start) = npy::parse(&bytes).map_err(|reason| format!("{name}: {reason}"))?;
+    bytes.drain(..start);
+    let own = name.strip_suffix(".npy").unwrap_or(name);
+    Ok(Array { name: own.to_owned(), kind, shape, bytes, about: String::new() })
 }

@@ -239,9 +239,13 @@ pub const FORMATS: &[Format] = &[
     },
 ];
 
-/// Makes the exporters named on the command line.
+/// Makes the exporters named on the command line; the volumes of `usd` are the files of `vdb`, which are written once.
 pub fn open(names: &[String], folder: &Path) -> Result<Vec<Box<dyn Exporter>>> {
-    names.iter().map(|name| find(name).map(|format| (format.open)(folder))).collect()
+    let mut all: Vec<&Format> = names.iter().map(|name| find(name)).collect::<Result<_>>()?;
+    if all.iter().any(|format| format.name == "usd") {
+        all.retain(|format| format.name != "vdb");
+    }
+    Ok(all.into_iter().map(|format| (format.open)(folder)).collect())
 }
 
 fn find(name: &str) -> Result<&'static Format> {

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use bytemuck::{Pod, cast_slice};
+use rayon::prelude::*;
 
 use super::container::{self, Array, Contents, Form, Source};
 use super::npy::Kind;
@@ -83,23 +84,24 @@ pub(super) fn numbered(folder: &Path) -> Result<Vec<(u64, PathBuf)>> {
 /// # Errors
 /// [`Error::Io`].
 pub fn write(path: &Path, source: &Source, state: &Stored) -> Result<()> {
-    let array = |name, kind, columns, bytes: &[u8]| Array::rows(name, kind, columns, bytes.to_vec());
-    let mut arrays = vec![
-        array("conserved", Kind::F32, 4, cast_slice(&state.conserved)),
-        array("energy", Kind::F32, 1, cast_slice(&state.energy)),
-        array("kind", Kind::U8, 1, &state.kind),
+    let mut arrays: Vec<(&str, Kind, usize, &[u8])> = vec![
+        ("conserved", Kind::F32, 4, cast_slice(&state.conserved)),
+        ("energy", Kind::F32, 1, cast_slice(&state.energy)),
+        ("kind", Kind::U8, 1, &state.kind),
     ];
     if !state.owed.is_empty() {
-        arrays.push(array("owed", Kind::F32, 1, cast_slice(&state.owed)));
+        arrays.push(("owed", Kind::F32, 1, cast_slice(&state.owed)));
     }
     if !state.maps.is_empty() {
-        arrays.push(array("maps", Kind::F32, 4, cast_slice(&state.maps)));
+        arrays.push(("maps", Kind::F32, 4, cast_slice(&state.maps)));
     }
     if let Some(particles) = &state.particles {
         let own = particles.arrays();
-        arrays.extend(own.map(|(name, values)| array(name, Kind::F32, 4, cast_slice(values))));
+        arrays.extend(own.map(|(name, values)| (name, Kind::F32, 4, cast_slice(values))));
     }
-    container::write(path, (Form::Fields, source), (state.time, state.step), &[], &arrays)
+    let rows =
+        arrays.into_par_iter().map(|(name, kind, columns, bytes)| Array::rows(name, kind, columns, bytes.to_vec()));
+    container::write(path, (Form::Fields, source), (state.time, state.step), &[], rows)
 }
 
 /// Bytes that the arrays of a state have at most, in a scene of so many slots and particles.

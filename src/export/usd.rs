@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::usdc::{Array, Layer};
-use super::vdb::VdbExporter;
+use super::vdb::{VdbExporter, volumes};
 use crate::Result;
 use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::quantity::{self, Place, Values};
@@ -50,10 +50,12 @@ impl UsdExporter {
 impl Exporter for UsdExporter {
     fn write(&mut self, moment: &Moment) -> Result<()> {
         let snapshot = moment.snapshot.expect("a run reads the snapshot when an exporter needs it");
-        self.volumes.write(moment)?;
         self.points |= !moment.origin.source.bodies.is_empty();
-        if self.points {
-            let layer = points(snapshot, moment.index);
+        let bodies = self.points.then_some(snapshot);
+        let layer = || bodies.map(|snapshot| points(snapshot, moment.index));
+        let (volumes, layer) = rayon::join(|| volumes(snapshot, moment), layer);
+        self.volumes.put(moment.index, &volumes)?;
+        if let Some(layer) = layer {
             let path = self.folder.join(format!("usd/{:04}.usdc", moment.index));
             atomic::write(&path, |out| out.write_all(&layer))?;
             let manifest = manifest();

@@ -5,6 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use crate::Result;
 use crate::export::vdb_tree::{Bytes, Tree};
 use crate::export::{Exporter, Moment, Needs, atomic};
@@ -35,12 +37,20 @@ impl VdbExporter {
     pub fn new(folder: &Path) -> Self {
         Self { folder: folder.join("vdb") }
     }
+
+    /// Writes the file of a frame.
+    ///
+    /// # Errors
+    /// [`crate::Error::Io`].
+    pub(super) fn put(&self, index: u32, bytes: &[u8]) -> Result<()> {
+        atomic::write(&self.folder.join(format!("{index:04}.vdb")), |file| file.write_all(bytes))
+    }
 }
 
 impl Exporter for VdbExporter {
     fn write(&mut self, moment: &Moment) -> Result<()> {
         let snapshot = moment.snapshot.expect("a run reads the snapshot when an exporter needs it");
-        write(&self.folder.join(format!("{:04}.vdb", moment.index)), snapshot, moment)
+        self.put(moment.index, &volumes(snapshot, moment))
     }
 
     fn needs(&self) -> Needs {
@@ -48,11 +58,8 @@ impl Exporter for VdbExporter {
     }
 }
 
-/// Writes the gas of a state.
-///
-/// # Errors
-/// [`crate::Error::Io`].
-pub fn write(path: &Path, snapshot: &Snapshot, moment: &Moment) -> Result<()> {
+/// The file with the gas of a state.
+pub(super) fn volumes(snapshot: &Snapshot, moment: &Moment) -> Vec<u8> {
     let mut out = Bytes::default();
     out.words64(&[MAGIC]);
     out.words(&[FILE_VERSION, LIBRARY[0], LIBRARY[1]]);
@@ -62,12 +69,12 @@ pub fn write(path: &Path, snapshot: &Snapshot, moment: &Moment) -> Result<()> {
     out.words(&[2]);
     out.text_entry("creator", creator);
     out.text_entry("scene", &moment.origin.title);
-    let grids: Vec<Volume> = GRIDS.iter().filter_map(|name| Volume::of(name, snapshot)).collect();
+    let grids: Vec<Volume> = GRIDS.par_iter().filter_map(|name| Volume::of(name, snapshot)).collect();
     out.words(&[grids.len() as u32]);
     for grid in &grids {
         grid.write(&mut out, snapshot);
     }
-    atomic::write(path, |file| file.write_all(&out.0))
+    out.0
 }
 
 /// Thirty-six letters that no other file has.
@@ -101,12 +108,12 @@ impl Volume {
             background[..components].copy_from_slice(at(last));
         }
         let differs = |cell: usize| at(cell).iter().zip(&background).any(|(a, b)| a.to_bits() != b.to_bits());
-        let active = (0..snapshot.kind.len()).map(|cell| gas(&cell) && differs(cell)).collect();
+        let active = (0..snapshot.kind.len()).into_par_iter().map(|cell| gas(&cell) && differs(cell)).collect();
         Some(Self { name: quantity.name, unit: quantity.unit, components, values, active, background })
     }
 
     fn write(&self, out: &mut Bytes, snapshot: &Snapshot) {
-        let half = self.values.iter().all(|value| value.abs() < MOST_HALF);
+        let half = self.values.par_iter().all(|value| value.abs() < MOST_HALF);
         let kind = if self.components == 3 { "Tree_vec3s_5_4_3" } else { "Tree_float_5_4_3" };
         out.text(self.name);
         out.text(&format!("{kind}{}", if half { "_HalfFloat" } else { "" }));

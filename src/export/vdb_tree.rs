@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use flate2::{Compress, Compression, FlushCompress};
+use half::slice::HalfFloatSliceExt;
 use rayon::prelude::*;
 
 /// Bytes of a file in the making, lowest byte first.
@@ -92,8 +93,7 @@ impl Tree {
             .map(|k| [k % blocks[0], k / blocks[0] % blocks[1], k / (blocks[0] * blocks[1])].map(|at| at << LEAF))
             .collect();
         let leaf = |compress: &mut Compress, low: &[u32; 3]| {
-            let mut places = Vec::new();
-            let mut raw = Vec::new();
+            let (mut places, mut own) = (Vec::with_capacity(VOXELS), Vec::with_capacity(components * VOXELS));
             for voxel in 0..VOXELS as u32 {
                 let side = (1 << LEAF) - 1;
                 let at = [low[0] + (voxel >> (2 * LEAF)), low[1] + ((voxel >> LEAF) & side), low[2] + (voxel & side)];
@@ -103,12 +103,14 @@ impl Tree {
                 let cell = (at[0] as usize) + cells[0] as usize * (at[1] as usize + cells[1] as usize * at[2] as usize);
                 if active[cell] {
                     places.push(voxel as usize);
-                    let own = &values[components * cell..components * (cell + 1)];
-                    own.iter().for_each(|value| number(&mut raw, *value, half));
+                    own.extend_from_slice(&values[components * cell..components * (cell + 1)]);
                 }
             }
-            let values = deflated(compress, &raw);
-            (!places.is_empty()).then(|| (*low, Leaf { mask: mask(places.into_iter(), LEAF), values }))
+            if places.is_empty() {
+                return None;
+            }
+            let values = deflated(compress, &numbers(&own, half));
+            Some((*low, Leaf { mask: mask(places.into_iter(), LEAF), values }))
         };
         let leaves: Vec<Option<([u32; 3], Leaf)>> =
             all.par_iter().map_init(|| Compress::new(Compression::fast(), true), leaf).collect();
@@ -158,12 +160,13 @@ impl Tree {
     }
 }
 
-fn number(raw: &mut Vec<u8>, value: f32, half: bool) {
-    if half {
-        raw.extend_from_slice(&half::f16::from_f32(value).to_le_bytes());
-    } else {
-        raw.extend_from_slice(&value.to_le_bytes());
+fn numbers(values: &[f32], half: bool) -> Vec<u8> {
+    if !half {
+        return values.iter().flat_map(|value| value.to_le_bytes()).collect();
     }
+    let mut halves = vec![half::f16::ZERO; values.len()];
+    halves.convert_from_f32_slice(values);
+    halves.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
 /// Values behind the number of their bytes: deflated, or where that is no gain as they are, with a negative number.

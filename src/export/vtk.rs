@@ -202,22 +202,26 @@ impl Appended {
 
     /// All quantities of cells or of particles.
     fn quantities(&mut self, snapshot: &Snapshot, place: Place) {
-        for own in quantity::all(snapshot, place) {
-            match own.of(snapshot) {
-                Values::Real(values) => self.array(own.name, own.components, &values),
-                Values::Whole(values) => self.array(own.name, own.components, &values),
-            }
+        let all: Vec<_> = quantity::all(snapshot, place).collect();
+        let packed = all.into_par_iter().with_max_len(1).map(|own| match own.of(snapshot) {
+            Values::Real(values) => (own, f32::TYPE, compressed(cast_slice(&values))),
+            Values::Whole(values) => (own, u32::TYPE, compressed(cast_slice(&values))),
+        });
+        for (own, kind, block) in packed.collect::<Vec<_>>() {
+            self.block(own.name, own.components, kind, block);
         }
     }
 
     fn array<T: Element>(&mut self, name: &str, components: usize, values: &[T]) {
+        self.block(name, components, T::TYPE, compressed(cast_slice(values)));
+    }
+
+    fn block(&mut self, name: &str, components: usize, kind: &str, block: Vec<u8>) {
         let _ = writeln!(
             self.head,
-            "<DataArray type=\"{}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{}\"/>",
-            T::TYPE,
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{}\"/>",
             self.offset
         );
-        let block = compressed(cast_slice(values));
         self.offset += block.len() as u64;
         self.blocks.push(block);
     }
@@ -243,5 +247,5 @@ fn compressed(bytes: &[u8]) -> Vec<u8> {
     let blocks: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(deflated).collect();
     let mut head = vec![blocks.len() as u64, BLOCK as u64, (bytes.len() % BLOCK) as u64];
     head.extend(blocks.iter().map(|block| block.len() as u64));
-    head.iter().flat_map(|word| word.to_ne_bytes()).chain(blocks.concat()).collect()
+    [cast_slice(&head), &blocks.concat()].concat()
 }

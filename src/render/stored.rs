@@ -1,6 +1,7 @@
 //! What pictures are drawn from, bit by bit on the host: read from a simulation, kept in files, and brought to a device again.
 
 use bytemuck::cast_slice;
+use rayon::prelude::*;
 
 use super::buffers::{ParticleBuffers, SceneBuffers};
 use crate::Result;
@@ -154,13 +155,15 @@ impl Stored {
     #[must_use]
     pub fn not_finite(&self) -> Option<&'static str> {
         let finite = |row: &[f32; 4]| row.iter().all(|value| value.is_finite());
-        let gas = |slot: usize| self.kind[slot] == kind::GAS;
+        let gas = |is: &(dyn Fn(usize) -> bool + Sync)| {
+            self.kind.par_iter().enumerate().all(|(slot, cell)| *cell != kind::GAS || is(slot))
+        };
         let particles = self.particles.as_ref();
         let rows =
-            |rows: fn(&StoredParticles) -> &Vec<[f32; 4]>| particles.is_none_or(|own| rows(own).iter().all(finite));
+            |rows: fn(&StoredParticles) -> &Vec<[f32; 4]>| particles.is_none_or(|own| rows(own).par_iter().all(finite));
         let checks = [
-            ("conserved", (0..self.kind.len()).all(|slot| !gas(slot) || finite(&self.conserved[slot]))),
-            ("energy", (0..self.kind.len()).all(|slot| !gas(slot) || self.energy[slot].is_finite())),
+            ("conserved", gas(&|slot| finite(&self.conserved[slot]))),
+            ("energy", gas(&|slot| self.energy[slot].is_finite())),
             ("position", rows(|own| &own.position)),
             ("velocity", rows(|own| &own.velocity)),
         ];

@@ -1,6 +1,11 @@
 //! The grid: cells per axis, spacing, origin; and the padded index space every buffer shares.
 
+use rayon::prelude::*;
+
 use crate::scene::Domain;
+
+/// Cells that one thread takes at least.
+const LEAST: usize = 1 << 12;
 
 /// A uniform grid of cubic cells with 1, 2 or 3 active axes (x, then y, then z).
 ///
@@ -84,14 +89,17 @@ impl Grid {
 
     /// The unpadded part of a padded array, x fastest.
     #[must_use]
-    pub fn unpadded<T: Copy>(&self, padded: &[T]) -> Vec<T> {
-        let mut out = Vec::with_capacity(self.cell_count());
-        for z in 0..self.cells[2] as i32 {
-            for y in 0..self.cells[1] as i32 {
-                let first = self.slot([0, y, z]);
-                out.extend_from_slice(&padded[first..first + self.cells[0] as usize]);
-            }
-        }
-        out
+    pub fn unpadded<T: Copy + Send + Sync>(&self, padded: &[T]) -> Vec<T> {
+        self.unpadded_by(|slot| padded[slot])
+    }
+
+    /// What `value` makes of the slot of each cell, x fastest.
+    pub(crate) fn unpadded_by<T: Send>(&self, value: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
+        let [wide, high, _] = self.cells;
+        let own = |cell: u32| {
+            let row = cell / wide;
+            value(self.slot([(cell % wide) as i32, (row % high) as i32, (row / high) as i32]))
+        };
+        (0..self.cell_count() as u32).into_par_iter().with_min_len(LEAST).map(own).collect()
     }
 }

@@ -299,7 +299,7 @@ fn spoiled_states_are_refused(run: &Path, convert: &[&str]) {
         spoil(&mut state.arrays);
         let head = &state.head;
         let source = Source { scene: state.texts[container::SCENE].clone(), ..head.source.clone() };
-        container::write(&path, (Form::Fields, &source), (head.time, head.step), &[], &state.arrays).unwrap();
+        container::write(&path, (Form::Fields, &source), (head.time, head.step), &[], state.arrays.clone()).unwrap();
         let code = if told.contains("none of") { 9 } else { 2 };
         let text = fails(code, convert);
         assert!(text.contains(told) && text.contains("0001.npz"), "{text}");
