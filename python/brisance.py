@@ -47,6 +47,8 @@ class Run:
     def __init__(self, folder):
         self.folder = Path(folder)
         self.index = json.loads((self.folder / "run.json").read_text())
+        if self.index["version"] > 1:
+            raise ValueError(f"{folder}: run.json has form {self.index['version']}; this reader knows 1")
 
     def frames(self, form="npz"):
         """All stored times of a form: `npz`, `states` or `checkpoints`."""

@@ -4,13 +4,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::export::{Origin, atomic, checkpoint, report};
+use crate::export::forms::{INDEX, INDEX_FORM};
+use crate::export::{Origin, atomic, checkpoint};
 use crate::{Error, Result, input};
-
-/// Name of the file.
-const NAME: &str = "run.json";
-/// Version of its form.
-const VERSION: u32 = 1;
 
 /// The index of a run's folder; all paths are relative to it.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -26,13 +22,6 @@ pub(super) struct Index {
     tables: Vec<String>,
     frames: Vec<Moment>,
     checkpoints: Vec<Left>,
-}
-
-/// Which form an index has, and which program wrote it.
-#[derive(Debug, Default, Deserialize)]
-struct Written {
-    version: u32,
-    program: String,
 }
 
 /// A frame.
@@ -55,27 +44,19 @@ struct Left {
 
 impl Index {
     /// Of a run of which the first `frames` frames are there.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] if a later program wrote the index of those frames.
     pub(super) fn begin(
         folder: &Path,
         origin: &Origin,
         (formats, tables): (&[String], Vec<String>),
         frames: u32,
-    ) -> Result<Self> {
-        let path = folder.join(NAME);
-        let text = input::text(&path, input::MOST_REPORT).ok().filter(|_| frames > 0);
-        let written: Option<Written> = text.as_ref().and_then(|text| serde_json::from_str(text).ok());
-        if let Some(written) = written {
-            report::known_form(&path, written.version, VERSION, &written.program)?;
-        }
+    ) -> Self {
+        let text = input::text(&folder.join(INDEX), input::MOST_REPORT).ok().filter(|_| frames > 0);
         let mut before: Self = text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
         before.frames.retain(|moment| moment.frame < frames);
         before.checkpoints.retain(|left| frames > 0 && folder.join(&left.file).is_file());
         let source = origin.source.clone();
-        Ok(Self {
-            version: VERSION,
+        Self {
+            version: INDEX_FORM,
             program: source.program,
             device: source.device,
             title: origin.title.clone(),
@@ -84,7 +65,7 @@ impl Index {
             formats: formats.to_vec(),
             tables,
             ..before
-        })
+        }
     }
 
     /// Adds a frame at a time \[s\] after so many steps.
@@ -104,7 +85,7 @@ impl Index {
     /// # Errors
     /// [`Error::Io`].
     pub(super) fn save(&self, folder: &Path) -> Result<()> {
-        let path = folder.join(NAME);
+        let path = folder.join(INDEX);
         let text = serde_json::to_vec_pretty(self).map_err(|error| Error::io(&path, error.into()))?;
         atomic::write(&path, |out| out.write_all(&text))
     }

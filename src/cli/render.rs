@@ -12,7 +12,7 @@ use super::progress::clock;
 use super::run::{PICTURES, without_coarse};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device};
-use crate::export::{self, report, states};
+use crate::export::{self, forms, states};
 use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
 use crate::scene::{MOST_PARTICLES, Overlays, Scene, Shot};
@@ -22,15 +22,6 @@ use crate::{Error, Result, input};
 
 /// Name of the scene's own look among the views.
 const MAIN: &str = "main";
-
-/// Which form a report has, and who wrote it.
-#[derive(Deserialize)]
-struct Formed {
-    #[serde(default)]
-    form: u32,
-    #[serde(default)]
-    version: String,
-}
 
 /// What is needed of a run's report.
 #[derive(Deserialize)]
@@ -124,24 +115,19 @@ pub(super) fn belongs(path: &Path, (hash, scene): (&str, &str), stored: &Stored,
 /// Reads the report of a run.
 ///
 /// # Errors
-/// [`Error::Usage`] if the folder is none of a run, or the report lies elsewhere and `outside` does not allow it.
+/// [`Error::Usage`] if the folder is none of a run or one of a later program, or the report lies elsewhere and `outside` does not allow
+/// it.
 pub(super) fn read_report(run: &Path, outside: bool) -> Result<Recorded> {
     let path = run.join("report.json");
-    if !outside {
-        export::stays_inside(run, &path)?;
-    }
+    forms::known(run, outside)?;
     let text = input::text(&path, input::MOST_REPORT).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => {
             Error::Usage(format!("{} is no folder of a run: it has no report.json", run.display()))
         }
         _ => Error::io(&path, source),
     })?;
-    let wrong = |error: serde_json::Error| {
-        Error::Usage(format!("{}: {error}; run the scene again with this program", path.display()))
-    };
-    let Formed { form, version } = serde_json::from_str(&text).map_err(wrong)?;
-    report::known_form(&path, form, report::FORM, &version)?;
-    serde_json::from_str(&text).map_err(wrong)
+    serde_json::from_str(&text)
+        .map_err(|error| Error::Usage(format!("{}: {error}; run the scene again with this program", path.display())))
 }
 
 /// The scene of the run with the look that the options ask for.

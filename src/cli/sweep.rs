@@ -80,7 +80,7 @@ impl<'a> Sweep<'a> {
         let mut failed = Vec::new();
         for (done, &number) in self.own.iter().enumerate() {
             let (folder, sets) = (self.folder(number), self.sets(number));
-            if !self.finished(&folder, &sets) {
+            if !self.finished(&folder, &sets)? {
                 let begun = Instant::now();
                 rows.forget(number);
                 self.start(gpu)?;
@@ -149,7 +149,7 @@ impl<'a> Sweep<'a> {
     fn start(&self, gpu: &Gpu) -> Result<()> {
         let Some(time) = self.options.branch_at else { return Ok(()) };
         let folder = self.options.out.join(START);
-        if self.finished(&folder, &[]) {
+        if self.finished(&folder, &[])? {
             return Ok(());
         }
         let options = RunOptions {
@@ -183,8 +183,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// Whether a folder holds the finished run of these values.
-    fn finished(&self, folder: &Path, sets: &[String]) -> bool {
-        self.is_own(folder, sets) && report(folder)["status"] == "finished"
+    fn finished(&self, folder: &Path, sets: &[String]) -> Result<bool> {
+        Ok(self.is_own(folder, sets) && report(folder)?["status"] == "finished")
     }
 
     fn is_own(&self, folder: &Path, sets: &[String]) -> bool {

@@ -189,7 +189,6 @@ impl<'a> Work<'a> {
             let names = tables.marks().files.into_keys().collect();
             Index::begin(&files.folder, &origin, (&files.formats, names), *frames)
         });
-        let index = index.transpose()?;
         let films = files.lost_film.iter().cloned().map(Err).collect();
         let written = Written { frames: *frames, films, ..Written::default() };
         Ok(Self { files, exporters, origin, tables, index, written, given_up: false })

@@ -10,6 +10,7 @@ pub mod container;
 pub mod csv;
 mod encoder;
 pub mod exr;
+pub mod forms;
 pub mod mesh;
 mod npy;
 mod ply;

@@ -102,19 +102,6 @@ pub struct Report<S> {
     pub scene: S,
 }
 
-/// Refuses a file that a later program wrote in a form beyond the one that is known.
-///
-/// # Errors
-/// [`Error::Usage`] with the file, its program and both forms.
-pub fn known_form(path: &Path, form: u32, known: u32, program: &str) -> Result<()> {
-    if form <= known {
-        return Ok(());
-    }
-    let this = env!("CARGO_PKG_VERSION");
-    let text = format!("brisance {program} wrote it in form {form}; this is {this}, which reads forms up to {known}");
-    Err(Error::Usage(format!("{}: {text}: take a newer program", path.display())))
-}
-
 /// Writes any report as indented JSON. On a full disk it takes the place of the earlier one, in one line, which is shorter.
 ///
 /// # Errors

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use crate::expect::{Budget, Summary};
-use crate::export::{self, checkpoint, container, states};
+use crate::export::{self, checkpoint, container, forms, states};
 use crate::render::Stored;
 use crate::scene::Scene;
 use crate::simulation::{Host, Saved};
@@ -158,6 +158,7 @@ pub(super) struct Recorded {
 /// # Errors
 /// [`Error::Usage`] if the folder has neither checkpoints nor states, or some of another scene; [`Error::Io`]; [`Error::Scene`].
 pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
+    forms::known(run, outside)?;
     let (whole, light) = (checkpoint::list(run)?, states::list(run)?);
     let all = || whole.iter().map(|(_, path)| path).chain(light.iter().map(|(_, path)| path));
     let Some(last) = whole.last().map(|(_, path)| path).or(light.last().map(|(_, path)| path)) else {

@@ -258,17 +258,30 @@ fn what_a_later_program_wrote_is_refused_and_what_the_first_wrote_is_read() {
         assert!(text.contains(one), "{name}: {text}");
         std::fs::write(run.join(name), text.replacen(one, other, 1)).unwrap();
     };
+    let (at, branch) = (format!("{out}@0.01"), place.path().join("branch").display().to_string());
+    let refused = |file: &str| {
+        let verbs: [&[&str]; 5] = [
+            &convert,
+            &["render", &out],
+            &["run", "--resume", &out, "-q"],
+            &["run", "--branch", &at, "-q", "--out", &branch],
+            #[cfg(feature = "viewer")]
+            &["view", &out],
+            #[cfg(not(feature = "viewer"))]
+            &convert,
+        ];
+        for verb in verbs {
+            let told = fails(2, verb);
+            assert!(told.contains(file) && told.contains("in form 2") && told.contains("newer program"), "{told}");
+        }
+    };
     swap("report.json", "\"form\": 1,", "\"form\": 2,");
-    for verb in [&convert[..], &["render", &out]] {
-        let told = fails(2, verb);
-        assert!(told.contains("report.json") && told.contains("in form 2") && told.contains("newer program"), "{told}");
-    }
+    refused("report.json");
     swap("report.json", "\"form\": 2,", "");
     succeeds(&convert);
     spoiled_states_are_refused(&run, &convert);
     swap("run.json", "\"version\": 1,", "\"version\": 2,");
-    let told = fails(2, &["run", "--resume", &out, "-q"]);
-    assert!(told.contains("run.json") && told.contains("in form 2"), "{told}");
+    refused("run.json");
     swap("run.json", "\"version\": 2,", "\"version\": 1,");
     succeeds(&["run", "--resume", &out, "-q", "--no-expect"]);
 }

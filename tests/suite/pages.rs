@@ -55,6 +55,16 @@ fn a_sweep_leaves_a_table_and_a_page_and_goes_on() {
     assert!(
         page.contains("density 6") && page.contains("href=\"0005/report.html\"") && page.matches("<svg").count() > 10
     );
+    let later = |name: &str, one: &str, other: &str| {
+        let path = out.join("0000").join(name);
+        std::fs::write(&path, text(&path).replacen(one, other, 1)).unwrap();
+    };
+    for (name, form) in [("report.json", "\"form\": "), ("run.json", "\"version\": ")] {
+        later(name, &format!("{form}1,"), &format!("{form}2,"));
+        let told = fails(2, &[&base[..], &over].concat());
+        assert!(told.contains(name) && told.contains("in form 2") && told.contains("newer program"), "{told}");
+        later(name, &format!("{form}2,"), &format!("{form}1,"));
+    }
     // another scene is another sweep
     succeeds(&[&base[..], &over, &["--shard", "1/6", "--set", "gas.ambient.density=2.0"]].concat());
     assert_ne!(text(&out.join("0000/report.json")), first);

@@ -11,8 +11,8 @@ use super::super::tables::Marks;
 use super::super::{scenes, writer};
 use super::checkpoint::About;
 use super::overrides;
-use crate::export::checkpoint;
 use crate::export::container::Head;
+use crate::export::{checkpoint, forms};
 use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::scene::{self, Changes, Scene};
@@ -95,6 +95,7 @@ impl Beginning {
     fn resumed(given: &RunOptions) -> Result<Self> {
         let run = Path::new(&given.scene.scene);
         refuse_changes(given)?;
+        forms::known(run, true)?;
         let all = listed(run)?;
         let path = all.last().map(|(_, path)| path.clone()).unwrap_or_default();
         let mut from = From::read(run, &path, &[]).map_err(|error| older(error, &all))?;
@@ -126,6 +127,7 @@ impl Beginning {
         if let Some(key) = given.scene.set.iter().map(|set| key(set)).find(|key| !may_change(key)) {
             return Err(Error::Usage(format!("--set {key} with --branch: {REFUSED}")));
         }
+        forms::known(Path::new(run), true)?;
         let path = latest_before(Path::new(run), time)?;
         let mut from = From::read(Path::new(run), &path, &[])?;
         from.branch = true;

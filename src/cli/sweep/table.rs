@@ -6,6 +6,8 @@ use std::path::Path;
 use serde_json::Value as Json;
 
 use crate::export::csv::{Table, Value};
+use crate::export::forms;
+use crate::export::report::REPORT;
 use crate::{Result, input};
 
 /// Columns before the values.
@@ -41,7 +43,7 @@ impl Rows {
     /// Writes the table of all runs that are there and are runs of this sweep, as `own` says.
     ///
     /// # Errors
-    /// [`crate::Error::Io`].
+    /// [`crate::Error::Io`]; [`crate::Error::Usage`] if a later program wrote a run.
     pub(super) fn save(
         &mut self,
         out: &Path,
@@ -51,7 +53,7 @@ impl Rows {
         for (number, row) in self.rows.iter_mut().enumerate().filter(|(_, row)| row.is_none()) {
             let folder = out.join(format!("{number:04}"));
             if own(number, &folder) {
-                *row = Row::of(&report(&folder));
+                *row = Row::of(&report(&folder)?);
             }
         }
         let mut columns: Vec<&String> = Vec::new();
@@ -92,9 +94,13 @@ impl Row {
 }
 
 /// The report of a run; null where there is none.
-pub(super) fn report(folder: &Path) -> Json {
-    let text = input::text(&folder.join("report.json"), input::MOST_REPORT).ok();
-    text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+///
+/// # Errors
+/// [`crate::Error::Usage`] if a later program wrote it.
+pub(super) fn report(folder: &Path) -> Result<Json> {
+    forms::known(folder, true)?;
+    let text = input::text(&folder.join(REPORT), input::MOST_REPORT).ok();
+    Ok(text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default())
 }
 
 /// Numbers of a run by name.
