@@ -10,14 +10,6 @@ pub const IMPLICIT_COURANT: f64 = 1000.0;
 
 /// Runs of more steps will hardly end.
 const MANY_STEPS: f64 = 1e6;
-/// Share of the raw pixels that a PNG takes.
-const PNG: f64 = 0.25;
-/// Bytes of a pixel in pictures of 16 bits per channel, and in pictures of linear light: what is fine hardly shrinks.
-const PNG16: f64 = 4.0;
-const EXR: f64 = 9.0;
-/// Bytes of a cell and of a particle in VTK files and states, before they are compressed.
-const CELL: f64 = 32.0;
-const PARTICLE: f64 = 160.0;
 
 /// The estimate.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -34,7 +26,7 @@ pub struct Estimate {
     pub substeps: f64,
     /// How many times as long the step would be but for the limit of implicit elasticity, [`IMPLICIT_COURANT`]; 1 where that does not act.
     pub implicit_cap: f64,
-    /// Bytes of pictures, fields and states.
+    /// Bytes of all files beside checkpoints.
     pub disk_bytes: f64,
 }
 
@@ -93,18 +85,5 @@ impl Scene {
         let formats: Vec<&str> = ["png"].into_iter().chain(self.output.formats()).collect();
         let disk_bytes = self.disk_bytes((particles, steps), &formats);
         Estimate { gas_sound_speed: sound, solid_sound_speed: solid, step, steps, substeps, implicit_cap, disk_bytes }
-    }
-    /// Bytes that a run of so many particles and steps writes in some formats, about, beside checkpoints.
-    #[must_use]
-    pub fn disk_bytes(&self, (particles, steps): (usize, f64), formats: &[&str]) -> f64 {
-        let frames = f64::from(self.time.frames) + 1.0;
-        let pixels = f64::from(self.render.size[0]) * f64::from(self.render.size[1]);
-        let pictures = (1 + self.render.views.len()) as f64 * self.output.fields.len().max(1) as f64;
-        let share = |name: &str, bytes: f64| if formats.contains(&name) { bytes } else { 0.0 };
-        let pixel = share("png", 3.0 * PNG) + share("png16", PNG16) + share("exr", EXR);
-        let states = formats.iter().filter(|name| !["png", "png16", "exr"].contains(*name)).count();
-        let stored = states as f64 * (CELL * self.domain.cell_count() as f64 + PARTICLE * particles as f64);
-        // one row of the table of steps has about 600 bytes
-        frames * (pixel * pixels * pictures + stored) + 600.0 * steps
     }
 }

@@ -22,6 +22,7 @@ mod check_shape;
 mod color;
 mod coupling;
 mod cut;
+mod disk;
 mod distance;
 mod estimate;
 mod expectation;
