@@ -23,7 +23,7 @@ const DELAY: u16 = 120;
 /// Looks beside those of the report of `verify`.
 const OWN_PAGE_STYLE: &str = "figure{margin:.6rem 0;display:flex;flex-wrap:wrap;gap:.6rem;align-items:flex-start}\
 figure img{max-width:100%}img.last{flex:2 1 30rem;min-width:0}img.moving{flex:1 1 16rem;min-width:0}\
-.sides{display:flex;flex-wrap:wrap;gap:2rem}.sides table{width:auto;flex:1 1 20rem}pre{overflow:auto;font-size:.75rem}";
+.sides{display:flex;flex-wrap:wrap;gap:2rem}.sides table{width:auto;flex:1 1 20rem}.wide{overflow-x:auto}pre{overflow:auto;font-size:.75rem}";
 
 /// The head of a page up to its first heading.
 pub(super) fn start(title: &str) -> String {

@@ -6,9 +6,11 @@ use super::html::escape;
 use super::ticks;
 
 /// Width and height of a plot, in its own units.
-const SIZE: [f64; 2] = [700.0, 400.0];
+const SIZE: [f64; 2] = [718.0, 400.0];
 /// Room beside the axes: left, top, right, bottom.
-const MARGIN: [f64; 4] = [70.0, 34.0, 220.0, 48.0];
+const MARGIN: [f64; 4] = [88.0, 34.0, 220.0, 48.0];
+/// Values that differ by less of themselves are shown as equal: their labels would need more digits than there is room for.
+const NARROWEST: f64 = 1e-3;
 /// Colours in turn; dark enough for paper. [Okabe and Ito 2008]
 const COLORS: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56b4e9", "#444444", "#7b3294"];
 
@@ -79,7 +81,13 @@ impl Plot {
             return [0.0, 1.0];
         }
         let share = if axis == 0 && !self.logarithmic { 0.0 } else { 0.05 };
-        let margin = (share * (high - low)).max(if low == high { 0.5 * low.abs().max(1e-6) } else { 0.0 });
+        let largest = low.abs().max(high.abs());
+        let narrow = !self.logarithmic && high - low < NARROWEST * largest;
+        let margin = match low == high {
+            true => 0.5 * largest.max(1e-6),
+            false if narrow => 0.5 * NARROWEST * largest,
+            false => share * (high - low),
+        };
         [low - margin, high + margin]
     }
 
@@ -213,5 +221,24 @@ impl Frame {
     fn place(&self, axis: usize, value: f64) -> f64 {
         let [low, high] = self.ranges[axis];
         self.pixel(axis, (value - low) / (high - low))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_fit_beside_the_axes() {
+        let noise = |middle: f64, spread: f64| (0..9).map(move |k| [middle + spread * f64::from(k % 3), f64::from(k)]);
+        for (middle, spread) in [(0.5, 1e-9), (0.5, 0.0), (-3e7, 1.0), (1e-12, 1e-20), (0.0, 2e-9), (2.0, 0.4)] {
+            let plot = Plot::new("", "", "").with("", Style::Line, noise(middle, spread).collect());
+            let labels: Vec<String> = plot.ticks(plot.range(0), 6).into_iter().map(|(_, label)| label).collect();
+            let (mut apart, [low, high]) = (labels.clone(), plot.range(0));
+            apart.dedup();
+            assert!(labels.len() > 1 && labels == apart, "{middle} {spread}: {labels:?}");
+            assert!(labels.iter().all(|label| label.chars().count() <= 12), "{middle} {spread}: {labels:?}");
+            assert!(low <= middle && middle + 2.0 * spread <= high);
+        }
     }
 }

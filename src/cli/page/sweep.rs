@@ -85,7 +85,7 @@ fn plot(sheet: &Sheet, (key, x): (&str, &[f64]), name: &str, others: &[&String])
 fn table(page: &mut String, keys: &[String], measured: &[&String], sheet: &Sheet) {
     let names = ["run", "status"].into_iter().chain(keys.iter().chain(measured.iter().copied()).map(String::as_str));
     let heads: String = names.map(|name| format!("<th>{}</th>", escape(&name.replace('_', " ")))).collect();
-    let _ = writeln!(page, "<table><thead><tr>{heads}</tr></thead><tbody>");
+    let _ = writeln!(page, "<div class=\"wide\"><table><thead><tr>{heads}</tr></thead><tbody>");
     for (row, run) in sheet.numbers("run").unwrap_or_default().iter().enumerate() {
         let text = |name: &str| escape(sheet.texts(name).map_or("", |all| &all[row]));
         let link = format!("<td><a href=\"{run:04}/report.html\">{run:04}</a></td><td>{}</td>", text("status"));
@@ -94,5 +94,5 @@ fn table(page: &mut String, keys: &[String], measured: &[&String], sheet: &Sheet
         let rest: String = measured.iter().map(|name| format!("<td>{}</td>", number(&real(name).into()))).collect();
         let _ = writeln!(page, "<tr>{link}{values}{rest}</tr>");
     }
-    let _ = writeln!(page, "</tbody></table>");
+    let _ = writeln!(page, "</tbody></table></div>");
 }
