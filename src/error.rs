@@ -45,7 +45,7 @@ pub enum Error {
     #[error("{0}")]
     Expectation(String),
     /// A file could not be read or written.
-    #[error("{path}: {source}")]
+    #[error("{path}: {source}{}", advice(source))]
     Io {
         /// The file.
         path: PathBuf,
@@ -64,6 +64,19 @@ pub enum Error {
 impl std::fmt::Debug for Error {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         std::fmt::Display::fmt(self, formatter)
+    }
+}
+
+/// What to do about what the system says.
+fn advice(source: &std::io::Error) -> &'static str {
+    use std::io::ErrorKind::{FileTooLarge, PermissionDenied, QuotaExceeded, ReadOnlyFilesystem, StorageFull};
+    match source.kind() {
+        _ if source.raw_os_error().is_none() => "",
+        StorageFull | QuotaExceeded | FileTooLarge => {
+            "; what was written before is whole: make room, or write to another disk with --out"
+        }
+        ReadOnlyFilesystem | PermissionDenied => "; choose another place, or change who may use this one",
+        _ => "",
     }
 }
 

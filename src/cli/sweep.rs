@@ -90,6 +90,7 @@ impl<'a> Sweep<'a> {
                         | Error::Scene(_)
                         | Error::Usage(_)
                         | Error::Gpu(_)
+                        | Error::Io { .. }
                         | Error::NoAdapter(_)),
                     ) => return Err(error),
                     Err(error) => {

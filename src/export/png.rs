@@ -65,7 +65,7 @@ impl Picture {
 pub fn write(path: &Path, frame: &Frame, text: &[(&str, String)]) -> Result<()> {
     // Every pixel is opaque: three bytes say it all.
     let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-    atomic::write(path, |out| encode(out, frame, (BitDepth::Eight, &rgb), text).map_err(io::Error::other))
+    atomic::write(path, |out| encode(out, frame, (BitDepth::Eight, &rgb), text).map_err(told))
 }
 
 /// Reads a picture that [`write()`] wrote.
@@ -88,7 +88,15 @@ pub fn read(path: &Path) -> Result<Frame> {
 /// The same with 16 bits per channel.
 fn write_fine(path: &Path, picture: &Picture, text: &[(&str, String)]) -> Result<()> {
     let words: Vec<u8> = picture.fine.iter().flatten().flat_map(|value| value.to_be_bytes()).collect();
-    atomic::write(path, |out| encode(out, &picture.frame, (BitDepth::Sixteen, &words), text).map_err(io::Error::other))
+    atomic::write(path, |out| encode(out, &picture.frame, (BitDepth::Sixteen, &words), text).map_err(told))
+}
+
+/// What the system says, as it says it.
+fn told(error: EncodingError) -> io::Error {
+    match error {
+        EncodingError::IoError(error) => error,
+        other => io::Error::other(other),
+    }
 }
 
 fn encode(

@@ -72,7 +72,7 @@ fn output_that_goes_away_ends_no_run() {
 }
 
 /// Puts a program of that name and text in front of all others.
-fn with_program(folder: &Path, name: &str, text: &str) -> String {
+pub(crate) fn with_program(folder: &Path, name: &str, text: &str) -> String {
     let bin = folder.join("bin");
     std::fs::create_dir_all(&bin).unwrap();
     std::fs::write(bin.join(name), text).unwrap();

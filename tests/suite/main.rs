@@ -67,3 +67,5 @@ mod viewer;
 mod walls;
 mod warnings;
 mod words;
+#[cfg(unix)]
+mod written;
