@@ -160,7 +160,8 @@ impl Desk {
         // The start is shown before the first step, for which some drivers compile for long.
         let outcome = if self.shown.is_none() { Ok(()) } else { self.advance() }.and_then(|()| self.draw());
         if self.playing && step > 0 {
-            let steps = self.session.as_ref().map_or(step, Session::step_count) - step;
+            // from a frame without a checkpoint the scene goes on before it
+            let steps = self.session.as_ref().map_or(step, Session::step_count).saturating_sub(step);
             self.ran = (self.ran.0 + steps, self.ran.1 + (self.now() - self.turned.max(start - LONGEST_LAG)));
         }
         self.turned = self.now();

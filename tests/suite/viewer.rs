@@ -141,6 +141,17 @@ fn states_of_frames_are_shown_and_the_scene_goes_on_before_them() {
     session.advance(1, &mut records).unwrap();
     let (_, rows) = crate::cli::table(&run.join("diagnostics.csv"));
     assert_eq!((f64::from(records[0].step), records[0].time), (rows[0][0], rows[0][1]), "from the start");
+    // the window plays it from there
+    let worker = Worker::start(GpuOptions::default(), || {});
+    let mut seen = Outbox::default();
+    worker.send(Command::Pace(Pace::Fastest));
+    worker.send(Command::Open(Request::of(out), None));
+    wait(&worker, &mut seen, "run", |seen| seen.opened.is_some() && seen.shown.is_some());
+    assert!(near(seen.status.time, 0.2), "{:?}", seen.status);
+    worker.send(Command::Rewind(0.1));
+    worker.send(Command::Play(true));
+    wait(&worker, &mut seen, "end", |seen| seen.status.finished && seen.records.len() > 2);
+    assert!(seen.notes.is_empty(), "{:?}", seen.notes);
     // what is left of a branch has no start to go back to
     std::fs::remove_file(run.join("states/0000.npz")).unwrap();
     let mut session = Session::open_run(&gpu, &run, false).unwrap();
