@@ -60,6 +60,8 @@ pub struct Origin {
     pub source: container::Source,
     /// Its obstacles.
     pub obstacles: Vec<Obstacle>,
+    /// Kelvin for a pressure over density of 1 m^2 s^-2, where the scene says so.
+    pub kelvin: Option<f64>,
 }
 
 impl Origin {
@@ -67,8 +69,9 @@ impl Origin {
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let source = container::Source::of(scene);
-        let obstacles = scene.obstacles.clone();
-        Self { title: scene.title.clone(), hash: source.scene_hash.clone(), source, obstacles }
+        let (obstacles, ambient) = (scene.obstacles.clone(), &scene.gas.ambient);
+        let kelvin = scene.output.ambient_kelvin.map(|kelvin| kelvin * ambient.density / ambient.pressure);
+        Self { title: scene.title.clone(), hash: source.scene_hash.clone(), source, obstacles, kelvin }
     }
 
     /// The same of a scene that lies at a place, on a device.
@@ -215,7 +218,7 @@ pub const FORMATS: &[Format] = &[
     },
     Format {
         name: "vtk",
-        description: "fields/NNNN.vti, particles/NNNN.vtp and .pvd time series for ParaView and VTK",
+        description: "fields/NNNN.vti, particles/NNNN.vtp, .pvd time series and open_in_paraview.py for ParaView and VTK",
         open: |folder| Box::new(vtk::VtkExporter::new(folder)),
     },
     Format {

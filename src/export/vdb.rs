@@ -22,8 +22,10 @@ const LIBRARY: [u32; 2] = [10, 0];
 const COMPRESSION: u32 = 1 | 2;
 /// Largest number of the format of 16 bits.
 const MOST_HALF: f32 = 65504.0;
+/// What is in kelvin where the scene says what its gas has.
+const TEMPERATURE: &str = "temperature";
 /// Quantities that are written.
-const GRIDS: [&str; 7] = ["density", "pressure", "temperature", "velocity", "schlieren", "peak_pressure", "impulse"];
+const GRIDS: [&str; 7] = ["density", "pressure", TEMPERATURE, "velocity", "schlieren", "peak_pressure", "impulse"];
 
 /// Writes `vdb/NNNN.vdb`.
 #[derive(Debug)]
@@ -69,7 +71,8 @@ pub(super) fn volumes(snapshot: &Snapshot, moment: &Moment) -> Vec<u8> {
     out.words(&[2]);
     out.text_entry("creator", creator);
     out.text_entry("scene", &moment.origin.title);
-    let grids: Vec<Volume> = GRIDS.par_iter().filter_map(|name| Volume::of(name, snapshot)).collect();
+    let grid = |name: &&str| Volume::of(name, snapshot, moment.origin.kelvin);
+    let grids: Vec<Volume> = GRIDS.par_iter().filter_map(grid).collect();
     out.words(&[grids.len() as u32]);
     for grid in &grids {
         grid.write(&mut out, snapshot);
@@ -95,9 +98,13 @@ struct Volume {
 }
 
 impl Volume {
-    fn of(name: &str, snapshot: &Snapshot) -> Option<Self> {
+    fn of(name: &str, snapshot: &Snapshot, kelvin: Option<f64>) -> Option<Self> {
         let quantity = quantity::all(snapshot, Place::Cell).find(|quantity| quantity.name == name)?;
-        let Values::Real(values) = quantity.of(snapshot) else { return None };
+        let Values::Real(mut values) = quantity.of(snapshot) else { return None };
+        let kelvin = kelvin.filter(|_| name == TEMPERATURE);
+        if let Some(kelvin) = kelvin {
+            values.par_iter_mut().for_each(|value| *value = (f64::from(*value) * kelvin) as f32);
+        }
         let components = quantity.components;
         // the background is what most of the far corner holds: gas at rest, which no front has reached
         let gas = |cell: &usize| snapshot.kind[*cell] == kind::GAS;
@@ -109,7 +116,8 @@ impl Volume {
         }
         let differs = |cell: usize| at(cell).iter().zip(&background).any(|(a, b)| a.to_bits() != b.to_bits());
         let active = (0..snapshot.kind.len()).into_par_iter().map(|cell| gas(&cell) && differs(cell)).collect();
-        Some(Self { name: quantity.name, unit: quantity.unit, components, values, active, background })
+        let unit = if kelvin.is_some() { "K" } else { quantity.unit };
+        Some(Self { name: quantity.name, unit, components, values, active, background })
     }
 
     fn write(&self, out: &mut Bytes, snapshot: &Snapshot) {
@@ -158,5 +166,24 @@ fn write_transform(out: &mut Bytes, snapshot: &Snapshot) {
     out.reals(&middle);
     for value in [edge, edge, 1.0 / edge, 1.0 / (edge * edge), 0.5 / edge] {
         out.reals(&[value; 3]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::Grid;
+
+    #[test]
+    fn temperatures_are_in_kelvin_where_the_scene_says_what_its_gas_has() {
+        let grid = Grid { dimension: 2, cells: [2, 1, 1], origin: [0.0; 3], spacing: 0.5 };
+        let mut gas = Snapshot::of_particles((0.0, 0), grid, Vec::new());
+        (gas.kind, gas.density, gas.pressure) = (vec![kind::GAS; 2], vec![0.5, 1.0], vec![2.0, 1.0]);
+        let of = |kelvin| Volume::of(TEMPERATURE, &gas, kelvin).unwrap();
+        let (plain, kelvin) = (of(None), of(Some(300.0)));
+        assert_eq!((plain.unit, plain.values), ("m^2 s^-2", vec![4.0, 1.0]));
+        assert_eq!((kelvin.unit, kelvin.values, kelvin.background), ("K", vec![1200.0, 300.0], [300.0, 0.0, 0.0]));
+        let [low, high] = [None, Some(300.0)].map(|kelvin| Volume::of("density", &gas, kelvin).unwrap().values);
+        assert_eq!(low, high);
     }
 }

@@ -17,19 +17,24 @@ use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::quantity::{self, Place, Values};
 use crate::snapshot::{Snapshot, kind};
 
-/// Writes `fields/NNNN.vti`, `particles/NNNN.vtp`, and `fields.pvd`, `particles.pvd` that give each file its time.
+/// What opens them in ParaView.
+const SCRIPT: &str = "open_in_paraview.py";
+
+/// Writes `fields/NNNN.vti`, `particles/NNNN.vtp`, `fields.pvd`, `particles.pvd` that give each file its time, and a script for ParaView.
 #[derive(Debug)]
 pub struct VtkExporter {
     folder: PathBuf,
     fields: Vec<(f64, String)>,
     particles: Vec<(f64, String)>,
+    /// Whether the script is there.
+    begun: bool,
 }
 
 impl VtkExporter {
     /// For one output folder.
     #[must_use]
     pub fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_owned(), fields: Vec::new(), particles: Vec::new() }
+        Self { folder: folder.to_owned(), fields: Vec::new(), particles: Vec::new(), begun: false }
     }
 }
 
@@ -47,10 +52,15 @@ impl Exporter for VtkExporter {
             self.particles.push((moment.time, name));
             write_series(&self.folder.join("particles.pvd"), &self.particles)?;
         }
-        Ok(())
+        if std::mem::replace(&mut self.begun, true) {
+            Ok(())
+        } else {
+            write_script(&self.folder.join(SCRIPT), snapshot)
+        }
     }
 
     fn go_on(&mut self, frames: u32, time: &dyn Fn(u32) -> f64) -> Result<()> {
+        self.begun = frames > 0 && self.folder.join(SCRIPT).is_file();
         for index in 0..frames {
             for (folder, extension, series) in
                 [("fields", "vti", &mut self.fields), ("particles", "vtp", &mut self.particles)]
@@ -128,6 +138,15 @@ pub fn write_series(path: &Path, files: &[(f64, String)]) -> Result<()> {
         }
         writeln!(out, "</Collection>\n</VTKFile>")
     })
+}
+
+/// Writes what opens the files in ParaView, with points as wide as particles are apart at rest.
+fn write_script(path: &Path, snapshot: &Snapshot) -> Result<()> {
+    let (particles, axes) = (&snapshot.particles, snapshot.grid.dimension);
+    let volume: f64 = particles.iter().map(|particle| f64::from(particle.volume0)).sum();
+    let radius = 0.5 * (volume / particles.len().max(1) as f64).powf(1.0 / f64::from(axes));
+    let text = include_str!("paraview.py").replace("DIMENSION", &axes.to_string());
+    atomic::write(path, |out| out.write_all(text.replace("RADIUS", &format!("{radius:?}")).as_bytes()))
 }
 
 /// What `vtkGhostType` says of cells that are not shown. [vtkDataSetAttributes.h, HIDDENCELL]

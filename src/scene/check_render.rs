@@ -15,6 +15,9 @@ const POLE: f64 = 89.9;
 
 impl Check<'_> {
     pub(super) fn render(&mut self) {
+        if let Some(kelvin) = self.scene.output.ambient_kelvin {
+            self.positive("output.ambient_kelvin".to_owned(), kelvin, "[K]");
+        }
         let before = self.findings.len();
         self.look("render", &self.scene.render);
         let own = self.findings[before..].to_vec();

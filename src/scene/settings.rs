@@ -78,6 +78,9 @@ pub struct Output {
     pub maps: bool,
     /// Also write what pictures are drawn from, so that `brisance render` can draw them again.
     pub states: bool,
+    /// What the ambient gas has \[K\]: volumes have temperatures in kelvin then, not as pressure over density.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ambient_kelvin: Option<f64>,
 }
 
 impl Output {
@@ -90,6 +93,14 @@ impl Output {
 
 impl Default for Output {
     fn default() -> Self {
-        Output { fields: vec![Field::Density], vtk: false, png16: false, exr: false, maps: false, states: false }
+        Output {
+            fields: vec![Field::Density],
+            vtk: false,
+            png16: false,
+            exr: false,
+            maps: false,
+            states: false,
+            ambient_kelvin: None,
+        }
     }
 }
