@@ -323,7 +323,7 @@ fn a_film_is_made_where_there_is_ffmpeg() {
         eprintln!("skipped: no ffmpeg and ffprobe");
         return;
     }
-    let output = run(&arguments);
+    let output = run(&[&arguments[..], &["--force"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(err(&output).contains("film in "), "{}", err(&output));
     for name in ["film.mp4", "film_top.mp4"] {

@@ -7,15 +7,10 @@ use crate::common::gpu_or_skip;
 
 /// Copies the shaders into a folder, one of them changed.
 fn shaders_with(folder: &Path, name: &str, from: &str, to: &str) {
-    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
-    for part in ["", "shared", "materials"] {
-        std::fs::create_dir_all(folder.join(part)).unwrap();
-        for entry in std::fs::read_dir(home.join(part)).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_file() {
-                std::fs::copy(&path, folder.join(part).join(path.file_name().unwrap())).unwrap();
-            }
-        }
+    for (path, text) in crate::shaders::files() {
+        let copy = folder.join(path);
+        std::fs::create_dir_all(copy.parent().unwrap()).unwrap();
+        std::fs::write(copy, text).unwrap();
     }
     let text = std::fs::read_to_string(folder.join(name)).unwrap();
     assert!(text.contains(from), "{name} has no `{from}`");
