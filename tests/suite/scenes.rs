@@ -237,7 +237,7 @@ scenes! {
     playground: "demos/playground_2d.toml";
     #[ignore = "59 s in software, two scenes at a time"]
     bursting_shell_3d: "demos/bursting_shell_3d.toml";
-    bursting_vessel_3d: "demos/bursting_vessel_3d.toml", "variant=small";
+    bursting_vessel_3d: "demos/bursting_vessel_3d.toml" [small];
     gelatine_3d: "demos/gelatine_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
     ball_in_blast_3d: "demos/ball_in_blast_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
 }
