@@ -44,7 +44,7 @@ pub(super) const CASES: &[Case] = &[
     },
     Case {
         id: "supernova",
-        title: "Planets and asteroids in a blast: faces partly open or closed",
+        title: "Planets and asteroids in a blast",
         group: group::ABLATIONS,
         quick: false,
         source: "Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Fig. 8; a section at reduced size.",
