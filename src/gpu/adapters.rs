@@ -48,7 +48,8 @@ impl AdapterSummary {
 }
 
 /// What has run on which driver, by a part of its description.
-const KNOWN: [(&str, &str); 3] = [
+const KNOWN: [(&str, &str); 4] = [
+    ("nvidia h100", "selftest, most of the suite and the scenes of the paper have run on it, under Vulkan"),
     ("nvidia h200", "selftest and most of the suite have run on it, under Vulkan"),
     ("mesa 22.3", "the whole suite runs on it, at every change"),
     ("llvmpipe", "the suite runs on Mesa 22.3 and 25.0; newer ones compile longer and compute faster"),
