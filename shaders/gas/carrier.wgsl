@@ -3,17 +3,8 @@
 // cells step after step. Reads gas, cells. Writes the carrier (node, in scenes without bodies) of GAS cells: per component the
 // velocity averaged with (1, 2, 1) / 4 along every other axis, and in w the sum of its differences across the faces. GHOST slots: by how
 // much the velocity of the face, as the last solve saw it, exceeds that of the cell before it.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/boundary.wgsl"
-#include "shared/interior.wgsl"
-#include "shared/cut.wgsl"
 #include "gas/cut_carrier.wgsl"
-#include "shared/open_part.wgsl"
-#include "shared/still.wgsl"
+#include "shared/open_side.wgsl"
 
 override SOURCE: u32;   // 0: the state now, 1: U1, 2: U*
 override SOLVED: bool;  // the solve has moved air that was still
@@ -27,7 +18,7 @@ override SOLVED: bool;  // the solve has moved air that was still
 @group(0) @binding(8) var<storage, read> energy: array<f32>;
 
 fn source(slot: u32) -> vec4f {
-    if SOURCE == 1u { return in_space(work[part(STAGE_FLOW, slot)]); }
+    if SOURCE == 1u { return in_space(work[part(HALFWAY_FLOW, slot)]); }
     if SOURCE == 2u { return in_space(work[part(ADVECTED_FLOW, slot)]); }
     return in_space(conserved[slot]);
 }

@@ -1,8 +1,6 @@
 // detonate: energy for the gas in a ball, evenly over its volume: pressure rises, density and velocity stay. Cells of a cut cluster
 // share one state, so the centre of their first one decides for all. Reads cells, extra. Writes partials, energy.
-#include "shared/index.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/cut.wgsl"
+#include "shared/domain.wgsl"
 #include "shared/reduce.wgsl"
 
 // Generated from src/stage/gas/detonate.rs by scripts/generate.

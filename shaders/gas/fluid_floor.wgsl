@@ -4,14 +4,7 @@
 // Only if the total energy itself is below that floor is energy borrowed from the ledger. Every floored cell is counted.
 // The plain form runs only if fluid_energy has found a cell that may need it.
 // What has crossed the boundary goes from the slot where it was collected to the ledger, where all of it is.
-#include "shared/index.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/control.wgsl"
-#include "shared/ars.wgsl"
-#include "shared/cut.wgsl"
-#include "shared/books.wgsl"
+#include "shared/domain.wgsl"
 #include "gas/floor.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
@@ -80,7 +73,7 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     let least = least_energy(flow.x, total, before);
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
-    // What the first of two solves loses counts more than once in the second [shared/ars.wgsl].
+    // What the first of two solves loses counts more than once in the second [shared/state.wgsl].
     let booked = select(1.0, ARS_RETURNED, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
     atomicAdd(&control.floored, 1u);
     let left = flow.yzw * select(0.0, sqrt((total - least) / kinetic), total > least);

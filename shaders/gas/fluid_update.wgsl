@@ -1,23 +1,8 @@
 // fluid_update: momentum and energy of the gas from the solved pressure, by local gradients. [Kwatra et al. 2009; eqs. 14, 3]
 // Reads pressure, cells, nodes. Writes gas. On return momentum and energy are final; each face gives one cell what it takes
 // from the other, so their sums are conserved. WALL and GHOST slots collect the impulse and work that leaves through them.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/boundary.wgsl"
-#include "shared/control.wgsl"
-#include "shared/element.wgsl"
-#include "shared/system.wgsl"
-#include "shared/interior.wgsl"
-#include "shared/carrier.wgsl"
-#include "shared/cut_system.wgsl"
 #include "gas/cut_carrier.wgsl"
-#include "shared/open_part.wgsl"
-#include "shared/face_pressure.wgsl"
-#include "shared/body_power.wgsl"
-#include "shared/late_flux.wgsl"
+#include "gas/late_share.wgsl"
 #include "shared/parting.wgsl"
 #include "gas/floor.wgsl"
 
@@ -59,7 +44,7 @@ fn face_velocity(n: u32, low: u32, high: u32, a: vec4f, b: vec4f) -> f32 {
     return (a[n + 1u] + b[n + 1u]) / (a.x + b.x);
 }
 
-// With two solves the new face velocity also carries the internal energy that was there at the start of the step [shared/ars.wgsl].
+// With two solves the new face velocity also carries the internal energy that was there at the start of the step [shared/state.wgsl].
 fn carried_along(low: u32, high: u32) -> f32 {
     if !ARS { return 0.0; }
     return 0.5 * (energy[part(START_HEAT, low)] + energy[part(START_HEAT, high)]);

@@ -1,27 +1,22 @@
 // gas_advection: where does the gas carry itself?
 // Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
 // TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
-// ARS: one stage before the first of two solves, two before the second, see shared/ars.wgsl. The method: docs/method/gas_advection.md.
+// What the stages of the Runge-Kutta scheme do. With ARS (shared/state.wgsl) one comes before the first of two solves, two before the second:
+//   scheme, RUNGE_KUTTA   carries                        adds to                         writes
+//   TVD-RK2, 0            U0: conserved                  U0                              U1: HALFWAY
+//   TVD-RK2, 1            U1: HALFWAY                    U1, and halves the sum with U0  U*: ADVECTED
+//   ARS, 0                U0: conserved                  U0                              ADVECTED, KEPT, COLD_ENERGY; of U0 START
+//   ARS, 1                U1, after a solve: conserved   START + 1.71 (U1 - KEPT)        V: HALFWAY
+//   ARS, 2                V: HALFWAY                     START + 2.41 (U1 - KEPT)        ADVECTED, COLD_ENERGY
+// The method: docs/method/gas_advection.md.
 // Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/boundary.wgsl"
-#include "shared/control.wgsl"
-#include "shared/ars.wgsl"
-#include "gas/reconstruct.wgsl"
+#include "shared/domain.wgsl"
 #include "gas/flux.wgsl"
-#include "gas/limiter.wgsl"
-#include "shared/carrier.wgsl"
-#include "shared/cut.wgsl"
-#include "gas/cut_carrier.wgsl"
-#include "shared/still.wgsl"
 #include "gas/faces.wgsl"
+#include "gas/cut_carrier.wgsl"
 
-override STAGE: u32;    // of the Runge-Kutta scheme: 0, 1, and with ARS 2
+override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -33,7 +28,7 @@ override STAGE: u32;    // of the Runge-Kutta scheme: 0, 1, and with ARS 2
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 
 fn source(slot: u32) -> Gas {
-    if STAGE == select(1u, 2u, ARS) { return Gas(in_space(work[part(STAGE_FLOW, slot)]), energy[part(STAGE_ENERGY, slot)]); }
+    if RUNGE_KUTTA == select(1u, 2u, ARS) { return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)]); }
     return Gas(in_space(conserved[slot]), energy[slot]);
 }
 
@@ -43,21 +38,21 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
     let scale = sign * stage_span() / params.spacing;
     let blend = max(share, 0.0);
     let drain = 1.0 + min(share, 0.0);
-    let flow = select(drain * (f.low.flow + blend * (f.high.flow - f.low.flow)), f.high.flow, share == 1.0);
-    let heat = select(drain * (f.low.energy + blend * (f.high.energy - f.low.energy)), f.high.energy, share == 1.0);
+    let flow = select(drain * (f.first_order.flow + blend * (f.high_order.flow - f.first_order.flow)), f.high_order.flow, share == 1.0);
+    let heat = select(drain * (f.first_order.energy + blend * (f.high_order.energy - f.first_order.energy)), f.high_order.energy, share == 1.0);
     var implicit = 0.0;
     if ARS {
         // The solve carries this part, over its own share of the step.
         (*change).heat += sign * control.dt / params.spacing * f.heat;
-        if STAGE == 1u { implicit = f.heat; }
-        if STAGE == 2u { implicit = (1.0 - ARS_SHARE) * f.heat; }
+        if RUNGE_KUTTA == 1u { implicit = f.heat; }
+        if RUNGE_KUTTA == 2u { implicit = (1.0 - ARS_SHARE) * f.heat; }
     }
     let through = scale * flow;
-    (*change).high.flow += vec4f(whole(through.x, f.unit), through.yzw);
-    (*change).high.energy += scale * (heat - implicit);
-    (*change).low.flow += scale * f.low.flow;
-    (*change).low.energy += scale * (f.low.energy - implicit);
-    add_excess(change, scale * (f.high.flow - f.low.flow), scale * (f.high.energy - f.low.energy));
+    (*change).high_order.flow += vec4f(whole(through.x, f.unit), through.yzw);
+    (*change).high_order.energy += scale * (heat - implicit);
+    (*change).first_order.flow += scale * f.first_order.flow;
+    (*change).first_order.energy += scale * (f.first_order.energy - implicit);
+    add_excess(change, scale * (f.high_order.flow - f.first_order.flow), scale * (f.high_order.energy - f.first_order.energy));
 }
 
 // dt L(U) of a slot inside the domain; of all cells that share its state together.
@@ -133,32 +128,32 @@ fn axis_change(velocity: vec3f, slot: u32, word: u32, n: u32, here: Gas) -> Chan
 
 // The state that the change of this stage is added to.
 fn start_of(slot: u32, here: Gas) -> Gas {
-    if !ARS || STAGE == 0u { return here; }
+    if !ARS || RUNGE_KUTTA == 0u { return here; }
     // Density is never the solve's: it starts from that of U0 to the last bit.
-    let factor = select(ARS_MIDDLE, ARS_RETURNED, STAGE == 2u);
+    let factor = select(ARS_MIDDLE, ARS_RETURNED, RUNGE_KUTTA == 2u);
     let gained = in_space(conserved[slot]) - in_space(work[part(KEPT_FLOW, slot)]);
     return Gas(in_space(work[part(START_FLOW, slot)]) + factor * gained,
         energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]));
 }
 
 fn write_result(slot: u32, before: Gas, all: Change) {
-    let change = all.high;
-    if ARS && STAGE != 1u {
+    let change = all.high_order;
+    if ARS && RUNGE_KUTTA != 1u {
         work[part(ADVECTED_FLOW, slot)] = before.flow + change.flow;
         energy[part(ADVECTED_ENERGY, slot)] = before.energy + change.energy;
         energy[part(COLD_ENERGY, slot)] = before.energy + change.energy - all.heat;
-        if STAGE == 2u { return; }
+        if RUNGE_KUTTA == 2u { return; }
         work[part(START_FLOW, slot)] = before.flow;
         work[part(KEPT_FLOW, slot)] = before.flow + change.flow;
         energy[part(START_ENERGY, slot)] = before.energy;
         energy[part(KEPT_ENERGY, slot)] = before.energy + change.energy - all.heat;
         energy[part(START_HEAT, slot)] = internal_energy(before);
-    } else if !ARS && STAGE == 1u {
+    } else if !ARS && RUNGE_KUTTA == 1u {
         work[part(ADVECTED_FLOW, slot)] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
         energy[part(ADVECTED_ENERGY, slot)] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
-        work[part(STAGE_FLOW, slot)] = before.flow + change.flow;
-        energy[part(STAGE_ENERGY, slot)] = before.energy + change.energy;
+        work[part(HALFWAY_FLOW, slot)] = before.flow + change.flow;
+        energy[part(HALFWAY_ENERGY, slot)] = before.energy + change.energy;
     }
 }
 
@@ -171,9 +166,9 @@ fn finish(slot: u32, here: Gas, change: Change) {
     write_result(slot, before, change);
 }
 
-// Whether nothing passes through the faces of a slot: its state is then the same in all Runge-Kutta stages. Clusters of cut cells reach further, and the second of two solves starts from
-// what the first has moved.
-fn stays(slot: u32) -> bool { return !CUT && !(ARS && STAGE > 0u) && is_still(slot); }
+// Whether nothing passes through the faces of a slot: its state is then the same in all Runge-Kutta stages. Clusters of cut cells reach
+// further, and the second of two solves starts from what the first has moved.
+fn stays(slot: u32) -> bool { return !CUT && !(ARS && RUNGE_KUTTA > 0u) && is_still(slot); }
 
 fn stay(slot: u32) {
     theta[slot] = 1.0;
@@ -214,7 +209,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let first = swept_slot(thread);
     let last = params.slots - 1u;
     if first > last { return; }
-    let moving = moving_rows(thread, CUT || (ARS && STAGE > 0u));
+    let moving = moving_rows(thread, CUT || (ARS && RUNGE_KUTTA > 0u));
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
         if slot <= last && (k < moving.x || k >= moving.y) { stay(slot); }

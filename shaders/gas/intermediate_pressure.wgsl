@@ -2,15 +2,7 @@
 // Reads the advected state, cells, fill, ghost. Writes the gas state (now = advected, with gravity), the cell pressure of the
 // predictor, the vertex pressures X* and the vertex stiffness S^-1. On return every gas cell has positive density and
 // pressure, or the step is flagged. [Cao et al. 2022, eqs. 9, 17, 22, 24]
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/boundary.wgsl"
-#include "shared/cut.wgsl"
-#include "shared/control.wgsl"
-#include "shared/carrier.wgsl"
+#include "shared/domain.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -65,7 +57,7 @@ fn cut_divergence(slot: u32, own: f32) -> f32 {
 }
 
 // What the divergence of the carrier falls short of its mean around a cell, summed over the faces between GAS cells: as much of it as the
-// faces have back [shared/carrier.wgsl] adds to the divergence.
+// faces have back [shared/state.wgsl] adds to the divergence.
 fn carried_shortfall(slot: u32, own: f32) -> f32 {
     if SWEEP == OVER_LISTED && CUT { return cut_divergence(slot, own) / cluster_share(slot); }
     var sum = 0.0;

@@ -1,10 +1,6 @@
 // fluid_update, before it: gas that follows the bodies, as their slots get it; fluid_momentum takes it from the cells.
 // Reads node, the kick of the solve, the advected gas. Writes what slots of bodies owe.
-#include "shared/index.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
-#include "shared/late_flux.wgsl"
+#include "gas/late_share.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

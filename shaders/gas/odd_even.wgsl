@@ -3,12 +3,7 @@
 // what one cell loses its neighbours gain. A vertex takes nothing where a cell would not stand it: in strong shocks what alternates is the
 // shock. At vertices of a body's surface gas cells mix instead: between shards no flux of momentum would take a velocity into a wall from
 // a cell, for closed faces have none. Reads gas, cells. Writes gas, by way of work.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/cut.wgsl"
-#include "gas/whole.wgsl"
+#include "shared/domain.wgsl"
 
 override FILTER: f32;   // share of the mode that one step removes
 

@@ -1,8 +1,5 @@
 // time_step, last part: states of inlets that follow a table of times, in the middle of the step that has just been chosen.
-#include "shared/params.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/control.wgsl"
-#include "shared/opening.wgsl"
+#include "shared/state.wgsl"
 
 // Generated from src/state/openings.rs by scripts/generate.
 struct Knot {

@@ -1,10 +1,8 @@
 // still: where does nothing move? Through the faces of even gas at rest passes zero times something. So the advection leaves out rows (see
-// shared/still.wgsl) that motion does not reach before the solve, with the same bits.
+// shared/domain.wgsl) that motion does not reach before the solve, with the same bits.
 // Sides that let gas through, bodies and seams of periodic axes count as moving; walls and obstacles pass nothing on.
 // Reads gas and cells. Writes the rows, in extra.
 #include "shared/index.wgsl"
-#include "shared/blocks.wgsl"
-#include "shared/cell.wgsl"
 
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
@@ -45,7 +43,7 @@ fn still_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     let total = striding_threads();
     for (var block = thread_index(group, lane); block < blocks(); block += total) {
         let corner = corner_of(block);
-        let width = min(STILL_BLOCK, columns() - corner % columns());
+        let width = min(COLUMN_BLOCK, columns() - corner % columns());
         var rows = 0u;
         for (var k = 0u; k < params.march; k++) {
             let first = corner + k * columns();
@@ -76,9 +74,9 @@ fn rows_along(block: u32) -> u32 {
     let beside = select(ADVECTION_SPAN, 0, DIM == 1u);
     let across = i32(blocks_across());
     let layer = i32(block) / across;
-    let first = i32(block) % across * i32(STILL_BLOCK);
-    let low = max(first - beside, 0) / i32(STILL_BLOCK);
-    let high = min(first + i32(STILL_BLOCK) - 1 + beside, i32(columns()) - 1) / i32(STILL_BLOCK);
+    let first = i32(block) % across * i32(COLUMN_BLOCK);
+    let low = max(first - beside, 0) / i32(COLUMN_BLOCK);
+    let high = min(first + i32(COLUMN_BLOCK) - 1 + beside, i32(columns()) - 1) / i32(COLUMN_BLOCK);
     var rows = 0u;
     for (var k = max(-far, -layer); k <= min(far, i32(layers()) - 1 - layer); k++) {
         var found = 0u;
@@ -105,10 +103,10 @@ fn rows_across(block: u32) -> u32 {
     let layer = i32(blocks()) + i32(block) / across * across;
     var rows = 0u;
     for (var line = -ADVECTION_SPAN; line <= ADVECTION_SPAN; line++) {
-        let first = i32(block) % across * i32(STILL_BLOCK) + line * i32(params.stride.x);
-        let low = max(first, 0) / i32(STILL_BLOCK);
-        let high = min(first + i32(STILL_BLOCK) - 1, i32(columns()) - 1);
-        for (var at = low; at * i32(STILL_BLOCK) <= high; at++) { rows |= busy[layer + at]; }
+        let first = i32(block) % across * i32(COLUMN_BLOCK) + line * i32(params.stride.x);
+        let low = max(first, 0) / i32(COLUMN_BLOCK);
+        let high = min(first + i32(COLUMN_BLOCK) - 1, i32(columns()) - 1);
+        for (var at = low; at * i32(COLUMN_BLOCK) <= high; at++) { rows |= busy[layer + at]; }
     }
     return rows;
 }

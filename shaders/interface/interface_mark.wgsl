@@ -1,9 +1,6 @@
 // interface, second half: kinds, blocked fractions and flags of every slot from the solid volume of the cells, then the list
 // of vertices that keep gas, interface and ghost pressure apart, then the list of slots that are not INTERIOR.
 #include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
 #include "interface/thin_walls.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> cells: array<u32>;

@@ -6,9 +6,6 @@
 // next cell; what is beyond goes to its gas neighbours. A buried one passes all that it has back to the surface, if that is next to it,
 // or to all its neighbours: through the body gas would leak to its lee.
 #include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;

@@ -1,17 +1,6 @@
 // parting, of fluid_update: what pressures at a vertex ask beyond what the cells of its faces can pay where velocities part. At a convex corner
 // the pressure of a vertex is many times that of the thin cell behind it. The sum goes to all gas cells around the vertex in proportion to their
 // pressures. Reads pressure, cells, gas, nodes. Writes the sum over the sum of these pressures behind the pressures: 0 nearly everywhere.
-#include "shared/index.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
-#include "shared/element.wgsl"
-#include "shared/system.wgsl"
-#include "shared/interior.wgsl"
-#include "shared/cut.wgsl"
-#include "shared/open_part.wgsl"
-#include "shared/face_pressure.wgsl"
-#include "shared/body_power.wgsl"
 #include "shared/parting.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;

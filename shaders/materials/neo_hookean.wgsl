@@ -1,8 +1,7 @@
 // Compressible neo-Hookean rubber: psi = mu/2 (tr(F F^T) - 3) - mu ln J + lambda/2 (ln J)^2, J = det F.
 // Laws take the displacement gradient h = F - I, which single precision resolves where F is near I: a strain below 6e-8 has no F.
 // It is 3x3 in every dimension, with 0 on inactive axes (plane strain).
-#include "shared/material.wgsl"
-#include "shared/matrix.wgsl"
+#include "materials/law.wgsl"
 
 // F F^T - I.
 fn strain_neo_hookean(h: mat3x3f) -> mat3x3f {

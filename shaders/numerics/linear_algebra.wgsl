@@ -4,10 +4,8 @@
 // behind, so that the kernel which reads the direction anyway takes it along: what has converged is solution + alpha direction.
 // Joined, where the diagonal is all: the operator leaves q . D^-1 q beside p . q, so that beta is known with alpha and one kernel
 // takes everything along; r . z for step length and tolerance is still summed from the residual itself. [Meurant 1987]
-#include "shared/thread.wgsl"
-#include "shared/octets.wgsl"
-#include "shared/reduce4.wgsl"
 #include "shared/pcg.wgsl"
+#include "shared/reduce.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> pcg: Pcg;
 @group(0) @binding(2) var<storage, read_write> solution: array<f32>;

@@ -3,7 +3,6 @@
 // scan_blocks: reads input, writes output (sums inside each block) and totals (one per block).
 // scan_offsets: reads offsets (the scan of totals), adds them to output; then the equation holds across blocks.
 
-#include "shared/thread.wgsl"
 
 // Consecutive elements of one thread, set by Rust; SCAN_ITEMS * WORKGROUP is a block.
 override SCAN_ITEMS: u32;

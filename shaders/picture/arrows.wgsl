@@ -1,7 +1,6 @@
 // Velocity arrows of a 2D picture.
 // sample_arrows: reads conserved, cells; writes arrows: velocity at the middle of each of view.arrows places, and 1 for gas.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 
 @group(0) @binding(1) var<storage, read> conserved: array<vec4f>;

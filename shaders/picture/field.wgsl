@@ -5,7 +5,6 @@
 // pack_glow: reads heat; writes the same cubes' places in the black-body ramp.
 // mark_bricks: reads corners, glow, visible; writes 1 for every brick of cubes that the ray march must enter.
 
-#include "shared/thread.wgsl"
 #include "shared/reduce.wgsl"
 #include "picture/view.wgsl"
 

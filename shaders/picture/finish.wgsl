@@ -2,7 +2,6 @@
 // finish: reads light; writes pixels, red in the lowest byte, alpha opaque: the mean of each pixel's rays.
 // finish_deep: reads light; writes deep, the mean of each pixel's rays behind the tone map.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 #include "picture/color.wgsl"
 

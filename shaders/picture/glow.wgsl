@@ -4,7 +4,6 @@
 // block_walls: reads distance; fills blocks where obstacles are.
 // spread_glow: reads sources, blocks; writes glow_grid: direction and strength of what arrives in each coarse cell, then its colour.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 #include "picture/gas_look.wgsl"
 #include "picture/distance.wgsl"

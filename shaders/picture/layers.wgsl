@@ -2,7 +2,6 @@
 // finish_layers: reads light, solid, nearest, depth_in, deformation, velocity; writes layers, three entries per pixel: light without the
 // background, times alpha, and alpha; the depth of what is nearest, negative for nothing, and its number; its velocity.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 #include "picture/samples.wgsl"
 #include "picture/surface.wgsl"

@@ -4,7 +4,6 @@
 // trace_shadow: reads distance; lowers shadow_bits to the nearest obstacle.
 // cast_light: reads corners, glow, colors, shadow_bits; writes light_grid, column by column away from the light.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 #include "picture/gas_look.wgsl"
 #include "picture/distance.wgsl"

@@ -3,7 +3,6 @@
 // measure_lines: reads columns; writes ranges, the mean square of the picture that each workgroup saw, and its rays.
 // draw_lines: reads columns, surface, solid; writes light: grey, bodies and obstacles in front as shadows.
 
-#include "shared/thread.wgsl"
 #include "shared/reduce.wgsl"
 #include "picture/view.wgsl"
 #include "picture/surface.wgsl"

@@ -6,7 +6,6 @@
 // splat_depth: reads balls, deformation; raises depth_bits to the nearest ball.
 // splat_nearest: reads the same and depth_bits; writes nearest, the lowest particle index at that depth.
 
-#include "shared/thread.wgsl"
 #include "shared/reduce.wgsl"
 #include "picture/view.wgsl"
 #include "picture/samples.wgsl"

@@ -5,11 +5,10 @@
 // workgroups of shade_skin.
 // shade_skin: reads covered, balls, nearest, depth_in, shadow_map, light_grid, glow_grid; writes surface for those rays.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 #include "picture/samples.wgsl"
 #include "picture/surface.wgsl"
-#include "shared/light.wgsl"
+#include "picture/lit.wgsl"
 #include "picture/area.wgsl"
 
 @group(0) @binding(1) var<storage, read> balls: array<vec4f>;

@@ -1,7 +1,6 @@
 // A two-dimensional field through the colour table, with contour lines, obstacles and bodies over it.
 // draw_slice: reads field, conserved, cells, colors, surface, distance; writes light. Row 0 is the top of the picture, y points up.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 #include "picture/surface.wgsl"
 #include "picture/distance.wgsl"

@@ -1,11 +1,10 @@
 // What stands still in a 3D scene: obstacles and the floor.
 // trace_solids: reads distance, shadow_map, light_grid, glow_grid; writes solid, the nearest of them along each ray of the band.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 #include "picture/surface.wgsl"
 #include "picture/distance.wgsl"
-#include "shared/light.wgsl"
+#include "picture/lit.wgsl"
 
 @group(0) @binding(1) var<storage, read> distance: array<f32>;
 @group(0) @binding(2) var<storage, read> shadow_map: array<u32>;

@@ -2,12 +2,11 @@
 // Emission, absorption and single scattering [Max 1995]: dC/ds = sigma (c - C) along the ray, front to back.
 // draw_volume: reads corners, glow, bricks, colors, light_grid, surface, solid; writes light, and as fourth number how much of it is no background.
 
-#include "shared/thread.wgsl"
 #include "picture/view.wgsl"
 #include "picture/color.wgsl"
 #include "picture/surface.wgsl"
 #include "picture/gas_look.wgsl"
-#include "shared/in_light.wgsl"
+#include "picture/in_light.wgsl"
 #include "picture/contour.wgsl"
 
 // One edge of the domain on the picture: end points in rays and their depth along the view axis [m].

@@ -1,5 +1,6 @@
-// The rigid motion of driven particles. Needs the bindings control and deformation.
-#include "shared/support.wgsl"
+// The rigid motion of driven particles, and what a velocity gradient makes of any. Needs the binding deformation.
+#include "shared/state.wgsl"
+#include "materials/law.wgsl"
 
 @group(0) @binding(12) var<uniform> supports: array<Support, MAX_BODIES>;
 
@@ -29,4 +30,26 @@ fn turned(s: Support, arm: vec3f, time: f32) -> vec3f {
 // Where a point goes between two shares of the step.
 fn rigid_place(s: Support, x: vec3f, from_part: f32, to_part: f32, time: f32) -> vec3f {
     return s.pivot + to_part * s.advance + turned(s, x - s.pivot - from_part * s.advance, time);
+}
+
+// -- Trial --
+
+// The deformation that a velocity gradient leads to, before plastic flow.
+// Kept and given is the displacement gradient h = F - I: near rest single precision has no room in F for the strain of a sub-step.
+
+fn deformation_of(p: u32) -> mat3x3f {
+    return mat3x3f(deformation[3u * p].xyz, deformation[3u * p + 1u].xyz, deformation[3u * p + 2u].xyz);
+}
+
+// Whether the law of a particle counts: a part that is held bears the stress of the rest at its edge.
+fn strains(p: u32) -> bool { return !is_driven(p) || support_of(p).clamped == 1u; }
+
+// Before plastic flow. What is driven turns with its motion, and strains where the nodes around it do not follow.
+fn trial_deformation(p: u32, gradient: mat3x3f, time: f32) -> mat3x3f {
+    let h = deformation_of(p);
+    if !is_driven(p) { return h + time * (gradient + gradient * h); }
+    let s = support_of(p);
+    let change = gradient - turning(s.spin);
+    let trial = IDENTITY + h + time * (change + change * h);
+    return mat3x3f(turned(s, trial[0], time), turned(s, trial[1], time), turned(s, trial[2], time)) - IDENTITY;
 }

@@ -1,6 +1,6 @@
 // The table of indirect dispatches: a zero entry makes every dispatch that uses it a no-op. The device steers the step with it.
-#include "shared/thread.wgsl"
-#include "shared/columns.wgsl"
+// Needs the binding control.
+#include "shared/index.wgsl"
 
 @group(0) @binding(9) var<storage, read_write> extents: array<vec4u>;
 
@@ -10,14 +10,14 @@ fn groups_for(threads: u32) -> vec4u {
 }
 
 // Threads that march along the last axis.
-fn marches() -> u32 { return blocks_across() * STILL_BLOCK * layers(); }
+fn marches() -> u32 { return blocks_across() * COLUMN_BLOCK * layers(); }
 
 fn surface_groups() -> vec4u {
     let rows = min(control.extra, params.surface_rows);
     return vec4u(min(groups_of(rows), params.groups), 1u, 1u, 0u);
 }
 
-// Switches the dispatches of one phase on or off. Needs the binding control.
+// Switches the dispatches of one phase on or off.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
     extents[first + OVER_SLOTS] = groups_for(params.slots) * keep;

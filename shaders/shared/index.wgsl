@@ -1,8 +1,7 @@
 // One index space for cells, nodes and vertices: the grid with one ring of slots around it on every active axis.
 // Cell c, the velocity node at its centre and the vertex at its low corner share slot_of(c). Along a periodic axis c stands for
 // c modulo the number of cells: cells, nodes and vertices alike; the ring beyond it stays unused.
-#include "shared/params.wgsl"
-#include "shared/thread.wgsl"
+#include "shared/state.wgsl"
 
 fn reach() -> vec3i { return vec3i(1, i32(DIM > 1u), i32(DIM > 2u)); }
 
@@ -134,3 +133,86 @@ fn face_area() -> f32 {
 // Cell that holds a position, or the nearest one.
 fn cell_at(position: vec3f) -> vec3i { return nearest_inside(vec3i(floor((position - params.origin) / params.spacing))); }
 fn world_from_cell(c: vec3i) -> vec3f { return params.origin + (vec3f(c) + 0.5) * params.spacing; }
+
+// -- Neighbours across a face --
+
+// The B1B0 stencils deep inside the gas, one axis after the other: no table, no loop. A pair of neighbours gives its difference
+// along the axis it spans and its mean along every other.
+
+fn mean2(a: f32, b: f32) -> f32 { return 0.5 * (a + b); }
+
+// Steps from a slot along the two axes across axis n; 0 for inactive axes, whose only layer is then met twice.
+fn across(n: u32) -> vec2u {
+    let a = (n + 1u) % 3u;
+    let b = (n + 2u) % 3u;
+    return vec2u(select(0u, step_of(a), a < DIM), select(0u, step_of(b), b < DIM));
+}
+
+// -- Words of slots --
+
+// The word of a slot: kind of the cell, kind one step ago, and what is known of its node and vertex.
+// Bits 0..1 kind, 2..3 previous kind, then the flags; bits 16..31 hold the blocked fraction R as a 16-bit share, in GHOST slots
+// the place of their rule, in WALL slots the friction of the bodies there, in thousandths, or without bodies IMAGE beyond a plane of
+// symmetry, in INTERIOR slots what they know of the cells around their faces.
+
+const IMAGE = 0x10000u;
+
+fn kind_of(word: u32) -> u32 { return word & 3u; }
+// Whether the node has gas and body, or gas and obstacle, around it.
+fn is_mixed(word: u32) -> bool {
+    return has(word, NODE_GAS | NODE_SOLID) && !has(word, NODE_REGULAR) && !(SOLIDS && has(word, NODE_DEEP));
+}
+fn previous_kind_of(word: u32) -> u32 { return (word >> 2u) & 3u; }
+fn has(word: u32, flag: u32) -> bool { return (word & flag) != 0u; }
+fn blocked_of(word: u32) -> f32 { return f32(word >> 16u) / 65535.0; }
+fn word_with_blocked(word: u32, fraction: f32) -> u32 {
+    return (word & 0xffffu) | (u32(clamp(fraction, 0.0, 1.0) * 65535.0 + 0.5) << 16u);
+}
+
+// What INTERIOR slots know of the six cells around their two faces across each axis, below and above: from bit 16 whether all hold gas or are
+// images, from bit 22 whether the outermost one, three cells away, is an image.
+const WIDE_SHIFT = 16u;
+const END_SHIFT = 22u;
+
+fn is_wide(word: u32, n: u32, up: bool) -> bool { return has(word, 1u << (WIDE_SHIFT + 2u * n + u32(up))); }
+fn ends_in_image(word: u32, n: u32, up: bool) -> bool { return MIRRORED != 0u && has(word, 1u << (END_SHIFT + 2u * n + u32(up))); }
+
+// Whether the slot stands for the image of the cell before it; see is_image().
+fn holds_image(word: u32) -> bool { return MIRRORED != 0u && kind_of(word) == WALL && has(word, IMAGE); }
+
+fn friction_of(word: u32) -> f32 { return 1e-3 * f32(word >> 16u); }
+fn word_with_friction(word: u32, friction: f32) -> u32 {
+    return (word & 0xffffu) | (u32(1e3 * min(friction, STICK) + 0.5) << 16u);
+}
+
+// -- Columns --
+
+// Blocks of columns along the last axis, COLUMN_BLOCK next to each other and params.march slots long: what a marching kernel takes one
+// column per thread, so that neighbouring threads do the same.
+
+fn columns() -> u32 { return params.slots / params.stride[DIM - 1u]; }
+
+fn blocks_across() -> u32 { return (columns() + COLUMN_BLOCK - 1u) / COLUMN_BLOCK; }
+
+fn layers() -> u32 { return (params.stride[DIM - 1u] + params.march - 1u) / params.march; }
+
+// Slot at the corner of a block.
+fn corner_of(block: u32) -> u32 {
+    return (block / blocks_across()) * params.march * columns() + (block % blocks_across()) * COLUMN_BLOCK;
+}
+
+// Columns of cells along the last axis, in colors: of three next to each other along an axis each has another one.
+
+// Columns along x and y.
+fn columns_across() -> vec2u {
+    return vec2u(select(1u, params.cells.x, DIM > 1u), select(1u, params.cells.y, DIM > 2u));
+}
+
+// The same for one color.
+fn columns_of_color() -> vec2u { return (columns_across() + 2u) / 3u; }
+
+// Marches over the columns of one color, the ring's layers included.
+fn color_marches() -> u32 {
+    let columns = columns_of_color();
+    return columns.x * columns.y * layers();
+}

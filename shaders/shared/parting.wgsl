@@ -3,9 +3,8 @@
 // its entropy would fall. No cell pays more than its own pressure can; what a vertex asks beyond that is paid by all cells around it,
 // as far as they have it.
 // In gas alone shares are those by mass: by pressure, tubes would have errors 2 to 10 % larger.
-// Needs element, system, body_power and the bindings control, cells, extra, pressure, conserved, energy, node and work.
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
+// Needs the bindings cells, extra, pressure, control, node, work, conserved and energy.
+#include "shared/face_power.wgsl"
 
 // Pressure of a gas cell before the solve.
 fn own_pressure(slot: u32) -> f32 { return max(energy[part(PREDICTED_PRESSURE, slot)], 0.0); }

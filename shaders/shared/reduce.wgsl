@@ -37,3 +37,44 @@ fn reduce_result() -> f32 {
     workgroupBarrier();
     return result;
 }
+
+// Sum and maximum of four values at once over a workgroup, as a tree of fixed shape: eight values, then eight such results.
+// Wide and shallow, because barriers cost more than additions. As above.
+
+var<workgroup> reduce4_scratch: array<vec4f, WORKGROUP>;
+
+const REDUCE4_WIDTH = 8u;
+
+fn workgroup_sum4(local: u32, value: vec4f) -> vec4f {
+    reduce4_scratch[local] = value;
+    for (var stride = 1u; stride < WORKGROUP; stride *= REDUCE4_WIDTH) {
+        workgroupBarrier();
+        if local % (stride * REDUCE4_WIDTH) == 0u {
+            var sum = reduce4_scratch[local];
+            for (var k = 1u; k < REDUCE4_WIDTH; k++) { sum += reduce4_scratch[local + k * stride]; }
+            reduce4_scratch[local] = sum;
+        }
+    }
+    return reduce4_result();
+}
+
+fn workgroup_max4(local: u32, value: vec4f) -> vec4f {
+    reduce4_scratch[local] = value;
+    for (var stride = 1u; stride < WORKGROUP; stride *= REDUCE4_WIDTH) {
+        workgroupBarrier();
+        if local % (stride * REDUCE4_WIDTH) == 0u {
+            var largest = reduce4_scratch[local];
+            for (var k = 1u; k < REDUCE4_WIDTH; k++) { largest = max(largest, reduce4_scratch[local + k * stride]); }
+            reduce4_scratch[local] = largest;
+        }
+    }
+    return reduce4_result();
+}
+
+// The barriers let every thread read the result, and a thread start the next reduction only when all have read this one.
+fn reduce4_result() -> vec4f {
+    workgroupBarrier();
+    let result = reduce4_scratch[0];
+    workgroupBarrier();
+    return result;
+}

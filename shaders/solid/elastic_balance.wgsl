@@ -6,7 +6,7 @@
 #include "solid/place.wgsl"
 #include "shared/driven.wgsl"
 #include "solid/motion.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/reduce.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> velocity: array<vec4f>;

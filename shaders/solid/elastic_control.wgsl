@@ -1,6 +1,4 @@
 // elastic_solve, control: opens and closes the dispatches of Newton's rounds and of the iterations in them.
-#include "shared/params.wgsl"
-#include "shared/control.wgsl"
 #include "shared/extents.wgsl"
 #include "shared/pcg.wgsl"
 

@@ -2,9 +2,6 @@
 // from, and the solved velocity moves the particles. [Cao et al. 2022, section 2.8 and fig. 14]
 // Reads the elastic force of the present stress. Writes node velocity.
 #include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
 #include "solid/grid_wall.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;

@@ -2,11 +2,9 @@
 //   vol0 (lambda tr(G) + mu (G + G^T)), G = grad x,
 // which elastic_strain leaves for p2g to carry to the nodes; elastic_operator puts the sum together. elastic_add takes the solution.
 #include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/control.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/reduce.wgsl"
 #include "solid/place.wgsl"
-#include "shared/matrix.wgsl"
+#include "materials/law.wgsl"
 #include "solid/motion.wgsl"
 #include "shared/pcg.wgsl"
 

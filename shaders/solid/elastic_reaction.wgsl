@@ -7,10 +7,6 @@
 // With a shared volume e is the whole elastic acceleration: there the solve must know the law's volumetric part.
 // Reads the elastic force of the present stress, the forces of X*, node. Writes node: what enters the solve, then the velocity of the
 // particles again; elastic: see below.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
 #include "solid/grid_wall.wgsl"
 #include "solid/spread_impulse.wgsl"
 

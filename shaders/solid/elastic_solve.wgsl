@@ -3,18 +3,12 @@
 // by Newton's method: (M + dt^2 K) D = r, V += D, with the stiffness K of an isotropic law whose Lame constants each particle has now
 // (elastic_operator.wgsl). tau is symmetric and grad w that of the start: angular momentum is kept. [Gast et al. 2015; Klar et al. 2016]
 // Reads particles and nodes after the kick, V^. Writes node velocity. On return walls hold, and r is below the tolerance.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
 #include "solid/grid_wall.wgsl"
 #include "solid/given.wgsl"
-#include "solid/place.wgsl"
-#include "shared/matrix.wgsl"
-#include "shared/ghost.wgsl"
+#include "shared/stress.wgsl"
 #include "solid/ghost_between.wgsl"
 #include "solid/motion.wgsl"
-#include "shared/trial.wgsl"
+#include "shared/driven.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

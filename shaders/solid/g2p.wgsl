@@ -3,16 +3,10 @@
 // or the step is flagged. [APIC: Jiang et al. 2015; F: Stomakhin et al. 2013; ghost pressure: Cao et al. 2022, eqs. 17-20]
 // Two forms: g2p, one thread per particle; and g2p_cells, one thread per cell that reads its nodes once for all its particles,
 // followed by g2p_particles.
-#include "shared/index.wgsl"
-#include "shared/control.wgsl"
-#include "solid/place.wgsl"
-#include "shared/matrix.wgsl"
-#include "shared/ghost.wgsl"
+#include "shared/stress.wgsl"
 #include "solid/ghost_between.wgsl"
 #include "shared/driven.wgsl"
 #include "solid/motion.wgsl"
-#include "shared/trial.wgsl"
-#include "shared/fracture.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read_write> position: array<vec4f>;

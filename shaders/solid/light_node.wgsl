@@ -1,7 +1,6 @@
 // Solid nodes lighter than the mass floor of the solve take less momentum than they are given. What is left goes to the nodes around
 // them, by mass, so that momentum is kept. Needs the bindings node and inertia.
 #include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
 
 // Mass that a node lacks, over that of the nodes around it with its own.
 fn share_left(slot: u32) -> f32 {

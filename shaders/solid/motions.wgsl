@@ -1,7 +1,5 @@
 // supports, first part: velocities of driven parts in the middle of the step that has just been chosen, and their pivots.
-#include "shared/params.wgsl"
-#include "shared/control.wgsl"
-#include "shared/support.wgsl"
+#include "shared/state.wgsl"
 
 // Generated from src/state/supports.rs by scripts/generate.
 struct MotionAt {

@@ -4,10 +4,6 @@
 // through a wall.
 // V += dt_s (a + f / M) with the true mass, a from the solve [elastic_reaction.wgsl]; wall rules are one-sided, nothing is glued.
 // [Cao et al. 2022, step 6]
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
 #include "solid/grid_wall.wgsl"
 #include "solid/given.wgsl"
 #include "solid/spread_impulse.wgsl"

@@ -5,8 +5,6 @@
 // Reads particles, order. Writes node (velocity, mass). On return the sums of mass and momentum are the particles'.
 // With WITH_FORCE it leaves the elastic force [N] in the second half of work instead. [Jiang et al. 2015; Cao et al. 2022, section 2.2]
 #include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/columns.wgsl"
 #include "solid/place.wgsl"
 #include "solid/transfer.wgsl"
 
@@ -15,7 +13,7 @@
 // What a particle gives to the node at `offset`: the product of its weights times `constant`, and for each axis the product with
 // the second factor of that axis in place of the weight, times `along` of the axis.
 // Mass and momentum: w m (v + C (x_node - x_p)); the second factor is w times the offset, in cells.
-// Force: -vol0 tau grad w; the second factor is the slope of w. With it the driver of fracture, w m driver. [shared/fracture.wgsl]
+// Force: -vol0 tau grad w; the second factor is the slope of w. With it the driver of fracture, w m driver. [shared/stress.wgsl]
 struct Share { constant: vec4f, along: mat3x4f, second: mat3x3f }
 
 fn share_of(p: u32, x: vec4f, at: Place) -> Share {

@@ -3,7 +3,6 @@
 // follow each other along x have their sorted particles next to each other. Sums have one order: equal bits on every run.
 // Same reads and writes as p2g.wgsl; velocity, mass and force come out in the same places. [Jiang et al. 2015; Cao et al. 2022, section 2.2]
 #include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
 #include "solid/transfer.wgsl"
 
 override WITH_MASS: bool;       // mass and momentum

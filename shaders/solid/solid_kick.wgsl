@@ -1,9 +1,5 @@
 // coupled_solve, write-back to the solid: V = V* - dt M^-1 (G Q + H h) [eq. 36], and the change of the ghost pressure.
 // What light nodes leave is a share of the solve's whole kick, with what of it only takes back the reaction [elastic_reaction.wgsl].
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
 #include "shared/system.wgsl"
 #include "solid/light_node.wgsl"
 

@@ -1,11 +1,6 @@
 // coupled_solve, preparation of the solid: gravity, and the traction of the gas film between a body and a wall.
 // A body that touches a wall keeps a film of gas there: without its pressure a body on the floor would not lift. The film
 // carries the pressure of the nearest gas vertex along the wall; it acts before the solve and adds no unknown.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
-#include "shared/element.wgsl"
 #include "shared/system.wgsl"
 #include "solid/given.wgsl"
 #include "solid/light_node.wgsl"

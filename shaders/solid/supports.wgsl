@@ -3,8 +3,6 @@
 // NODE_DRIVEN, and in the word of a WALL slot the friction of what touches it. Driven nodes keep their velocity through the step:
 // the pressure solve sees them without bound of mass.
 #include "shared/index.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
 #include "solid/place.wgsl"
 #include "shared/driven.wgsl"
 

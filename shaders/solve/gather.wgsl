@@ -1,7 +1,6 @@
 // Transpose of the forces: C^T of a node field, at one vertex. Needs the bindings cells, extra and work.
 
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
+#include "shared/domain.wgsl"
 #include "solve/mixed.wgsl"
 
 // Rows of one vertex: its own unknown, and h and Q where they are apart.

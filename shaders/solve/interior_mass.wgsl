@@ -1,5 +1,5 @@
 // Inverse masses of the B1B0 nodes deep inside the gas: the binding energy holds them.
-#include "shared/arrays.wgsl"
+#include "shared/state.wgsl"
 
 fn inverse_mass(at: u32) -> f32 { return energy[part(INVERSE_MASS, at)]; }
 

@@ -1,10 +1,9 @@
 // coupled_solve, preconditioner with coarse spaces: z = D^-1 r + sum over spaces and levels of P D_l^-1 P^T r, for hat functions and
-// for hat functions with alternating sign, see shared/coarse.wgsl. The residual goes down level by level, the sum of all levels comes
+// for hat functions with alternating sign, see coarse.wgsl. The residual goes down level by level, the sum of all levels comes
 // up. [Bramble, Pasciak & Xu 1990] Between the grid and its first coarse level one thread takes a block of 2^DIM vertices, with all
 // spaces at once: they need the same neighbours.
-#include "shared/params.wgsl"
-#include "shared/thread.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/state.wgsl"
+#include "shared/reduce.wgsl"
 #include "solve/coarse.wgsl"
 #include "shared/pcg.wgsl"
 

@@ -4,12 +4,8 @@
 // so a wide hat function has the sum of 4/9 (two axes) or 8/27 (three) of the hat's m, and of the stiffness that the diagonal tells.
 // In 3D a function that alternates along two axes lies in one layer of the third; the sum of squares of the means along that axis is
 // the share of m - S^-1, and of the stiffness, that such a layer has of functions that do not change along it.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
 #include "shared/extents.wgsl"
-#include "shared/control.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/reduce.wgsl"
 #include "solve/coarse.wgsl"
 #include "shared/pcg.wgsl"
 

@@ -1,13 +1,6 @@
 // coupled_solve, preparation: the Jacobi diagonal D = S^-1 + dt^2 sum over nodes |coefficient|^2 / M. All coefficients of one
 // vertex on one node are summed before they are squared. Unused unknowns get the inverse 0 and stay 0.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
-#include "shared/element.wgsl"
 #include "shared/system.wgsl"
-#include "shared/cut_system.wgsl"
 #include "solve/mixed.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;

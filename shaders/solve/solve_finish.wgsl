@@ -1,8 +1,6 @@
 // coupled_solve, end: X = X* + D.
-#include "shared/params.wgsl"
-#include "shared/arrays.wgsl"
+#include "shared/state.wgsl"
 #include "shared/pcg.wgsl"
-#include "shared/thread.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> pressure: array<f32>;
 @group(0) @binding(5) var<storage, read> solution: array<f32>;

@@ -1,13 +1,7 @@
 // coupled_solve, first half of the operator: velocity change per unit time W = M^-1 C x at every node.
 // Reads x, cells, masses. Writes work: gas nodes, then solid nodes; w keeps the inverse mass of the gas node.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/element.wgsl"
 #include "shared/system.wgsl"
 #include "solve/mixed.wgsl"
-#include "shared/cut.wgsl"
 
 override BODIES_ONLY: bool = false; // leaves out what gas alone asks for
 

@@ -2,13 +2,9 @@
 // node velocities. A node between the vertices u gives its vertex v
 //   (C^T M^-1 C x)_v = 1 / (M 4^(DIM-1)) sum over u of (axes on which u and v lie on the same side - axes on which not) x_u.
 // Reads x, inverse node masses, stiffness, diagonal. Writes right-hand side or product.
-#include "shared/index.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/octets.wgsl"
-#include "shared/control.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/domain.wgsl"
+#include "shared/pcg.wgsl"
+#include "shared/reduce.wgsl"
 #include "solve/interior_mass.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;

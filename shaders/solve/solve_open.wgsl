@@ -1,14 +1,6 @@
 // coupled_solve, preparation: open faces. b of a vertex in units of face_area(), with X* in it: what flows out through the open
 // faces that it belongs to; and their admittance, which resists the increment like a stiffness.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/boundary.wgsl"
-#include "shared/cut.wgsl"
-#include "shared/open_part.wgsl"
-#include "shared/control.wgsl"
+#include "shared/open_side.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -33,7 +25,7 @@ fn note_open_face(c: vec3i, slot: u32) {
     let outward = f32(away[n]);
     let opening = opening_of(cells[slot]);
     let flow = conserved[slot_of(near)];
-    let p = 1.0 / (params.gamma * fill[slot_of(near)].y);   // its energy waits for what the solve carries [shared/ars.wgsl]
+    let p = 1.0 / (params.gamma * fill[slot_of(near)].y);   // its energy waits for what the solve carries [shared/state.wgsl]
     let here = Gas(flow, p / (params.gamma - 1.0) + kinetic_energy(flow));
     let last = fill[slot];
     var known = vec2f(here.flow[n + 1u] / here.flow.x, p);

@@ -1,13 +1,7 @@
 // coupled_solve, second half of the operator: y = S^-1 x + dt^2 C^T (M^-1 C x), and the partial sums of x . y.
-#include "shared/index.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
-#include "shared/element.wgsl"
 #include "shared/system.wgsl"
-#include "shared/cut_system.wgsl"
 #include "solve/gather.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/reduce.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

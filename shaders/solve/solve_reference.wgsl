@@ -2,10 +2,7 @@
 // refers to; and on the way the inverse diagonal deep inside the gas with B1B0.
 // Reads stiffness, X*, r, inverse node masses. Writes the inverse diagonal, and partial sums behind those of the iteration.
 #include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/reduce.wgsl"
 #include "solve/interior_mass.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;

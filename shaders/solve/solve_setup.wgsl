@@ -1,16 +1,7 @@
 // coupled_solve, preparation: node masses, intermediate node velocities, right-hand side of the increment form
 //   A D = dt C^T (V* - dt M^-1 C X*) - dt b,  X = X* + D,
 // which keeps float32 from losing a small increment in a large pressure. b: what inlets and outlets let through (solve_open).
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/boundary.wgsl"
-#include "shared/control.wgsl"
-#include "shared/element.wgsl"
 #include "shared/system.wgsl"
-#include "shared/cut_system.wgsl"
 #include "solve/gather.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;

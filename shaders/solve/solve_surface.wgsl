@@ -4,14 +4,8 @@
 // A row: what the polynomial works with (result, residual, two directions in turn), the vertex, the inverse of its diagonal, and the
 // coefficients of the neighbours before it, one vertex away at most; those behind it have theirs in their own rows. What is left out
 // between bodies is small; the polynomial is positive below its upper bound, so the preconditioner is positive definite all the same.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
-#include "shared/element.wgsl"
 #include "shared/system.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/reduce.wgsl"
 
 // Generated from src/stage/solve/coupled_solve/surface.rs by scripts/generate.
 struct Turn {

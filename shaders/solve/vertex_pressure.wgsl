@@ -1,11 +1,7 @@
 // intermediate_pressure, second half: cell values to vertices. X*_v = mean of the adjacent gas cells' predicted pressure, without
 // bodies at walls with the weight of the gas in between,
 // S^-1_v = sum of (cell volume / 2^DIM) / (stiffness of the cell). Where gas and solid share a pressure both add.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/cut.wgsl"
+#include "shared/system.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read> energy: array<f32>;        // second third: predicted pressure

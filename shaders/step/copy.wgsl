@@ -1,6 +1,5 @@
 // Copies an array: what a kernel that does nothing but move memory reaches, the yardstick of `brisance bench`.
 // Equation: to[i] = from[i]. Reads: from. Writes: to, of the same length.
-#include "shared/thread.wgsl"
 
 @group(0) @binding(0) var<storage, read> from_here: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> to_there: array<vec4f>;

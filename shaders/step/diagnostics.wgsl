@@ -1,13 +1,8 @@
 // diagnostics: totals of gas, books and solids after a step, extremes, and one record of them in the history ring.
 // Sums are trees of fixed shape. Block k of `partials` holds one partial result per workgroup.
-#include "shared/index.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/control.wgsl"
-#include "shared/reduce4.wgsl"
-#include "shared/fracture.wgsl"
-#include "shared/cut.wgsl"
-#include "shared/books.wgsl"
+#include "shared/reduce.wgsl"
+#include "shared/stress.wgsl"
+#include "shared/domain.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

@@ -1,7 +1,6 @@
 // gauges: what points of bodies do, after every step.
 // gauge_record: reads particles; writes the state of each particle that has a gauge into their history ring.
-#include "shared/params.wgsl"
-#include "shared/control.wgsl"
+#include "shared/state.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> position: array<vec4f>;

@@ -4,18 +4,7 @@
 // load_record: writes the loads of the step into their history ring and sets them to 0.
 // What a body gets is what the gas beside it has lost at their faces; of an obstacle or wall what its slots have collected, and the surface in cut
 // cells. Sums are integers, whose order does not matter: numbers of 64 bits, the low half first, in 2^-32 of a unit.
-#include "shared/index.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
-#include "shared/ars.wgsl"
-#include "shared/element.wgsl"
-#include "shared/system.wgsl"
-#include "shared/interior.wgsl"
-#include "shared/cut_system.wgsl"
-#include "shared/open_part.wgsl"
-#include "shared/face_pressure.wgsl"
-#include "shared/body_power.wgsl"
+#include "shared/face_power.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -35,7 +24,7 @@
 override LOADS: u32;            // how many there are: bodies, if their loads are wanted, then obstacles, then sides
 override LOAD_UNIT: f32;        // [Pa] a pressure of the start
 
-// Share of a solve in the mean of a step: with two solves what the first collects counts less than it spans [shared/ars.wgsl].
+// Share of a solve in the mean of a step: with two solves what the first collects counts less than it spans [shared/state.wgsl].
 fn solve_share() -> f32 {
     if !ARS { return 1.0; }
     return select(ARS_SHARE, 1.0 - ARS_SHARE, control.stage == 0u);

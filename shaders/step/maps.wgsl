@@ -2,9 +2,6 @@
 // map_gas: after every step: reads gas, cells; writes the first three numbers of a slot's map.
 // map_particles: after every step: reads particles; raises the fourth.
 #include "shared/index.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/control.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

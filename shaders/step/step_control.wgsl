@@ -1,8 +1,5 @@
 // The device steers its own step: each entry point looks at what has been decided and opens or closes the dispatches that
 // follow. A step whose solve or sub-steps need more than was recorded simply goes on in the next recording.
-#include "shared/params.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/control.wgsl"
 #include "shared/extents.wgsl"
 #include "shared/pcg.wgsl"
 

@@ -2,16 +2,10 @@
 // Reads gas, particles. Writes control.dt and the partial maxima. On return dt satisfies every bound and stays on the device.
 // rate = max over cells of sum over axes of (a + sqrt(a^2 + 4 b)) / 2, a = |u| / dx, b = |dp| / (dx^2 rho)
 // [Kwatra et al. 2009, eq. 20]; also dt <= cfl dx / |v_particle|, dt <= max_courant dx / c and dt <= max_growth dt_previous.
-#include "shared/index.wgsl"
-#include "shared/sweep.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/gas.wgsl"
-#include "shared/boundary.wgsl"
-#include "shared/control.wgsl"
-#include "shared/ars.wgsl"
-#include "shared/reduce4.wgsl"
+#include "shared/domain.wgsl"
+#include "shared/reduce.wgsl"
 #include "shared/extents.wgsl"
-#include "shared/ghost.wgsl"
+#include "shared/stress.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

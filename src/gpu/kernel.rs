@@ -70,7 +70,7 @@ pub enum Extent<'a> {
 }
 
 /// Workgroups for `groups`: rows of [`MAX_GROUPS`] along x, as many as needed along y. The product is at least `groups`, and
-/// `thread_index` in `shaders/shared/thread.wgsl` counts the same way.
+/// `thread_index` in `head.wgsl`, which every shader sees, counts the same way.
 #[must_use]
 pub fn group_counts(groups: u64) -> [u32; 3] {
     let limit = u64::from(MAX_GROUPS);

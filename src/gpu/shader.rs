@@ -57,16 +57,18 @@ pub struct Shader {
 
 /// What the injected text is called in error messages.
 const INJECTED: &str = "<constants>";
+/// What every shader sees after its sizes: the index of a thread.
+const HEAD: &str = include_str!("head.wgsl");
 
 impl Shader {
     /// Reads a shader, replaces each `#include "path"` by the file (once per shader) and puts `constants` on top, after the
-    /// `const WORKGROUP`, `MAX_GROUPS` and `OCTET` that all shaders see. The constants may include files too.
+    /// `const WORKGROUP`, `MAX_GROUPS`, `OCTET` and the functions of `head.wgsl` that all shaders see. The constants may include files too.
     ///
     /// # Errors
     /// [`Error::Shader`] for an unknown file, a malformed directive or a cycle, with the file and line of the include.
     pub fn load(name: &str, constants: &str, folder: &Folder) -> Result<Shader> {
         let injected = format!(
-            "const WORKGROUP: u32 = {WORKGROUP}u; const MAX_GROUPS: u32 = {MAX_GROUPS}u; const OCTET: u32 = {OCTET}u;\n{constants}"
+            "const WORKGROUP: u32 = {WORKGROUP}u; const MAX_GROUPS: u32 = {MAX_GROUPS}u; const OCTET: u32 = {OCTET}u;\n{constants}\n{HEAD}"
         );
         let mut joiner = Joiner { folder, files: Vec::new(), open: Vec::new(), head: Vec::new(), body: Vec::new() };
         joiner.join(INJECTED, &injected)?;

@@ -167,7 +167,7 @@ pub struct Layout {
     /// Place above 0 in the partial sums where the caller leaves, in the second component, those of the squared norm that the
     /// tolerance refers to; with 0 the first kernel makes them from [`PcgVectors::product`].
     pub reference_at: u32,
-    /// Unknowns of a row, as sums take them (`shaders/shared/octets.wgsl`); all make one row without it.
+    /// Unknowns of a row, as sums take them (`shaders/shared/pcg.wgsl`); all make one row without it.
     pub row: Option<u32>,
 }
 

@@ -12,12 +12,12 @@ use crate::structure::Shared;
 #[must_use]
 pub fn all() -> Vec<(&'static str, &'static str, Vec<Shared>)> {
     vec![
-        ("shared/params.wgsl", "step/time_step.wgsl", vec![Params::shared()]),
-        ("shared/control.wgsl", "step/time_step.wgsl", vec![Control::shared()]),
+        ("shared/state.wgsl", "step/time_step.wgsl", vec![Params::shared()]),
+        ("shared/state.wgsl", "step/time_step.wgsl", vec![Control::shared()]),
         ("shared/pcg.wgsl", "numerics/linear_algebra.wgsl", vec![PcgControl::shared()]),
-        ("shared/material.wgsl", "solid/g2p.wgsl", vec![MaterialParams::shared()]),
-        ("shared/opening.wgsl", "gas/openings.wgsl", vec![Opening::shared()]),
-        ("shared/support.wgsl", "solid/motions.wgsl", vec![Support::shared()]),
+        ("materials/law.wgsl", "solid/g2p.wgsl", vec![MaterialParams::shared()]),
+        ("shared/state.wgsl", "gas/openings.wgsl", vec![Opening::shared()]),
+        ("shared/state.wgsl", "solid/motions.wgsl", vec![Support::shared()]),
         ("solve/coarse.wgsl", "solve/solve_coarse.wgsl", vec![Grid::shared(), Level::shared()]),
         ("gas/openings.wgsl", "gas/openings.wgsl", vec![Knot::shared()]),
         ("solid/motions.wgsl", "solid/motions.wgsl", vec![MotionAt::shared()]),

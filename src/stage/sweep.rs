@@ -1,4 +1,4 @@
-//! Kernels over slots in their forms: one source, told by the override `SWEEP` which slots it goes over (`shaders/shared/sweep.wgsl`).
+//! Kernels over slots in their forms: one source, told by the override `SWEEP` which slots it goes over (`shaders/shared/domain.wgsl`).
 
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};

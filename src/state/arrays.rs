@@ -1,5 +1,5 @@
 //! What the arrays that stages share hold, and when: a kernel binds eight storage buffers at most, so an array has parts, and a part has
-//! several uses in a step. From this table follow `shaders/shared/arrays.wgsl`, `docs/inside/arrays.md`, the names of vectors that the solve
+//! several uses in a step. From this table follow `shaders/shared/state.wgsl`, `docs/inside/arrays.md`, the names of vectors that the solve
 //! lends, and a test that no two uses of a part meet (`tests/suite/arrays.rs`).
 
 use Stage::{
@@ -203,8 +203,8 @@ pub const USES: &[Use] = &[
         "total energy, with the same slots"),
     Use::new("energy", Name::Part(1, "HANDED_ENERGY"), (At(Interface), At(Interface)), "J",
         "what the ledger hands on to each receiver").of(Scenes::Bodies),
-    Use::new("energy", Name::Part(1, "STAGE_ENERGY"), (At(GasAdvection), At(GasAdvection)), "J m^-3",
-        "after a stage of the advection"),
+    Use::new("energy", Name::Part(1, "HALFWAY_ENERGY"), (At(GasAdvection), At(GasAdvection)), "J m^-3",
+        "halfway through the advection"),
     Use::new("energy", Name::Part(1, "PREDICTED_PRESSURE"), (At(IntermediatePressure), At(FluidUpdate)), "Pa",
         "pressure that the solve starts from").at(Slots::Domain),
     Use::new("energy", Name::Part(1, "OPEN_PRESSURE"), (At(IntermediatePressure), At(FluidUpdate)), "Pa",
@@ -232,8 +232,8 @@ pub const USES: &[Use] = &[
         "what the next solve starts from, without the part that it carries").of(Scenes::TwoSolves),
     Use::new("work", Name::Part(0, "HANDED_FLOW"), (At(Interface), At(Interface)), "kg, kg m s^-1",
         "mass and momentum that the ledger hands on to each receiver").of(Scenes::Bodies),
-    Use::new("work", Name::Part(0, "STAGE_FLOW"), (At(GasAdvection), At(GasAdvection)), "kg m^-3, kg m^-2 s^-1",
-        "density and momentum after a stage of the advection"),
+    Use::new("work", Name::Part(0, "HALFWAY_FLOW"), (At(GasAdvection), At(GasAdvection)), "kg m^-3, kg m^-2 s^-1",
+        "density and momentum halfway through the advection"),
     Use::new("work", Name::Part(0, "FILM_PRESSURE"), (At(SolidPredictor), At(SolidPredictor)), "Pa",
         "pressure of gas films at walls, across each axis").of(Scenes::Bodies),
     Use::new("work", Name::Part(0, "GAS_NODE"), (At(CoupledSolve), At(CoupledSolve)), "m s^-2, kg^-1",

@@ -37,7 +37,7 @@ pub const NO_FAULT: u32 = u32::MAX;
 /// Dispatches of the longest prefix sum that a step runs.
 pub const SCAN_DISPATCHES: usize = 6;
 /// Columns of a marching kernel that are still together: as many as one instruction of a CPU takes, or a part of a GPU's.
-pub const STILL_BLOCK: u32 = 8;
+pub const COLUMN_BLOCK: u32 = 8;
 /// Number on the device of one of names that count from 0, such as [`RULES`].
 ///
 /// # Panics
@@ -79,7 +79,7 @@ const NUMBERS: [(&str, u32); 22] = [
     ("CUT_WIDTH", super::cut::WIDTH as u32),
     ("PARTIALS", PARTIALS),
     ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
-    ("STILL_BLOCK", STILL_BLOCK),
+    ("COLUMN_BLOCK", COLUMN_BLOCK),
     ("SPACES", super::coarse::SPACES as u32),
     ("COUPLINGS", super::surface::COUPLINGS as u32),
     ("STRENGTH_UNIT", super::particles::STRENGTH_UNIT),
@@ -140,7 +140,7 @@ pub fn source_for(shader: &str) -> String {
     text
 }
 
-/// Shaders that include `shared/material.wgsl`.
+/// Shaders that include `materials/law.wgsl`.
 const MATERIAL_SHADERS: [&str; 5] = [
     "interface/interface.wgsl",
     "solid/g2p.wgsl",

@@ -15,7 +15,7 @@ pub struct GasState {
     /// What stages of a step hand on: parts of a vec4.
     pub work: Buffer<[f32; 4]>,
     /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\]; in GHOST and WALL slots what has crossed the boundary, per cell volume.
-    /// Without bodies and obstacles only the slots of the ring have a place, in their order (`shaders/shared/books.wgsl`).
+    /// Without bodies and obstacles only the slots of the ring have a place, in their order (`shaders/shared/domain.wgsl`).
     pub owed_flow: Buffer<[f32; 4]>,
     /// Energy that GAS cells owe \[J\], or that has crossed, per cell volume.
     pub owed_energy: Buffer<f32>,

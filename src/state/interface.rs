@@ -1,6 +1,6 @@
 //! Where gas and solid meet, and the unknowns of the pressure system.
 
-use super::constants::STILL_BLOCK;
+use super::constants::COLUMN_BLOCK;
 use super::params::{MARCH, Params};
 use crate::error::Result;
 use crate::gpu::{Buffer, Gpu};
@@ -32,7 +32,7 @@ impl Places {
     pub(super) fn new(stride: [u64; 3], dimension: u32) -> Self {
         let slots: u64 = stride.iter().product();
         let rows = stride[dimension as usize - 1];
-        let across = (slots / rows).div_ceil(u64::from(STILL_BLOCK));
+        let across = (slots / rows).div_ceil(u64::from(COLUMN_BLOCK));
         let still = 2 * slots + 2;
         Self { still, end: still + across * rows.div_ceil(u64::from(MARCH)) }
     }

@@ -79,7 +79,7 @@ structure! {
         still_at: u32,
         /// Place of the table of cut cells there.
         table_at: u32,
-        /// Slots of a row, as sums take them (`shaders/shared/octets.wgsl`).
+        /// Slots of a row, as sums take them (`shaders/shared/pcg.wgsl`).
         row: u32,
         /// Fills the space before vectors.
         unused: [u32; 3],

@@ -38,7 +38,7 @@ numbers! {
 }
 
 numbers! {
-    /// What the threads of a dispatch go over, and the override `SWEEP` of kernels over slots (`shaders/shared/sweep.wgsl`).
+    /// What the threads of a dispatch go over, and the override `SWEEP` of kernels over slots (`shaders/shared/domain.wgsl`).
     Over {
         /// One thread per slot.
         Slots,

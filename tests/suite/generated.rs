@@ -8,7 +8,7 @@ use brisance::state::{arrays, stages};
 /// File, table that it follows from, and the text.
 fn parts() -> Vec<(String, &'static str, String)> {
     let tables = [
-        ("shaders/shared/arrays.wgsl", "src/state/arrays.rs", arrays::constants()),
+        ("shaders/shared/state.wgsl", "src/state/arrays.rs", arrays::constants()),
         ("docs/inside/arrays.md", "src/state/arrays.rs", format!("\n{}\n", arrays::table())),
         ("docs/method/overview.md", "src/state/stages.rs", format!("\n{}\n", stages::table())),
     ];

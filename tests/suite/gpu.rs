@@ -9,7 +9,6 @@ use crate::common::{gpu_or_skip, with_shaders};
 
 /// Writes its index, where there is room, times an override.
 const NUMBER: &str = r#"
-#include "shared/thread.wgsl"
 override FACTOR: u32;
 struct Params { count: u32 }
 @group(0) @binding(3) var<uniform> params: Params;

@@ -48,6 +48,7 @@ mod reference_operator;
 mod reference_solids;
 mod reference_tables;
 mod render;
+mod rooms;
 mod scenes;
 mod shaders;
 mod skin;

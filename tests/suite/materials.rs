@@ -9,7 +9,6 @@ use crate::reference::solid::material::eigen;
 
 /// Asks a law for everything it knows of given displacement gradients F - I.
 const ASK: &str = r#"
-#include "shared/thread.wgsl"
 struct Answer { stress: mat3x3f, kept: mat3x3f, energy: f32, plastic_strain: f32, wave_speed: f32 }
 @group(0) @binding(0) var<storage, read> material: array<MaterialParams>;
 @group(0) @binding(1) var<storage, read> given: array<mat3x3f>;

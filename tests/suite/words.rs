@@ -7,7 +7,7 @@ use brisance::state::constants::{GAS, WALL};
 
 use crate::common::gpu_or_skip;
 
-/// Bits of a word, as in `shaders/shared/cell.wgsl`.
+/// Bits of a word, as in `shaders/shared/index.wgsl`.
 const INTERIOR: u32 = 1 << 14;
 const IMAGE: u32 = 1 << 16;
 const WIDE_SHIFT: usize = 16;

@@ -23,7 +23,7 @@ struct RungeKuttaStage {
 
 impl RungeKuttaStage {
     fn new(state: &State, stage: u32) -> Result<Self> {
-        let (shader, switches) = ("gas/gas_advection.wgsl", [("STAGE", f64::from(stage))]);
+        let (shader, switches) = ("gas/gas_advection.wgsl", [("RUNGE_KUTTA", f64::from(stage))]);
         let form = |over: Over, entry: &str| Form::new(state, over, [shader, entry], &[], &switches);
         Ok(Self {
             forms: [form(Over::Marches, "advect_interior")?, form(Over::Listed, "advect_listed")?],

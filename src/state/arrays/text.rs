@@ -7,7 +7,7 @@ use super::{Name, Scenes, Slots, USES};
 /// Numbers of the words of LENGTHS.
 const WORDS: [(&str, u32); 2] = [("LENGTH_LISTED", 0), ("LENGTH_FRONTIER", 1)];
 
-/// The constants of `shaders/shared/arrays.wgsl`.
+/// The constants of `shaders/shared/state.wgsl`.
 #[must_use]
 pub fn constants() -> String {
     let mut text = String::new();

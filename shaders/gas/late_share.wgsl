@@ -1,10 +1,7 @@
 // The advection has carried gas through the faces of bodies with their velocity of before the solve. Half of what a body gains in the solve
 // carries gas, too, so that gas follows it with the mean velocity of the step: between the cell and the slot of the body, which owes it.
 // Needs the bindings control, cells, node, and work.
-#include "shared/index.wgsl"
-#include "shared/arrays.wgsl"
-#include "shared/cell.wgsl"
-#include "shared/control.wgsl"
+#include "shared/domain.wgsl"
 
 // Share of a cell that passes one face at most.
 const MOST_LATE = 0.1;

@@ -1,6 +1,6 @@
 // Lit surfaces: reads light_grid; shadow_map, the distance from the light of the first solid; and glow_grid, see glow.wgsl.
 
-#include "shared/in_light.wgsl"
+#include "picture/in_light.wgsl"
 
 // Light that arrives through the gas at a point of a surface, interpolated across the light.
 fn light_through_gas(point: vec3f) -> f32 {

@@ -1,0 +1,229 @@
+// Which slot has a thread, and what is special there: gas that rests, obstacles that cut cells, open sides, books of what is owed.
+// Needs the bindings cells and extra.
+#include "shared/index.wgsl"
+
+// -- Sweep --
+
+// Which slot has a thread? A kernel over slots is compiled once for each kind of slots that it goes over: deep inside the gas (INTERIOR), where
+// every stencil is the same, and over the list of the others, without those that periodic sides repeat. So no thread waits for a
+// neighbour's special case. Kernels whose results only listed slots read go over the frontier in place of the interior: slots deep inside
+// the gas whose nodes listed vertices rest on. Marches pass columns of slots of every kind: their kernels ask for INTERIOR themselves.
+// src/stage/sweep.rs binds the forms.
+
+override SWEEP: u32;    // OVER_SLOTS: all; OVER_INTERIOR, OVER_LISTED, OVER_FRONTIER; OVER_MARCHES: columns of params.march slots
+
+// Threads of the sweep; beyond them none has a slot.
+fn swept_threads() -> u32 {
+    if SWEEP == OVER_LISTED { return extra[part(LENGTHS, LENGTH_LISTED)]; }
+    if SWEEP == OVER_FRONTIER { return extra[part(LENGTHS, LENGTH_FRONTIER)]; }
+    return params.slots;
+}
+
+// Slot of a thread, of a column the first one; params.slots if it has none.
+fn swept_slot(thread: u32) -> u32 {
+    if SWEEP == OVER_MARCHES {
+        let slot = corner_of(thread / COLUMN_BLOCK) + thread % COLUMN_BLOCK;
+        let column = thread / COLUMN_BLOCK % blocks_across() * COLUMN_BLOCK + thread % COLUMN_BLOCK;
+        return select(params.slots, slot, column < columns());
+    }
+    if thread >= swept_threads() { return params.slots; }
+    if SWEEP == OVER_LISTED { return extra[part(LISTED_SLOTS, thread)]; }
+    if SWEEP == OVER_FRONTIER { return extra[part(LENGTHS, 0u) - 1u - thread]; }
+    if SWEEP == OVER_INTERIOR && !has(cells[thread], INTERIOR) { return params.slots; }
+    return thread;
+}
+
+// -- Gas that rests --
+
+// Rows of the blocks of columns, as still.wgsl marks them: row k of a block is its COLUMN_BLOCK slots at place k of the march. The binding extra
+// holds a word per block: bit k tells that gas moves near row k before the solve.
+
+fn block_rows(block: u32) -> u32 { return extra[params.still_at + block]; }
+
+// Rows of a thread's column to compute: the first, and the one after the last. `all`: whatever moves.
+fn moving_rows(thread: u32, all: bool) -> vec2u {
+    if all { return vec2u(0u, params.march); }
+    let rows = block_rows(thread / COLUMN_BLOCK);
+    return select(vec2u(0u), vec2u(countTrailingZeros(rows), 32u - countLeadingZeros(rows)), rows != 0u);
+}
+
+// Whether nothing moves near a slot before the solve.
+fn is_still(slot: u32) -> bool {
+    let row = slot / columns();
+    let rows = block_rows(row / params.march * blocks_across() + slot % columns() / COLUMN_BLOCK);
+    return ((rows >> (row % params.march)) & 1u) == 0u;
+}
+
+// -- Cut cells --
+
+// Cut cells: the surface of an obstacle leaves gas in a part of them. Small parts share one state with a neighbour, their cluster:
+// what changes one of them changes all by the same amount. Mirror of src/state/cut.rs.
+// Without bodies the first block of extra holds the number of a slot's entry, counted from 1, and the table stands
+// behind the lists.
+
+fn cut_entry(slot: u32) -> u32 {
+    if CUT { return extra[slot]; }
+    return 0u;
+}
+
+fn cut_word(entry: u32, field: u32) -> u32 { return extra[params.table_at + (entry - 1u) * CUT_WIDTH + field]; }
+fn cut_value(entry: u32, field: u32) -> f32 { return bitcast<f32>(cut_word(entry, field)); }
+fn cut_vector(entry: u32, field: u32) -> vec3f {
+    return vec3f(cut_value(entry, field), cut_value(entry, field + 1u), cut_value(entry, field + 2u));
+}
+
+// Gas in a GAS cell, and in all cells that share its state, in cells.
+fn gas_share(slot: u32) -> f32 {
+    let entry = cut_entry(slot);
+    if entry == 0u { return 1.0; }
+    return cut_value(entry, CUT_SHARE);
+}
+
+fn cluster_share(slot: u32) -> f32 {
+    let entry = cut_entry(slot);
+    if entry == 0u { return 1.0; }
+    return cut_value(entry, CUT_CLUSTER_SHARE);
+}
+
+// The slots of a cluster in order, the same for each of them; NO_EXTRA after the last.
+fn cluster_first(slot: u32) -> u32 {
+    let entry = cut_entry(slot);
+    if entry == 0u { return slot; }
+    return cut_word(entry, CUT_FIRST);
+}
+
+fn cluster_next(slot: u32) -> u32 {
+    let entry = cut_entry(slot);
+    if entry == 0u { return NO_EXTRA; }
+    return cut_word(entry, CUT_NEXT);
+}
+
+// Open share of a face of a GAS cell.
+fn aperture(slot: u32, n: u32, up: bool) -> f32 {
+    let entry = cut_entry(slot);
+    if entry == 0u { return 1.0; }
+    return cut_value(entry, CUT_APERTURE + 2u * n + u32(up));
+}
+
+// What a corner of a face has to say, in the mean over the open part of this face.
+fn face_shape(slot: u32, n: u32, up: bool, corner: vec3i) -> f32 {
+    let entry = cut_entry(slot);
+    if entry == 0u { return 1.0 / f32(1u << (DIM - 1u)); }
+    let a = (n + 1u) % 3u;
+    let b = (n + 2u) % 3u;
+    let middle = cut_vector(entry, CUT_MIDDLE + 3u * (2u * n + u32(up)));
+    let side = 2.0 * vec3f(corner) - 1.0;
+    if DIM == 1u { return 1.0; }
+    if DIM == 2u { return 0.5 + side[1u - n] * middle[1u - n]; }
+    return 0.25 + 0.5 * (side[a] * middle[a] + side[b] * middle[b]) + side[a] * side[b] * middle[n];
+}
+
+// -- Open sides --
+
+// The gas beyond open sides. Each GHOST slot of the ring names its rule in the word of the slot; walls have no rule.
+// Two things follow from a rule: the state beyond, which advection reads, and the velocity of the face as the pressure system
+// sees it, u = u0 + (p - p0) / Z along the outward normal. Z = rho c lets sound pass: what a wave would do beyond the side,
+// the face does [Poinsot and Lele 1992]. Where Z is infinite, the velocity is prescribed. 1 / Z adds to the diagonal, so
+// that the system stays symmetric positive definite.
+// RULES_USED names the rules of the scene, so that the others cost nothing.
+
+@group(0) @binding(14) var<uniform> openings: array<Opening, MAX_OPENINGS>;
+
+fn opening_of(word: u32) -> Opening { return openings[word >> RULE_SHIFT]; }
+
+fn any_used(first: u32, last: u32) -> bool { return (RULES_USED & ((2u << last) - (1u << first))) != 0u; }
+fn follows(o: Opening, rule: u32) -> bool { return any_used(rule, rule) && o.rule == rule; }
+// Whether the velocity beyond is that of the opening.
+fn prescribes(o: Opening) -> bool { return any_used(RULE_FIXED, RULE_SUBSONIC) && o.rule <= RULE_SUBSONIC; }
+
+// Pressure of gas that has left a reservoir without losses, at a speed. [Liepmann and Roshko 1957, section 2.10]
+fn reservoir_pressure(o: Opening, speed: f32) -> f32 {
+    let square = params.gamma * o.pressure / o.flow.x;
+    let ratio = 1.0 - 0.5 * (params.gamma - 1.0) * speed * speed / square;
+    return o.pressure * pow(max(ratio, 0.0), params.gamma / (params.gamma - 1.0));
+}
+
+// Speed into the domain; that of sound at most, which no reservoir exceeds.
+fn inflow_speed(o: Opening, outward_velocity: f32) -> f32 {
+    let critical = sqrt(2.0 / (params.gamma + 1.0) * params.gamma * o.pressure / o.flow.x);
+    return clamp(-outward_velocity, 0.0, critical);
+}
+
+// Least speed of sound behind a wave into the far gas, over that of the far gas.
+const LEAST_SOUND = 0.1;
+
+// The far gas as it is where gas of this entropy has its pressure: what leaves pushes gas of its own entropy before it.
+fn far_density(o: Opening, density: f32, pressure: f32) -> f32 {
+    return density * pow(o.pressure / pressure, 1.0 / params.gamma);
+}
+
+// Speed of sound over that at the far pressure where a simple wave that runs outward has brought gas of a density there to velocity u:
+// u_in + 2 c / (gamma - 1) stays. [Liepmann and Roshko 1957, section 3.9]
+fn sound_from_afar(o: Opening, n: u32, outward: f32, density: f32, u: f32) -> f32 {
+    let gain = outward * (u - o.flow[n + 1u] / o.flow.x) / sound_speed(density, o.pressure);
+    return max(1.0 + 0.5 * (params.gamma - 1.0) * gain, LEAST_SOUND);
+}
+
+fn pressure_from_afar(o: Opening, sound: f32) -> f32 { return o.pressure * pow(sound, 2.0 * params.gamma / (params.gamma - 1.0)); }
+
+// What comes in from afar below the speed of sound brings its entropy and its velocity along the face, passes the face as fast as the
+// gas there, and has the pressure that this takes. With the far velocity, advection would not let in what the pressure system
+// moves; with the pressure of the cell, cells along the side would take turns in pressure, which no vertex sees.
+fn gas_from_afar(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
+    let u = here.flow[n + 1u] / here.flow.x;
+    if outward * u >= 0.0 { return here; }
+    if outward * u <= -sound_speed(here.flow.x, pressure_of(here)) { return Gas(o.flow, o.energy); }
+    let p = pressure_of(here);
+    let sound = sound_from_afar(o, n, outward, far_density(o, here.flow.x, p), u);
+    let velocity = select(velocity_of(o.flow), vec3f(u), along(n));
+    let p_beyond = pressure_from_afar(o, sound);
+    return gas_from_primitive(o.flow.x * pow(p_beyond / o.pressure, 1.0 / params.gamma), velocity, p_beyond);
+}
+
+// State beyond a face next to `here`, across axis n, outward = -1 or 1.
+fn gas_beyond(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
+    if follows(o, RULE_FIXED) { return Gas(o.flow, o.energy); }
+    if follows(o, RULE_SUBSONIC) { return Gas(o.flow, internal_energy(here) + kinetic_energy(o.flow)); }
+    if follows(o, RULE_TOTAL) {
+        let speed = inflow_speed(o, outward * here.flow[n + 1u] / here.flow.x);
+        let pressure = reservoir_pressure(o, speed);
+        let u = select(vec3f(0.0), vec3f(-outward * speed), along(n));
+        return gas_from_primitive(o.flow.x * pow(pressure / o.pressure, 1.0 / params.gamma), u, pressure);
+    }
+    if follows(o, RULE_ATTENUATED) { return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share)); }
+    if follows(o, RULE_FAR) { return gas_from_afar(o, n, outward, here); }
+    return here;
+}
+
+// Velocity that the node beyond an open face has.
+fn velocity_beyond(o: Opening, here: vec4f) -> vec3f {
+    if prescribes(o) { return velocity_of(o.flow); }
+    if follows(o, RULE_ATTENUATED) { return velocity_of(mix(here, o.flow, o.share)); }
+    return velocity_of(here);
+}
+
+// -- Books --
+
+// Where owed_flow and owed_energy have the books of a slot. With bodies or obstacles every slot has its own place. Else only slots of
+// the ring have one, in their order, and what the energy floor takes from gas goes to control.borrowed.
+override RING_BOOKS: bool;
+
+// Slots of the ring.
+fn ring_count() -> u32 { return params.slots - params.cells.x * params.cells.y * params.cells.z; }
+
+// Place of a slot, with RING_BOOKS of one in the ring.
+fn book_of(slot: u32) -> u32 {
+    if !RING_BOOKS { return slot; }
+    let c = cell_of(slot);
+    let n = params.cells;
+    let before = vec3u(clamp(c, vec3i(0), vec3i(n)));           // cells with a smaller index along each axis
+    let level = (c >= vec3i(0)) & (c < vec3i(n));
+    let in_row = select(0u, before.x, level.y);
+    let in_layer = select(0u, before.y * n.x + in_row, level.z);
+    return slot - before.z * n.y * n.x - in_layer;
+}
+
+// Mass and momentum, and energy, that count as one in control.borrowed: about those of ambient gas in a cell.
+fn borrowed_unit() -> vec2f {
+    return cell_volume() * vec2f(sqrt(params.ambient_pressure * params.ambient_density), params.ambient_pressure);
+}

@@ -1,0 +1,278 @@
+// What every kernel knows of a run: switches, parameters and control, what lies beyond sides and how bodies are held, the parts of arrays,
+// and the state of the gas. Mirror of src/state.
+
+// -- Switches and parameters --
+
+// The dimension and the switches of the method are pipeline overrides, so that a switched-off branch costs nothing.
+
+override DIM: u32;
+override SOLIDS: bool;          // the scene has bodies
+override QUADRATIC: bool;       // gas element pair B2B1 (true) or B1B0 (false)
+override PREDICTOR: bool;       // consistent predictor of the intermediate pressure
+override CONSISTENT: bool;      // gas is carried by what the solve sees of its velocity, see gas/carrier.wgsl; gas only
+override CUT: bool;             // obstacles cut cells; gas only, B1B0
+override ARS: bool;             // two solves per step, see below
+override FOURTH: bool;          // sound of fourth order in space, see gas/carrier.wgsl
+override FRACTURE: bool;        // some material breaks, see stress.wgsl
+override DRIVEN: bool;          // some body has a part that is clamped or moves as prescribed
+override FRICTION: bool;        // some body does not slip
+override LATE_FLUX: bool;       // half of what bodies gain in the solve carries gas, see gas/late_flux.wgsl
+override IMPLICIT: bool;        // one elastic step by backward Euler instead of explicit sub-steps
+override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's volumetric part, which the law then lacks
+override RULES_USED: u32;        // rules of open sides in the scene, as bits
+override PERIODIC: u32;          // axes whose ends meet, as bits
+override MIRRORED: u32;         // sides that are planes of symmetry: walls, as bits; gas only
+override JOINED: u32;           // open sides whose nodes go with the cells before them, as bits; B1B0 only
+override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE
+
+// Generated from src/state/params.rs by scripts/generate.
+struct Params {
+    cells: vec3u,               // Cells per axis, 1 on inactive axes
+    slots: u32,                 // Length of every cell, node and vertex array
+    stride: vec3u,              // Cells per axis with the ring
+    particles: u32,             // Particles
+    origin: vec3f,              // Low corner of the domain [m]
+    spacing: f32,               // Cell edge [m]
+    gravity: vec3f,             // Gravity [m s^-2]
+    gamma: f32,                 // Ratio of specific heats
+    ambient_density: f32,       // Ambient density [kg m^-3]
+    ambient_pressure: f32,      // Ambient pressure [Pa]
+    cfl: f32,                   // Courant number of the material velocity
+    max_courant: f32,           // Cap of c dt / dx
+    max_growth: f32,            // Cap of dt over the previous dt
+    fixed_step: f32,            // Fixed step [s], 0 for none
+    elastic_cfl: f32,           // Courant number of the elastic sub-steps
+    solid_threshold: f32,       // Share of a cell that makes it solid
+    mass_floor: f32,            // Least node mass that the pressure solve sees [kg]
+    tolerance: f32,             // Relative tolerance of the solve
+    extra_capacity: u32,        // Vertices that may carry P, h and Q apart
+    max_iterations: u32,        // Iterations after which a solve counts as stalled
+    probes: u32,                // Probes
+    history: u32,               // Steps that the history ring holds
+    bodies: u32,                // Bodies
+    max_substeps: u32,          // Largest number of sub-steps of one step
+    groups: u32,                // Groups that leave partial results
+    march: u32,                 // Slots that one thread of a marching kernel takes one after the other, along the last axis
+    wall_sides: u32,            // Sides that hold solids back, as bits: x-, x+, y-, y+, z-, z+
+    least_entropy: f32,         // p / rho^gamma that no gas falls below
+    surface_rows: u32,          // Vertices whose interface pressure has a row in the preconditioner
+    still: u32,                 // 1 if the advection leaves out what motion does not reach by the solve, with the same result
+    still_at: u32,              // Place of the rows of blocks in super::Interface::extra
+    table_at: u32,              // Place of the table of cut cells there
+    row: u32,                   // Slots of a row, as sums take them (shaders/shared/pcg.wgsl)
+    scan: array<vec4u, SCAN_DISPATCHES>, // Groups of each dispatch of a prefix sum over all slots and one more
+}
+// End of what is generated.
+
+@group(0) @binding(0) var<uniform> params: Params;
+
+// Threads of all groups that leave partial results: how far a kernel with as many strides.
+fn striding_threads() -> u32 { return params.groups * WORKGROUP; }
+
+// -- Control --
+
+// Generated from src/state/control.rs by scripts/generate.
+struct Control {
+    dt: f32,                    // What one solve spans [s]
+    duration: f32,              // Current step: dt, or with two solves the span of both [s]
+    dt_previous: f32,           // The step before [s]
+    remaining: f32,             // Time left to the target [s]
+    phase: u32,                 // PHASE_IDLE, PHASE_SOLVE, PHASE_BETWEEN, PHASE_SUBSTEP, PHASE_ELASTIC
+    substeps: u32,              // Elastic sub-steps of this step
+    substep: u32,               // Next one to run
+    stage: u32,                 // Solves of this step that are done
+    step: u32,                  // Finished steps
+    fault: atomic<u32>,         // Smallest stage << 27 | slot that met an impossible value; NO_FAULT if none
+    limited: atomic<u32>,       // Cells where the flux limiter acted, and vertices whose gas could not pay for all that they asked, this step
+    limited_before: u32,        // The same when the first advection stage ended
+    floored: atomic<u32>,       // Cells where the energy floor acted, this step
+    cold: atomic<u32>,          // 1 if the energy floor may have to act deep inside the gas
+    raised: atomic<u32>,        // Cells whose pressure had to be raised before one of two solves, this step
+    clamped: atomic<u32>,       // Particles held back at a wall, this step
+    unsorted: atomic<u32>,      // 1 if a particle may have left its cell since they were sorted
+    escaped: atomic<u32>,       // Particles that left through an open side, since the start
+    extra: u32,                 // Vertices that carry P, h and Q apart, this step
+    iterations: u32,            // Iterations of all solves of the last step
+    residual: f32,              // Relative residual of the last solve
+    listed: u32,                // Slots that are not INTERIOR
+    frontier: u32,              // INTERIOR slots whose nodes listed vertices rest on
+    sound: f32,                 // Largest speed of sound at the end of the step [m s^-1]
+    time: f32,                  // Simulated time at the start of the step [s]
+    time_error: f32,            // What rounding has taken from it so far [s]
+    rounds: u32,                // Rounds of Newton's method in the elastic solve, this step
+    round_open: u32,            // 1 while the linear system of a round is being solved
+    newly_held: atomic<u32>,    // Nodes that a wall has begun to stop in this round
+    elastic_iterations: u32,    // Iterations of all rounds, this step
+    longest_round: u32,         // Iterations of the longest one
+    imbalance: f32,             // r . D^-1 r at the start of this round
+    borrowed: array<atomic<u32>, 8>, // Momentum and energy that the energy floor has taken from gas cells that have no books of their own, since the start: each a number of 64 bits, the low half first, in 2^-32 of a unit
+}
+// End of what is generated.
+
+// True for NaN and infinities; comparisons alone do not find a NaN on every driver.
+fn is_broken(x: f32) -> bool { return (bitcast<u32>(x) & 0x7f800000u) == 0x7f800000u; }
+
+// -- Sides and supports --
+
+// Generated from src/state/openings.rs by scripts/generate.
+struct Opening {
+    flow: vec4f,                // Density [kg m^-3] and momentum [kg m^-2 s^-1] of the state beyond; total density of a reservoir
+    energy: f32,                // Total energy per volume of that state [J m^-3]
+    pressure: f32,              // Pressure of that state, far or total pressure [Pa]
+    rule: u32,                  // What is prescribed, RULE_* of constants::RULES
+    share: f32,                 // Attenuation [1], or relaxation over the length of the domain [m^-1]
+    first: u32,                 // First knot of the table of times
+    knots: u32,                 // Knots of the table of times, 0 for a constant state
+}
+// End of what is generated.
+
+// Generated from src/state/supports.rs by scripts/generate.
+struct Support {
+    velocity: vec3f,            // Velocity of the driven part now [m s^-1]
+    friction: f32,              // Coefficient of friction at walls and obstacles [1]; STICK for a body that sticks
+    spin: vec3f,                // Angular velocity of the driven part now [rad s^-1]
+    first: u32,                 // First entry of the motion over time
+    pivot: vec3f,               // The point that the driven part turns about, at the start of the step [m]
+    entries: u32,               // Entries of the motion over time
+    advance: vec3f,             // How far that point moves in this step [m]
+    clamped: u32,               // 1 where only a part of the body is driven: that part strains next to the rest
+}
+// End of what is generated.
+
+// -- Parts of arrays --
+
+// What the arrays hold that several stages share: energy[part(PREDICTED_PRESSURE, slot)] is the pressure that the solve starts from.
+// No other file counts places by hand. Who writes a part, and who reads it last: docs/inside/arrays.md.
+
+// Generated from src/state/arrays.rs by scripts/generate: number of a part, array, what it holds.
+const HANDED_ENERGY = 1u; // energy: what the ledger hands on to each receiver [J]
+const HALFWAY_ENERGY = 1u; // energy: halfway through the advection [J m^-3]
+const PREDICTED_PRESSURE = 1u; // energy: pressure that the solve starts from [Pa]
+const OPEN_PRESSURE = 1u; // energy: p0 of open faces [Pa]
+const FILTER_ENERGY = 1u; // energy: what the filter changes [J m^-3]
+const RECEIVERS = 2u; // energy: who receives what a solid slot hands on
+const ADVECTED_ENERGY = 2u; // energy: of the advected state [J m^-3]
+const INVERSE_MASS = 2u; // energy: inverse mass of gas nodes [kg^-1]
+const OPEN_VELOCITY = 2u; // energy: u0 of open faces [m s^-1]
+const START_ENERGY = 3u; // energy: at the start of the step [J m^-3]
+const KEPT_ENERGY = 4u; // energy: what the first solve started from [J m^-3]
+const START_HEAT = 5u; // energy: internal energy at the start of the step [J m^-3]
+const COLD_ENERGY = 6u; // energy: what the next solve starts from, without the part that it carries [J m^-3]
+const HANDED_FLOW = 0u; // work: mass and momentum that the ledger hands on to each receiver [kg, kg m s^-1]
+const HALFWAY_FLOW = 0u; // work: density and momentum halfway through the advection [kg m^-3, kg m^-2 s^-1]
+const FILM_PRESSURE = 0u; // work: pressure of gas films at walls, across each axis [Pa]
+const GAS_NODE = 0u; // work: velocity change of gas nodes per time, of the right-hand side their velocity; w: inverse mass [m s^-2, kg^-1]
+const FILTER_FLOW = 0u; // work: what the filter changes [kg m^-3, kg m^-2 s^-1]
+const ELASTIC_FORCE = 1u; // work: elastic force of nodes at the start of the step [N]
+const ADVECTED_FLOW = 1u; // work: density and momentum of the advected state [kg m^-3, kg m^-2 s^-1]
+const LEFT_KICK = 1u; // work: velocity that light nodes leave to those around them [m s^-1]
+const SOLID_NODE = 1u; // work: as GAS_NODE, of solid nodes; after the solve by the solved pressures [m s^-2, kg^-1]
+const START_FLOW = 2u; // work: at the start of the step [kg m^-3, kg m^-2 s^-1]
+const KEPT_FLOW = 3u; // work: what the first solve started from [kg m^-3, kg m^-2 s^-1]
+const NODE_FORCE = 0u; // elastic: elastic force of nodes at the start of the step [N]
+const REACTION = 0u; // elastic: reaction to the load of a node [m s^-2]
+const TO_SPREAD = 0u; // elastic: acceleration to spread over the sub-steps; w: the mass that it was for [m s^-2, kg]
+const KICKED_VELOCITY = 0u; // elastic: velocity after the solve; w: components that a wall stopped, as bits [m s^-1]
+const ELASTIC_ACCELERATION = 0u; // elastic: of nodes at the start of the step [m s^-2]
+const START_VELOCITY = 1u; // elastic: velocity and mass of nodes at the start of the step [m s^-1, kg]
+const PASSED_ON = 1u; // elastic: velocity that nodes which have grown lighter pass on [m s^-1]
+const LISTED_SLOTS = 1u; // extra: slots that are not deep inside the gas; from the end the frontier, the slots whose nodes they need
+const LENGTHS = 2u; // extra: lengths of both lists: LENGTH_LISTED, LENGTH_FRONTIER
+const APART = 1u; // vectors: h, then Q of vertices that carry them apart; then what each vertex asks of the gas around it [Pa]
+const LENGTH_LISTED = 0u;
+const LENGTH_FRONTIER = 1u;
+// End of what is generated.
+
+fn part(k: u32, slot: u32) -> u32 { return k * params.slots + slot; }
+
+// In vectors of unknowns, behind P of every vertex: h, then Q, of the vertices that carry them apart.
+fn apart_h(place: u32) -> u32 { return part(APART, place); }
+fn apart_q(place: u32) -> u32 { return part(APART, params.extra_capacity + place); }
+fn unknowns() -> u32 { return part(APART, 2u * params.extra_capacity); }
+
+// -- The gas --
+
+// Ideal gas: conserved variables U = (rho, rho u, E) and what follows from them.
+// [Cao et al. 2022, eqs. 8-9]
+
+struct Gas {
+    flow: vec4f,    // density [kg m^-3], momentum [kg m^-2 s^-1]
+    energy: f32,    // total energy per volume [J m^-3]
+}
+
+// The momentum along axes that the scene has not is zero. Said where a state is loaded, so that no kernel reads it or reckons with it.
+fn in_space(flow: vec4f) -> vec4f {
+    if DIM == 1u { return vec4f(flow.xy, 0.0, 0.0); }
+    if DIM == 2u { return vec4f(flow.xyz, 0.0); }
+    return flow;
+}
+
+fn velocity_of(flow: vec4f) -> vec3f { return flow.yzw / flow.x; }
+fn kinetic_energy(flow: vec4f) -> f32 { return 0.5 * dot(flow.yzw, flow.yzw) / flow.x; }
+fn internal_energy(gas: Gas) -> f32 { return gas.energy - kinetic_energy(gas.flow); }
+fn pressure_of(gas: Gas) -> f32 { return (params.gamma - 1.0) * internal_energy(gas); }
+fn sound_speed(density: f32, pressure: f32) -> f32 { return sqrt(params.gamma * max(pressure, 0.0) / density); }
+fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32) -> Gas {
+    return Gas(vec4f(density, density * velocity),
+        pressure / (params.gamma - 1.0) + 0.5 * density * dot(velocity, velocity));
+}
+fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
+    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first));
+}
+
+// Density that goes from cell to cell in whole units of the last place of the denser one: what one gives up is then, to the last bit,
+// what the other takes.
+
+const LAST_PLACE = 1.1920928955078125e-7;   // 2^-23
+
+fn power_of_two(density: f32) -> f32 { return bitcast<f32>(bitcast<u32>(density) & 0x7f800000u); }
+
+// Of a power of two, exactly: a division may be off by some units in the last place.
+fn inverse_of_power(unit: f32) -> f32 { return bitcast<f32>(0x7f000000u - bitcast<u32>(unit)); }
+
+// A unit below the smallest normal number is none.
+fn whole(density: f32, unit: f32) -> f32 {
+    if bitcast<u32>(unit) < 0x00800000u { return density; }
+    return round(density * inverse_of_power(unit)) * unit;
+}
+
+// -- Two solves per step --
+
+// Two solves per step, second order in time: the implicit half is that of ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6], with
+// a = 1 - 1/sqrt 2; the explicit half has the three stages of Wicker and Skamarock [2002]:
+//   U1 = S_a(U0 + a dt A(U0)),   V = U0 + dt/2 (A(U1) + I1),   U2 = S_a(U0 + dt A(V) + (1 - a) dt I1),
+// A the change by advection, S_a a solve and its update over a dt, I1 what the first one added per time: (U1 - K) / (a dt), K what it
+// started from. (With the two explicit stages of ARS, sound that runs with the stream grows, by up to 1.5 % per step: advection of
+// fifth order dampens long waves too little for schemes that are unstable without damping.)
+// Internal energy is carried by the new velocity of the face, and that part, H times the velocity, belongs to I, with H the mean of
+// both sides at the start of the step: in A it would be an explicit p div u, and noise would blow up from c dt = 3 dx on.
+
+const ARS_SHARE = 0.29289322;   // a: part of the step that each solve spans
+const ARS_MIDDLE = 1.7071068;   // dt/2 over a dt
+const ARS_LAST = 3.4142136;     // dt over a dt
+const ARS_RETURNED = 2.4142136; // (1 - a) dt over a dt
+
+// -- What carries the gas --
+
+// Velocity that carries the gas through a face between two GAS cells, from their carriers (see gas/carrier.wgsl) and densities. The
+// mean of two cells damps short compression waves; a share of the difference of the divergences gives that back: a quarter, with which
+// shocks stay smooth (a little less with B2B1, where they ring). It vanishes where the divergence does, so nothing that the solve
+// calls free of divergence is compressed.
+// Two solves per step see sound to second order in time. They have the share with which the face's divergence is the one that the solve
+// itself sees, or, in short steps, the third that makes sound along an axis one of fourth order in space (of B2B1 0.16, beyond which single
+// precision shows behind strong shocks). The solve then is told of the surplus beforehand [intermediate_pressure.wgsl]: without, waves of some eight cells grow.
+
+// The share with which the divergence would be the one that the solve itself sees.
+fn seen_share() -> f32 { return select(0.25, 1.0 / 12.0, QUADRATIC && ARS); }
+
+fn given_back() -> f32 {
+    if FOURTH { return select(1.0 / 3.0, 0.16, QUADRATIC); }
+    return select(seen_share(), 0.23, QUADRATIC && !ARS);
+}
+
+// Speed of the dissipation at such a face: upwind, and where the carriers part, as in a rarefaction, the larger of both.
+fn carrier_spread(low: f32, high: f32) -> f32 { return select(0.0, max(abs(low), abs(high)), high > low); }
+
+fn carried_velocity(n: u32, low: vec4f, low_density: f32, high: vec4f, high_density: f32) -> f32 {
+    return (low_density * low[n] + high_density * high[n]) / (low_density + high_density) - given_back() * (high.w - low.w);
+}
