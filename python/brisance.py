@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy
 
-FOLDERS = {"npz": "arrays", "states": "states", "checkpoints": "checkpoints"}
+FOLDERS = {"npz": "arrays", "fields": "states", "states": "states", "checkpoints": "checkpoints"}
 
 
 class Frame:
@@ -22,8 +22,8 @@ class Frame:
         self.path = Path(path)
         self.arrays = numpy.load(self.path)
         self.head = json.loads(self.arrays["head.json"])
-        if self.head["format"] != "brisance state" or self.head["version"] > 1:
-            raise ValueError(f"{path}: version {self.head['version']} of {self.head['format']}; this reader knows 1")
+        if self.head["format"] != "brisance state" or self.head["version"] > 2:
+            raise ValueError(f"{path}: version {self.head['version']} of {self.head['format']}; this reader knows 2")
         self.time, self.step = self.head["time"], self.head["step"]
 
     def __getitem__(self, name):

@@ -35,17 +35,24 @@ pub struct Fragment {
 }
 
 impl Snapshot {
-    /// The pieces of all bodies by their numbers. Broken particles away from all pieces are none.
+    /// The pieces of all bodies by their numbers; `piece_of_each` is [`Snapshot::piece_of_each`]. Broken particles away from all pieces
+    /// are none.
     #[must_use]
-    pub fn fragments(&self) -> Vec<Fragment> {
+    pub fn fragments(&self, piece_of_each: &[u32]) -> Vec<Fragment> {
         let mut all: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-        for (index, piece) in self.piece_of_each().into_iter().enumerate() {
-            all.entry(piece).or_default().push(index);
+        for (index, piece) in piece_of_each.iter().enumerate() {
+            all.entry(*piece).or_default().push(index);
         }
-        let speed = |particle: &ParticleSample| f64::from(glam::Vec3::from(particle.velocity).length());
-        let fastest = self.particles.iter().map(speed).fold(0.0, f64::max);
+        let fastest = self.fastest();
         all.retain(|_, own| own.iter().any(|index| self.particles[*index].damage < 1.0));
         all.into_iter().map(|(piece, own)| self.fragment(piece, own, fastest)).collect()
+    }
+
+    /// Largest speed of any particle \[m s^-1\].
+    #[must_use]
+    pub fn fastest(&self) -> f64 {
+        let speed = |particle: &ParticleSample| f64::from(glam::Vec3::from(particle.velocity).length());
+        self.particles.iter().map(speed).fold(0.0, f64::max)
     }
 
     fn fragment(&self, piece: u32, own: Vec<usize>, fastest: f64) -> Fragment {
@@ -144,7 +151,8 @@ mod tests {
             });
         }
         let grid = Grid { dimension: 3, cells: [32; 3], origin: [0.0; 3], spacing: 1.0 };
-        let fragments = Snapshot::of_particles((0.0, 0), grid, particles).fragments();
+        let snapshot = Snapshot::of_particles((0.0, 0), grid, particles);
+        let fragments = snapshot.fragments(&snapshot.piece_of_each());
         assert_eq!(fragments.iter().map(|one| (one.piece, one.body)).collect::<Vec<_>>(), [(77, 1), (89, 0)]);
         let [turning, flying] = &fragments[..] else { panic!("two pieces") };
         assert_eq!((flying.mass, flying.velocity, turning.body), (24.0, [1.0, 0.0, 0.0], 1));

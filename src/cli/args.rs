@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 pub(super) use measure::{BenchOptions, SelftestOptions, ShadersOptions, VerifyOptions};
 
 use super::run::Every;
+use crate::export::video::FRAME_RATE;
 
 /// Compressible gas, shock waves and the solids they bend, tear and shatter.
 #[derive(Debug, Parser)]
@@ -149,7 +150,7 @@ pub struct RunOptions {
     /// Pictures besides the first, instead of time.frames
     #[arg(long, value_name = "N")]
     pub frames: Option<u32>,
-    /// Further formats: png16, exr, vtk, states; separated by commas, may be repeated
+    /// Further formats: png16, exr, fields, vtk, vdb, usd, mesh, npz; separated by commas, may be repeated
     #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
     pub export: Vec<String>,
     /// Go on with a run from its latest checkpoint: SCENE is its folder; --until may be later
@@ -195,14 +196,14 @@ pub struct FilmOptions {
     #[arg(long, value_name = "FILE")]
     pub video: Option<PathBuf>,
     /// Pictures per second of the film
-    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = FRAME_RATE, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub fps: u32,
 }
 
 /// Options of `render`.
 #[derive(Debug, Default, Args)]
 pub struct RenderOptions {
-    /// Folder of a run that has states: `brisance run SCENE --export states`
+    /// Folder of a run that has states: `brisance run SCENE --export fields`
     pub run: PathBuf,
     /// Read files outside of the folder of the run, too: meshes where the run found them, and what links lead to
     #[arg(long)]
@@ -286,7 +287,7 @@ pub struct SweepOptions {
 /// Options of `convert`.
 #[derive(Clone, Debug, Args)]
 pub struct ConvertOptions {
-    /// Folder of a run that has states (`brisance run SCENE --export states`) or checkpoints
+    /// Folder of a run that has states (`brisance run SCENE --export fields`) or checkpoints
     pub run: PathBuf,
     /// Read files outside of the folder of the run, too: meshes of obstacles where the run found them, and what links lead to
     #[arg(long)]
@@ -297,12 +298,21 @@ pub struct ConvertOptions {
     /// Only this frame; may be repeated
     #[arg(long = "frame", value_name = "N")]
     pub frame: Vec<u32>,
+    /// What the ambient gas has [K]: volumes have temperatures in kelvin; instead of the scene's output.ambient_kelvin
+    #[arg(long, value_name = "K", value_parser = kelvin)]
+    pub kelvin: Option<f64>,
     /// Folder for the files [default: RUN]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print nothing but warnings and errors
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// A temperature that gas can have.
+fn kelvin(text: &str) -> Result<f64, String> {
+    let read = text.parse().ok().filter(|kelvin: &f64| *kelvin > 0.0 && kelvin.is_finite());
+    read.ok_or_else(|| "a temperature in kelvin is a number above 0, as in 293".to_owned())
 }
 
 /// How large the scenes of a gallery run.

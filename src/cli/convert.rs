@@ -34,14 +34,16 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
     let mut exporters = export::open(&to, &folder)?;
     let needs = Needs::of(&exporters);
     if !needs.snapshot || needs.stored {
-        let text = "png and states are no formats to convert to; `brisance render DIR` draws png and png16";
+        let text = "png and fields are no formats to convert to; `brisance render DIR` draws png and png16";
         return Err(Error::Usage(format!("--to {}: {text}", options.to.join(","))));
     }
-    let Recorded { scene_hash, scene_file, particles, mut scene } = read_report(&options.run, options.allow_outside)?;
+    let Recorded { scene_hash, scene_file, particles, mut scene, .. } =
+        read_report(&options.run, options.allow_outside)?;
     if needs.obstacles && !scene.obstacles.is_empty() {
         let text = toml::to_string(&scene).map_err(|error| Error::Scene(format!("report.json: {error}")))?;
         scene = Scene::recorded(&text, (&options.run, &scene_file), &[], options.allow_outside)?;
     }
+    scene.output.ambient_kelvin = options.kelvin.or(scene.output.ambient_kelvin);
     let origin = Origin::of(&scene).at(&scene_file, "");
     let frames = frames(options, &scene)?;
     let grid = Grid::of(&scene.domain);
@@ -84,7 +86,7 @@ fn frames(options: &ConvertOptions, scene: &Scene) -> Result<Vec<(u32, PathBuf)>
     if all.is_empty() {
         let run = options.run.display();
         return Err(Error::Usage(format!(
-            "{run} has neither states nor checkpoints; run the scene with --export states"
+            "{run} has neither states nor checkpoints; run the scene with --export fields"
         )));
     }
     if let Some(missing) = options.frame.iter().find(|number| all.iter().all(|(index, _)| index != *number)) {

@@ -18,6 +18,7 @@ mod convert;
 mod duration;
 mod film;
 mod folder;
+mod fragments;
 mod gallery;
 mod gauges;
 mod index;

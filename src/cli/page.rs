@@ -2,6 +2,7 @@
 
 mod curves;
 mod gauges;
+mod pieces;
 pub(super) mod run;
 pub(super) mod sweep;
 

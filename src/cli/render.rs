@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde::Deserialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::args::{Cli, ConvertOptions, RenderOptions};
 use super::interrupt;
@@ -12,7 +12,7 @@ use super::progress::clock;
 use super::run::{PICTURES, without_coarse};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device};
-use crate::export::{self, forms, states};
+use crate::export::{self, forms, report, states};
 use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
 use crate::scene::{MOST_PARTICLES, Overlays, Scene, Shot};
@@ -26,10 +26,17 @@ const MAIN: &str = "main";
 /// What is needed of a run's report.
 #[derive(Deserialize)]
 pub(super) struct Recorded {
+    #[serde(default = "first_form")]
+    form: u32,
     pub(super) scene_hash: String,
     pub(super) scene_file: String,
     pub(super) particles: u64,
     pub(super) scene: Scene,
+}
+
+/// Of a report that names none.
+fn first_form() -> u32 {
+    1
 }
 
 /// Draws the frames of a run again.
@@ -59,8 +66,9 @@ fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli)
     let start = Instant::now();
     let recorded = read_report(&options.run, options.allow_outside)?;
     let (hash, particles) = (recorded.scene_hash.clone(), recorded.particles.min(MOST_PARTICLES));
+    let form = recorded.form;
     let scene = with_look(recorded, options)?;
-    if scene.hash() != hash {
+    if form == report::FORM && scene.hash() != hash {
         let message = "the scene of the run is read differently by this program, or a mesh file of it has changed";
         return Err(Error::Usage(format!("{}: {message}; run it again", options.run.display())));
     }
@@ -126,8 +134,16 @@ pub(super) fn read_report(run: &Path, outside: bool) -> Result<Recorded> {
         }
         _ => Error::io(&path, source),
     })?;
-    serde_json::from_str(&text)
+    recorded(&text)
         .map_err(|error| Error::Usage(format!("{}: {error}; run the scene again with this program", path.display())))
+}
+
+/// What a report says, its scene in the words of this program.
+fn recorded(text: &str) -> serde_json::Result<Recorded> {
+    let mut report: Value = serde_json::from_str(text)?;
+    let form = report["form"].as_u64().and_then(|form| u32::try_from(form).ok()).unwrap_or(1);
+    report["scene"] = Scene::of_form(form, report["scene"].take());
+    Recorded::deserialize(report)
 }
 
 /// The scene of the run with the look that the options ask for.
@@ -196,7 +212,7 @@ fn frames(options: &RenderOptions) -> Result<Vec<(u32, PathBuf)>> {
     let run = options.run.display();
     let all = if states::folder_of(&options.run).is_dir() { states::list(&options.run)? } else { Vec::new() };
     if all.is_empty() {
-        return Err(Error::Usage(format!("{run} has no states; run the scene again with --export states")));
+        return Err(Error::Usage(format!("{run} has no states; run the scene again with --export fields")));
     }
     let found = |number: &u32| all.iter().any(|(index, _)| index == number);
     if let Some(missing) = options.frame.iter().find(|number| !found(number)) {

@@ -1,16 +1,18 @@
-//! The tables of a run: one row per step in `diagnostics.csv`, `probes.csv` and `gauges.csv`, one per frame and body in `bodies.csv`.
+//! The tables of a run: one row per step in `diagnostics.csv`, `probes.csv` and `gauges.csv`, one per frame and body in `bodies.csv`,
+//! one per frame and piece in `fragments.csv`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::fragments::Fragments;
 use super::gauges::Gauges;
 use super::loads::{self, Loads, Sum};
 use crate::Result;
 use crate::diagnostics::{StepRecord, Total};
 use crate::export::csv::{Mark, Table, Value};
-use crate::scene::Scene;
+use crate::scene::{MOST_PARTICLES, Scene};
 use crate::snapshot::Snapshot;
 
 /// Columns of `diagnostics.csv`.
@@ -48,6 +50,9 @@ pub(super) struct Marks {
     pub(super) files: BTreeMap<String, Mark>,
     /// What loads had come to.
     loads: Vec<Sum>,
+    /// [`Fragments::runs`].
+    #[serde(default)]
+    pieces: Vec<[u32; 2]>,
 }
 
 /// The tables of one run.
@@ -55,6 +60,7 @@ pub(super) struct Marks {
 pub(super) struct Tables {
     steps: Table,
     bodies: Option<Table>,
+    fragments: Option<Fragments>,
     probes: Option<Table>,
     loads: Loads,
     gauges: Option<Gauges>,
@@ -75,6 +81,7 @@ impl Tables {
         Self {
             steps: Table::new(&folder.join("diagnostics.csv"), &STEP_COLUMNS),
             bodies: bodies.then(|| Table::new(&folder.join("bodies.csv"), &[&BODY_COLUMNS, more].concat())),
+            fragments: Fragments::new(folder, scene),
             probes: (!scene.probes.is_empty()).then(|| Table::new(&folder.join("probes.csv"), &columns)),
             loads,
             gauges: Gauges::new(folder, scene),
@@ -95,6 +102,9 @@ impl Tables {
             }
         }
         tables.loads.go_on(&marks.loads);
+        if let Some(fragments) = &mut tables.fragments {
+            fragments.go_on(&marks.pieces, MOST_PARTICLES as usize);
+        }
         Ok(tables)
     }
 
@@ -102,12 +112,14 @@ impl Tables {
     pub(super) fn marks(&mut self) -> Marks {
         let name = |table: &Table| table.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
         let files = self.all().map(|table| (name(table), table.mark())).collect();
-        Marks { files, loads: self.loads.sums() }
+        let pieces = self.fragments.as_ref().map_or_else(Vec::new, Fragments::runs);
+        Marks { files, loads: self.loads.sums(), pieces }
     }
 
     fn all(&mut self) -> impl Iterator<Item = &mut Table> {
         let gauges = self.gauges.as_mut().map(|gauges| &mut gauges.table);
-        let own = [&mut self.steps].into_iter().chain(&mut self.bodies).chain(&mut self.probes);
+        let fragments = self.fragments.as_mut().map(|fragments| &mut fragments.table);
+        let own = [&mut self.steps].into_iter().chain(&mut self.bodies).chain(fragments).chain(&mut self.probes);
         own.chain(self.loads.table()).chain(gauges)
     }
 
@@ -131,8 +143,11 @@ impl Tables {
         }
     }
 
-    /// Adds the bodies of a frame.
+    /// Adds the bodies of a frame, and their pieces.
     pub(super) fn add_bodies(&mut self, frame: u32, time: f64, snapshot: &Snapshot) {
+        if let Some(fragments) = &mut self.fragments {
+            fragments.add(frame, time, snapshot);
+        }
         let Some(table) = &mut self.bodies else { return };
         for (index, (name, body)) in self.names.iter().zip(snapshot.bodies(self.names.len())).enumerate() {
             let head: [Value; 5] =

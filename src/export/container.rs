@@ -14,13 +14,13 @@ use zip::{CompressionMethod, ZipArchive};
 use super::npy::{self, Kind};
 use super::units;
 use crate::export::atomic;
-use crate::scene::{RenderSettings, Scene};
+use crate::scene::{self, RenderSettings, Scene};
 use crate::{Error, Result, input};
 
 /// What the head of every file names.
 const FORMAT: &str = "brisance state";
-/// Version of the format: it grows when a reader of the version before would go wrong.
-pub const VERSION: u32 = 1;
+/// Version of the format: that of the scene in it, which grows, too, when a reader of the version before would go wrong.
+pub const VERSION: u32 = scene::FORM;
 /// Member with the head.
 const HEAD: &str = "head.json";
 /// Member with the scene.
@@ -266,9 +266,11 @@ fn head<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<Head
     if about["format"] != FORMAT {
         return Err(format!("no state of brisance: {HEAD} names the format {}", about["format"]));
     }
-    if about["version"] != VERSION {
-        let other = &about["version"];
-        return Err(format!("a state of version {other}; this program reads version {VERSION}: use a newer one"));
+    let version = &about["version"];
+    if !version.as_u64().is_some_and(|version| (1..=u64::from(VERSION)).contains(&version)) {
+        return Err(format!(
+            "a state of version {version}; this program reads versions up to {VERSION}: use a newer one"
+        ));
     }
     serde_json::from_value(about).map_err(|error| format!("{HEAD}: {error}"))
 }

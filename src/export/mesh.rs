@@ -16,7 +16,7 @@ use crate::snapshot::Snapshot;
 use crate::state::Grid;
 use crate::{Error, Result, input};
 
-/// Columns of `mesh/NNNN.csv` before the speeds.
+/// Columns of a piece before the speeds.
 #[rustfmt::skip]
 const COLUMNS: [&str; 18] = [
     "piece", "parent", "body", "particles", "mass", "x", "y", "z", "velocity_x", "velocity_y", "velocity_z",
@@ -68,14 +68,12 @@ impl MeshExporter {
         ply::write(&path, &about(moment), &[Part { surface, ..Part::default() }])
     }
 
-    /// The pieces that fragments come from: where the particle that gives each its number was in the last frame.
-    fn parents(&mut self, fragments: &[Fragment], snapshot: &Snapshot, path: &Path) -> Result<Vec<Option<u32>>> {
+    /// The pieces that fragments come from: where the particle that gives each its number was in the last frame. `now` has the piece of
+    /// each particle.
+    fn parents(&mut self, fragments: &[Fragment], now: &[[u32; 2]], path: &Path) -> Result<Vec<Option<u32>>> {
         if let Some(last) = self.last.take() {
             self.before = Some(read_pieces(&self.folder.join(format!("{last:04}.npy")))?);
         }
-        let each = snapshot.piece_of_each();
-        let now: Vec<[u32; 2]> =
-            snapshot.particles.iter().map(|particle| particle.index).zip(each).map(Into::into).collect();
         let before = self.before.replace(now.iter().map(|[index, piece]| (*index, *piece)).collect());
         let head = npy::head(npy::Kind::U32, &[now.len(), 2]);
         atomic::write(path, |out| {
@@ -86,24 +84,29 @@ impl MeshExporter {
     }
 
     fn table(&self, path: &Path, rows: &[(Fragment, Option<u32>, f64)], names: &[String]) -> Result<()> {
-        let speeds: Vec<String> = (1..=SPEEDS).map(|part| format!("mass_at_speed_{part}_of_{SPEEDS}")).collect();
-        let columns: Vec<&str> = COLUMNS.into_iter().chain(speeds.iter().map(String::as_str)).collect();
+        let columns = columns();
+        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut table = Table::new(path, &columns);
-        for (one, parent, volume) in rows {
-            let parent = parent.map_or_else(|| NONE.to_owned(), |parent| parent.to_string());
-            let body = names.get(one.body as usize).map_or("", String::as_str);
-            let head: [Value; 5] = [
-                one.piece.into(),
-                parent.as_str().into(),
-                body.into(),
-                (one.particles.len() as u64).into(),
-                one.mass.into(),
-            ];
-            let vectors = [one.centre, one.velocity, one.spin, one.size].into_iter().flatten();
-            table.push(head.into_iter().chain(vectors.chain([*volume]).chain(one.speeds).map(Value::from)));
-        }
+        rows.iter().for_each(|(one, parent, volume)| table.push(row(one, (*parent, *volume), names)));
         table.save()
     }
+}
+
+/// Names of the columns of a piece.
+pub(crate) fn columns() -> Vec<String> {
+    let speeds = (1..=SPEEDS).map(|part| format!("mass_at_speed_{part}_of_{SPEEDS}"));
+    COLUMNS.iter().map(|&name| name.to_owned()).chain(speeds).collect()
+}
+
+/// A row of a piece: it comes from another one and has a volume \[m^3\]; `names` are those of the bodies.
+pub(crate) fn row(one: &Fragment, (parent, volume): (Option<u32>, f64), names: &[String]) -> Vec<Value> {
+    let parent = parent.map_or_else(|| NONE.to_owned(), |parent| parent.to_string());
+    let body = names.get(one.body as usize).map_or("", String::as_str);
+    let mut row: Vec<Value> = vec![one.piece.into(), parent.as_str().into(), body.into()];
+    row.extend([(one.particles.len() as u64).into(), one.mass.into()]);
+    let vectors = [one.centre, one.velocity, one.spin, one.size].into_iter().flatten();
+    row.extend(vectors.chain([volume]).chain(one.speeds).map(Value::from));
+    row
 }
 
 impl Exporter for MeshExporter {
@@ -116,9 +119,12 @@ impl Exporter for MeshExporter {
         if !std::mem::replace(&mut self.begun, true) {
             self.obstacles(moment, &snapshot.grid)?;
         }
-        let fragments = snapshot.fragments();
+        let each = snapshot.piece_of_each();
+        let fragments = snapshot.fragments(&each);
+        let indices = snapshot.particles.iter().map(|particle| particle.index);
+        let now: Vec<[u32; 2]> = indices.zip(each).map(Into::into).collect();
         let name = format!("{:04}", moment.index);
-        let parents = self.parents(&fragments, snapshot, &self.folder.join(&name).with_extension("npy"))?;
+        let parents = self.parents(&fragments, &now, &self.folder.join(&name).with_extension("npy"))?;
         let parts: Vec<Part> = fragments.par_iter().map(|one| part(one, snapshot)).collect();
         ply::write(&self.folder.join(&name).with_extension("ply"), &about(moment), &parts)?;
         let volumes = parts.iter().map(|part| part.surface.volume());

@@ -212,8 +212,8 @@ pub const FORMATS: &[Format] = &[
         open: |folder| Box::new(exr::ExrExporter::new(folder)),
     },
     Format {
-        name: "states",
-        description: "states/NNNN.npz, from which `brisance render` draws again and numpy reads",
+        name: "fields",
+        description: "states/NNNN.npz, the light form of a state, from which `brisance render` draws again and numpy reads",
         open: |folder| Box::new(states::StateExporter::new(folder)),
     },
     Format {
@@ -252,8 +252,14 @@ pub fn open(names: &[String], folder: &Path) -> Result<Vec<Box<dyn Exporter>>> {
     Ok(all.into_iter().map(|format| (format.open)(folder)).collect())
 }
 
+/// The keyword of a format by another name of it: the files of `fields` lie in `states`, as the scene's key says.
+#[must_use]
+pub fn keyword(name: &str) -> &str {
+    if name == "states" { "fields" } else { name }
+}
+
 fn find(name: &str) -> Result<&'static Format> {
-    FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
+    FORMATS.iter().find(|format| format.name == keyword(name)).ok_or_else(|| {
         let known: Vec<_> = FORMATS.iter().map(|format| format.name).collect();
         let like = did_you_mean(name, known.iter().copied());
         Error::Usage(format!("no export format `{name}`; there are: {}{like}", known.join(", ")))

@@ -8,13 +8,13 @@ use serde::Serialize;
 
 use crate::expect::{Check, Gauge, Warning};
 use crate::export::atomic;
-use crate::scene::Warned;
+use crate::scene::{self, Warned};
 use crate::{Error, Result};
 
 /// Name of the file.
 pub const REPORT: &str = "report.json";
-/// Version of its form: it grows when a reader of the form before would go wrong. A report that names none has the first one.
-pub const FORM: u32 = 1;
+/// Version of its form: that of the scene in it. A report that names none has the first one.
+pub const FORM: u32 = scene::FORM;
 
 /// The device a run used.
 #[derive(Debug, Clone, Serialize)]

@@ -25,6 +25,9 @@ pub fn end_all() {
     encoder::end_all();
 }
 
+/// Pictures per second where nobody asks for another number.
+pub const FRAME_RATE: u32 = 25;
+
 /// Writes the first picture of each view to a film: `film.mp4` for the scene's own look, `film_VIEW.mp4` for the others.
 #[derive(Debug)]
 pub struct VideoExporter {

@@ -16,16 +16,17 @@ const PNG16: f64 = 4.0;
 const EXR: f64 = 9.0;
 /// Bytes that a frame takes for each cell and each particle, by format.
 const STORED: [(&str, f64, f64); 5] =
-    [("states", 15.0, 100.0), ("vtk", 23.0, 40.0), ("usd", 0.0, 36.0), ("npz", 23.0, 38.0), ("mesh", 0.0, 490.0)];
+    [("fields", 15.0, 100.0), ("vtk", 23.0, 40.0), ("usd", 0.0, 36.0), ("npz", 23.0, 38.0), ("mesh", 0.0, 490.0)];
 /// The same of volumes, by axes: leaves of fewer axes hold few cells.
 const VOLUMES: [f64; 3] = [25.0, 25.0, 6.0];
 /// Bytes of a number in tables, by axes: zeros are short.
 const NUMBER: [f64; 3] = [8.0, 13.5, 15.0];
-/// Numbers of a row: of steps, of each probe and gauge in theirs, of a body in a frame.
+/// Numbers of a row: of steps, of each probe and gauge in theirs, of a body and of its piece in a frame.
 const STEP_COLUMNS: f64 = 52.0;
 const PROBE_COLUMNS: f64 = 6.0;
 const GAUGE_COLUMNS: f64 = 13.0;
 const BODY_COLUMNS: f64 = 25.0;
+const PIECE_COLUMNS: f64 = 29.0;
 /// Bytes of a plot on the page: its frame, and each of at most so many places along its curves.
 const PLOT: f64 = 1500.0;
 const PLACE: f64 = 30.0;
@@ -72,7 +73,8 @@ impl Scene {
 
     fn table_bytes(&self, steps: f64, frames: f64) -> f64 {
         let measured = PROBE_COLUMNS * self.probes.len() as f64 + GAUGE_COLUMNS * self.gauges.len() as f64;
-        let rows = steps * (STEP_COLUMNS + measured) + frames * BODY_COLUMNS * self.bodies.len() as f64;
+        let rows =
+            steps * (STEP_COLUMNS + measured) + frames * (BODY_COLUMNS + PIECE_COLUMNS) * self.bodies.len() as f64;
         NUMBER[self.axis()] * rows
     }
 

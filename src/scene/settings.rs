@@ -86,7 +86,7 @@ pub struct Output {
 impl Output {
     /// Names of the formats that the scene asks for beside pictures.
     pub fn formats(&self) -> impl Iterator<Item = &'static str> {
-        let all = [("vtk", self.vtk), ("png16", self.png16), ("exr", self.exr), ("states", self.states)];
+        let all = [("vtk", self.vtk), ("png16", self.png16), ("exr", self.exr), ("fields", self.states)];
         all.into_iter().filter(|(_, on)| *on).map(|(name, _)| name)
     }
 }

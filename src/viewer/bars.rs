@@ -57,6 +57,7 @@ pub(super) fn bottom(ui: &mut Ui, view: Option<&mut View>, status: &Status) -> V
         let record = if status.recorded.is_some() { "Stop" } else { "Record" };
         let buttons = [
             (play, "Space", Action::Play),
+            ("Go on", "G: simulates from here", Action::GoOn),
             ("Step", "Right", Action::Step(1)),
             ("Restart", "R", Action::Restart),
             ("Fit", "F", Action::Fit),
@@ -64,7 +65,8 @@ pub(super) fn bottom(ui: &mut Ui, view: Option<&mut View>, status: &Status) -> V
             (record, "V", Action::Record),
         ];
         let ready = status.phase == Phase::Ready;
-        for (text, key, action) in buttons {
+        for (text, key, action) in buttons.into_iter().filter(|(_, _, action)| *action != Action::GoOn || status.replay)
+        {
             let enabled = ready || action == Action::Restart;
             if ui.add_enabled(enabled, egui::Button::new(text)).on_hover_text(key).clicked() {
                 asked.push(action);
@@ -104,6 +106,8 @@ fn clock(ui: &mut Ui, view: &View, status: &Status) -> Option<Action> {
     let rate = match status.steps_per_second {
         rate if rate > 0.0 => format!("{rate:.1} steps/s"),
         _ if status.phase == Phase::Failed => "stopped".to_owned(),
+        _ if status.replay && status.playing => "playing".to_owned(),
+        _ if status.replay => "Space plays, G goes on".to_owned(),
         _ if status.finished => "end; Space goes on".to_owned(),
         _ if status.playing && status.step == 0 => "starting".to_owned(),
         _ if status.playing => "running".to_owned(),

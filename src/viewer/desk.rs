@@ -1,13 +1,14 @@
 //! What the worker does: obeys commands, steps the scene within its budget, draws, and leaves the outcome in the outbox.
 
 mod files;
+mod pace;
 mod rewind;
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use super::budget::{Budget, Haste, Rate, paced_steps};
+use super::budget::{Budget, Haste, Rate};
 use super::model::{Command, Look, Note, Opened, Outbox, Pace, Phase, Request, Shown, Status, Strike, Weight};
 use super::record::Recording;
 use super::session::Session;
@@ -17,11 +18,10 @@ use crate::gpu::{Gpu, GpuOptions};
 use crate::math::plain;
 use crate::scene::{Scene, stem};
 use crate::{Error, Result};
+use pace::LONGEST_LAG;
 
 /// Time between two measurements of the stages \[s\].
 const MEASURE_PERIOD: f64 = 2.0;
-/// What of a lag behind the pace is caught up \[s\].
-const LONGEST_LAG: f64 = 0.1;
 /// Where screenshots and recordings go, below a folder per scene.
 const OUT: &str = "out";
 
@@ -40,6 +40,8 @@ pub(super) struct Desk {
     /// Steps since the last picture.
     news: bool,
     playing: bool,
+    /// Whether to play is to show the states of a run, one after another.
+    replay: bool,
     steps_left: u32,
     pace: Pace,
     /// Clock and simulated time when the scene began to run at its pace.
@@ -73,6 +75,7 @@ impl Desk {
             coarse: false,
             news: false,
             playing: false,
+            replay: false,
             steps_left: 0,
             pace: Pace::Fastest,
             paced_from: (0.0, 0.0),
@@ -103,7 +106,7 @@ impl Desk {
         if !self.ready() {
             return None;
         }
-        if self.steps_left > 0 || (self.playing && self.due_steps() > 0) {
+        if self.steps_left > 0 || (self.playing && self.is_due()) {
             return Some(Duration::ZERO);
         }
         let wait = |until: f64| Some(Duration::from_secs_f64((until - self.now()).clamp(0.0, 1.0)));
@@ -123,8 +126,12 @@ impl Desk {
                 Ok(())
             }
             Command::Play(playing) => self.play(playing),
+            Command::GoOn => {
+                self.replay = false;
+                self.play(true)
+            }
             Command::Steps(steps) => {
-                self.playing = false;
+                (self.playing, self.replay) = (false, false);
                 self.steps_left = self.steps_left.saturating_add(steps);
                 self.pass_the_end()
             }
@@ -158,8 +165,13 @@ impl Desk {
         }
         let (start, step) = (self.now(), self.session.as_ref().map_or(0, Session::step_count));
         // The start is shown before the first step, for which some drivers compile for long.
-        let outcome = if self.shown.is_none() { Ok(()) } else { self.advance() }.and_then(|()| self.draw());
-        if self.playing && step > 0 {
+        let next = match self.shown {
+            None => Ok(()),
+            Some(_) if self.replay && self.playing => self.show_next(),
+            Some(_) => self.advance(),
+        };
+        let outcome = next.and_then(|()| self.draw());
+        if self.playing && !self.replay && step > 0 {
             // from a frame without a checkpoint the scene goes on before it
             let steps = self.session.as_ref().map_or(step, Session::step_count).saturating_sub(step);
             self.ran = (self.ran.0 + steps, self.ran.1 + (self.now() - self.turned.max(start - LONGEST_LAG)));
@@ -194,7 +206,7 @@ impl Desk {
         });
         self.look = Some(look);
         self.session = Some(session);
-        self.phase = Phase::Ready;
+        (self.phase, self.replay) = (Phase::Ready, request.run().is_some());
         (self.stale, self.budget, self.rate) = (true, Budget::default(), Rate::default());
         Ok(())
     }
@@ -206,50 +218,6 @@ impl Desk {
         (self.playing, self.steps_left, self.news, self.coarse) = (false, 0, false, false);
         self.records.clear();
         self.phase = Phase::Empty;
-    }
-
-    fn play(&mut self, playing: bool) -> Result<()> {
-        self.playing = playing && self.ready();
-        self.rate = Rate::since(self.now());
-        self.start_pace();
-        if self.playing { self.pass_the_end() } else { Ok(()) }
-    }
-
-    /// Whoever goes on at the end wants to see more.
-    fn pass_the_end(&mut self) -> Result<()> {
-        match &mut self.session {
-            Some(session) if session.finished() => session.go_on(),
-            _ => Ok(()),
-        }
-    }
-
-    fn start_pace(&mut self) {
-        self.paced_from = (self.now(), self.session.as_ref().map_or(0.0, Session::time));
-    }
-
-    /// Steps that budget and pace allow now.
-    fn due_steps(&self) -> u32 {
-        let (Some(session), most) = (&self.session, self.budget.steps()) else { return 0 };
-        match self.pace {
-            Pace::Fastest => most,
-            Pace::Lasting(seconds) => {
-                let speed = session.scene().time.until / seconds;
-                paced_steps(-speed * self.lag(session, speed), session.dt(), most)
-            }
-        }
-    }
-
-    /// How far simulated time is behind its pace \[s of the clock\]; negative if it is ahead.
-    fn lag(&self, session: &Session, speed: f64) -> f64 {
-        self.now() - self.paced_from.0 - (session.time() - self.paced_from.1) / speed
-    }
-
-    /// A long lag is forgotten: after a hitch the scene does not race.
-    fn forget_lag(&mut self) {
-        if let (Pace::Lasting(seconds), Some(session)) = (self.pace, &self.session) {
-            let lag = self.lag(session, session.scene().time.until / seconds);
-            self.paced_from.0 += (lag - LONGEST_LAG).max(0.0);
-        }
     }
 
     fn advance(&mut self) -> Result<()> {
@@ -298,7 +266,10 @@ impl Desk {
 
     fn draw(&mut self) -> Result<()> {
         let wanted = self.wants_picture();
-        let due = !self.playing || self.now() >= self.budget.picture_due(self.stale || self.recording.is_some());
+        // each state of a run is seen
+        let due = !self.playing
+            || self.replay
+            || self.now() >= self.budget.picture_due(self.stale || self.recording.is_some());
         let haste = self.haste();
         let (Some(session), Some(whole)) = (&mut self.session, &self.look) else { return Ok(()) };
         if !wanted || !due {
@@ -328,6 +299,7 @@ impl Desk {
 
     fn change(&mut self, scene: Scene) -> Result<()> {
         let Some(session) = &mut self.session else { return Ok(()) };
+        self.replay = false;
         session.change(scene, &mut self.records)?;
         lock(&self.outbox).changed = Some(Arc::clone(session.scene()));
         Ok(())
@@ -336,6 +308,7 @@ impl Desk {
     fn strike(&mut self, strike: &Strike) -> Result<()> {
         let (Some(session), Some(look)) = (&mut self.session, &self.look) else { return Ok(()) };
         let blast = session.strike(strike, look, &mut self.records)?;
+        self.replay = false;
         (self.stale, self.news) = (true, true);
         let place = blast.center.map(plain)[..session.scene().domain.axes()].join(", ");
         self.note(Weight::Fine, format!("{} J at ({place}) m", plain(blast.energy)));
@@ -377,6 +350,7 @@ impl Desk {
         let status = Status {
             phase: self.phase.clone(),
             playing: self.playing,
+            replay: self.replay,
             finished: session.is_some_and(Session::finished),
             time: session.map_or(0.0, Session::time),
             step: session.map_or(0, Session::step_count),

@@ -7,8 +7,10 @@ use crate::scene::Field;
 /// What a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
-    /// Run or pause.
+    /// Run or pause; of a run on the disk, show it.
     Play,
+    /// Simulate from the state that is shown.
+    GoOn,
     /// So many single steps.
     Step(u32),
     /// The last state that is kept up to a time \[s\].
@@ -44,8 +46,9 @@ pub enum Action {
 }
 
 /// What the help shows: key, and what it does.
-pub const HELP: [(&str, &str); 16] = [
-    ("Space", "run or pause"),
+pub const HELP: [(&str, &str); 17] = [
+    ("Space", "run or pause; play a run"),
+    ("G", "of a run: go on from the state that is shown"),
     ("Right", "one step; with Shift 16 steps"),
     ("Up, Down", "twice as fast, half as fast"),
     ("R", "restart the scene"),
@@ -96,6 +99,7 @@ pub fn action(key: Key, modifiers: Modifiers) -> Option<Action> {
     }
     Some(match key {
         Key::Space => Action::Play,
+        Key::G => Action::GoOn,
         Key::ArrowRight => Action::Step(if modifiers.shift { 16 } else { 1 }),
         Key::ArrowUp => Action::Pace(2.0),
         Key::ArrowDown => Action::Pace(0.5),
@@ -125,6 +129,7 @@ mod tests {
     fn keys_do_what_people_expect() {
         let plain = |key| action(key, Modifiers::NONE);
         assert_eq!(plain(Key::Space), Some(Action::Play));
+        assert_eq!(plain(Key::G), Some(Action::GoOn));
         assert_eq!(plain(Key::ArrowRight), Some(Action::Step(1)));
         assert_eq!(action(Key::ArrowRight, Modifiers::SHIFT), Some(Action::Step(16)));
         assert_eq!(plain(Key::Num1), Some(Action::Field(Field::Density)));

@@ -97,8 +97,10 @@ pub enum Command {
     Open(Request, Option<Box<Look>>),
     /// Let go of the scene.
     Close,
-    /// Run or pause.
+    /// Run or pause; what a run has left is shown again.
     Play(bool),
+    /// Simulate from the state that is shown.
+    GoOn,
     /// So many steps, then pause.
     Steps(u32),
     /// How fast simulated time may pass.
@@ -145,6 +147,8 @@ pub struct Status {
     pub phase: Phase,
     /// Whether the scene runs.
     pub playing: bool,
+    /// Whether to play is to show the states of a run.
+    pub replay: bool,
     /// Whether the end of the scene's run is reached.
     pub finished: bool,
     /// Simulated time \[s\].

@@ -117,6 +117,11 @@ impl Past {
         self.kept.iter().rev().find(reached).or(self.kept.first())
     }
 
+    /// The first state behind a time \[s\].
+    pub(super) fn after(&self, time: f64) -> Option<&Kept> {
+        self.kept.iter().find(|one| one.time > time * (1.0 + ROUNDING))
+    }
+
     /// The last state up to a time \[s\] that the scene can go on from.
     pub(super) fn latest_whole(&self, time: f64) -> Option<&Kept> {
         let reached = |one: &&Kept| one.is_whole() && one.time <= time * (1.0 + ROUNDING);
@@ -149,8 +154,10 @@ pub(super) struct Recorded {
     pub(super) scene: Scene,
     /// Its checkpoints, and the states of its frames between them.
     pub(super) kept: Vec<Kept>,
-    /// Its books before the first step; none where it left no checkpoint.
+    /// Its books before the first step; none where it left no checkpoint to go on from.
     pub(super) start: Option<Budget>,
+    /// Whether its form is that of this program: else its states are looked at alone.
+    pub(super) goes_on: bool,
 }
 
 /// Reads what a run left. `outside`: its meshes may lie elsewhere.
@@ -162,7 +169,7 @@ pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
     let (whole, light) = (checkpoint::list(run)?, states::list(run)?);
     let all = || whole.iter().map(|(_, path)| path).chain(light.iter().map(|(_, path)| path));
     let Some(last) = whole.last().map(|(_, path)| path).or(light.last().map(|(_, path)| path)) else {
-        let hint = "`brisance run SCENE --export states`, or `--checkpoint 10min --keep 20`, leaves some";
+        let hint = "`brisance run SCENE --export fields`, or `--checkpoint 10min --keep 20`, leaves some";
         return Err(Error::Usage(format!("{} is a folder without states to look at; {hint}", run.display())));
     };
     if !outside {
@@ -170,13 +177,17 @@ pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
     }
     let (head, texts) = container::read_texts(last)?;
     let text = texts.get(container::SCENE).map_or("", String::as_str);
-    let scene = Scene::recorded(text, (run, &head.source.scene_file), &[], outside)?;
+    let text = Scene::text_of_form(head.version, text)
+        .map_err(|error| Error::Scene(format!("{}: {}: {error}", last.display(), container::SCENE)))?;
+    let scene = Scene::recorded(&text, (run, &head.source.scene_file), &[], outside)?;
     for path in all() {
         if container::read_texts(path)?.0.source.scene_hash != head.source.scene_hash {
             return Err(Error::Usage(format!("{}: a state of another scene than the last one", path.display())));
         }
     }
+    let goes_on = head.version == container::VERSION;
     let (mut kept, mut start) = (Vec::new(), None);
+    let (whole, earlier) = if goes_on { (whole, Vec::new()) } else { (Vec::new(), whole) };
     for (step, path) in whole {
         let (own, _, about) = checkpoint::read_texts(&path)?;
         let About { host, summary, start_budget } =
@@ -184,14 +195,15 @@ pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
         start = Some(start_budget);
         kept.push(Kept { time: own.time, step, summary, place: Place::File(path, Box::new(host)) });
     }
-    for (_, path) in light {
+    let earlier = earlier.into_iter().map(|(_, path)| path);
+    for path in light.into_iter().map(|(_, path)| path).chain(earlier) {
         let (own, _) = container::read_texts(&path)?;
         if kept.iter().all(|other: &Kept| other.step != own.step) {
             kept.push(Kept { time: own.time, step: own.step, summary: Summary::default(), place: Place::Light(path) });
         }
     }
     kept.sort_by(|a, b| a.time.total_cmp(&b.time));
-    Ok(Recorded { scene, kept, start })
+    Ok(Recorded { scene, kept, start, goes_on })
 }
 
 #[cfg(test)]

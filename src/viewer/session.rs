@@ -36,6 +36,8 @@ pub struct Session {
     past: Past,
     /// Time \[s\] and step of a state that is shown and cannot go on.
     light: Option<(f64, u64)>,
+    /// Whether there is more of it on the disk.
+    of_a_run: bool,
 }
 
 impl Session {
@@ -54,9 +56,9 @@ impl Session {
     /// # Errors
     /// [`Error::Usage`] if it has none; [`Error::Io`]; those of [`Session::open`].
     pub fn open_run(gpu: &Gpu, run: &Path, outside: bool) -> Result<Self> {
-        let Recorded { scene, kept, start } = past::of_run(run, outside)?;
-        let begins = kept.first().is_some_and(|first| first.time == 0.0);
-        let mut session = Self::new(gpu, scene, kept)?;
+        let Recorded { scene, kept, start, goes_on } = past::of_run(run, outside)?;
+        let begins = goes_on && kept.first().is_some_and(|first| first.time == 0.0);
+        let mut session = Self { of_a_run: true, ..Self::new(gpu, scene, kept)? };
         match start {
             Some(start) => session.start = start,
             // a branch of another run begins later, from a state that is not here
@@ -79,8 +81,21 @@ impl Session {
         let (start, summary, warnings) = (Budget::read(&simulation, &scene, 0.0)?, Summary::default(), Vec::new());
         let past = Past::new(scene.time.until, simulation.saved_bytes(), kept);
         let scene = Arc::new(scene);
-        let (finished, dt, light) = (false, 0.0, None);
-        Ok(Self { scene, simulation, renderer, particles, finished, dt, start, summary, warnings, past, light })
+        let (finished, dt, light, of_a_run) = (false, 0.0, None, false);
+        Ok(Self {
+            scene,
+            simulation,
+            renderer,
+            particles,
+            finished,
+            dt,
+            start,
+            summary,
+            warnings,
+            past,
+            light,
+            of_a_run,
+        })
     }
 
     /// The scene as it is now.
@@ -174,15 +189,45 @@ impl Session {
     pub fn rewind(&mut self, time: f64) -> Result<f64> {
         let Some(kept) = self.past.latest(time) else { return Ok(self.time()) };
         if kept.step != self.step_count() || kept.time != self.time() {
-            match kept.state(self.simulation.saved_bytes().max(self.most_light()))? {
-                Found::Whole(saved) => {
-                    let summary = kept.summary.clone();
-                    self.set(&saved, summary)?;
-                }
-                Found::Light(stored) => self.show(&stored)?,
-            }
+            let (state, summary) = self.read(kept)?;
+            self.take(state, summary)?;
         }
         Ok(self.time())
+    }
+
+    /// Shows the state that is kept behind this one; whether there is one.
+    ///
+    /// # Errors
+    /// As [`Session::rewind`].
+    pub fn show_next(&mut self) -> Result<bool> {
+        let Some(kept) = self.past.after(self.time()) else { return Ok(false) };
+        let (state, summary) = self.read(kept)?;
+        self.take(state, summary).map(|()| true)
+    }
+
+    /// Time of the state that is kept behind this one \[s\].
+    #[must_use]
+    pub fn next(&self) -> Option<f64> {
+        self.past.after(self.time()).map(|kept| kept.time)
+    }
+
+    /// Whether it was opened by [`Session::open_run`].
+    #[must_use]
+    pub fn is_of_a_run(&self) -> bool {
+        self.of_a_run
+    }
+
+    /// A state that is kept; one of an earlier program may have more arrays than this one asks for.
+    fn read(&self, kept: &Kept) -> Result<(Found, Summary)> {
+        let most = 2 * self.simulation.saved_bytes().max(self.most_light());
+        Ok((kept.state(most)?, kept.summary.clone()))
+    }
+
+    fn take(&mut self, state: Found, summary: Summary) -> Result<()> {
+        match state {
+            Found::Whole(saved) => self.set(&saved, summary),
+            Found::Light(stored) => self.show(&stored),
+        }
     }
 
     /// Bytes that a state to look at has at most.

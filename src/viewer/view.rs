@@ -137,6 +137,7 @@ impl View {
     pub(super) fn act(&mut self, action: Action, status: &Status) {
         match action {
             Action::Play => self.commands.push(Command::Play(!status.playing)),
+            Action::GoOn => self.commands.push(Command::GoOn),
             Action::Step(steps) => self.commands.push(Command::Steps(steps)),
             Action::Rewind(time) => self.commands.push(Command::Rewind(time)),
             Action::Screenshot => self.commands.push(Command::Screenshot),

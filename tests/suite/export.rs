@@ -183,7 +183,7 @@ fn unknown_format_lists_the_known_ones() {
     let error = export::open(&["gif".to_owned()], Path::new("out")).err().unwrap();
     assert_eq!(
         error.to_string(),
-        "no export format `gif`; there are: png, png16, exr, states, vtk, vdb, usd, mesh, npz"
+        "no export format `gif`; there are: png, png16, exr, fields, vtk, vdb, usd, mesh, npz"
     );
     assert_eq!(error.exit_code(), 2);
 }
@@ -220,6 +220,7 @@ fn readers_of_others_find_the_same_numbers() {
     assert!(fails(2, &["convert", &run, "--to", "png"]).contains("brisance render"));
     assert!(fails(2, &["convert", &run, "--to", "npz", "--frame", "7"]).contains("no state of frame 7"));
     assert!(fails(2, &["convert", &run, "--to", "abc"]).contains("there are:"));
+    assert!(fails(2, &["convert", &run, "--to", "vdb", "--kelvin", "-3"]).contains("a number above 0"));
     // what is spoiled is noticed, where there is a reader
     let volume = Path::new(&out).join("vdb/0001.vdb");
     let mut bytes = std::fs::read(&volume).unwrap();

@@ -294,7 +294,7 @@ fn frames_drawn_again_have_another_look() {
     std::fs::write(out.join("states/0002.npz"), "short").unwrap();
     assert!(fails(9, &["render", run]).contains("0002.npz"));
     std::fs::remove_dir_all(out.join("states")).unwrap();
-    assert!(fails(2, &["render", run]).contains("--export states"));
+    assert!(fails(2, &["render", run]).contains("--export fields"));
 }
 
 /// Whether a program answers.

@@ -59,11 +59,13 @@ fn a_sweep_leaves_a_table_and_a_page_and_goes_on() {
         let path = out.join("0000").join(name);
         std::fs::write(&path, text(&path).replacen(one, other, 1)).unwrap();
     };
-    for (name, form) in [("report.json", "\"form\": "), ("run.json", "\"version\": ")] {
-        later(name, &format!("{form}1,"), &format!("{form}2,"));
+    for (name, form, own) in [("report.json", "\"form\": ", 2), ("run.json", "\"version\": ", 1)] {
+        let next = own + 1;
+        later(name, &format!("{form}{own},"), &format!("{form}{next},"));
         let told = fails(2, &[&base[..], &over].concat());
-        assert!(told.contains(name) && told.contains("in form 2") && told.contains("newer program"), "{told}");
-        later(name, &format!("{form}2,"), &format!("{form}1,"));
+        let form_told = told.contains(&format!("in form {next}"));
+        assert!(told.contains(name) && form_told && told.contains("newer program"), "{told}");
+        later(name, &format!("{form}{next},"), &format!("{form}{own},"));
     }
     // another scene is another sweep
     succeeds(&[&base[..], &over, &["--shard", "1/6", "--set", "gas.ambient.density=2.0"]].concat());

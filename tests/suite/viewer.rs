@@ -112,7 +112,7 @@ fn a_run_on_the_disk_is_looked_at_and_goes_on() {
     assert!(Session::open_run(&gpu, &run, false).unwrap_err().to_string().contains("--checkpoint"));
 }
 
-/// States of frames are looked at; from there the scene goes on from the last checkpoint, or from its start.
+/// States of frames are looked at, and played; from there the scene goes on from the last checkpoint, or from its start.
 #[test]
 fn states_of_frames_are_shown_and_the_scene_goes_on_before_them() {
     let Some(gpu) = gpu_or_skip() else { return };
@@ -121,7 +121,7 @@ fn states_of_frames_are_shown_and_the_scene_goes_on_before_them() {
     std::fs::write(&file, SPACE).unwrap();
     let run = folder.path().join("run");
     let out = run.to_str().unwrap();
-    let kept = ["--export", "states", "--frames", "4", "--checkpoint", "off", "-q", "--no-expect", "--out", out];
+    let kept = ["--export", "fields", "--frames", "4", "--checkpoint", "off", "-q", "--no-expect", "--out", out];
     crate::cli::succeeds(&[&["run", file.to_str().unwrap(), "--until", "0.2"][..], &kept].concat());
     let mut session = Session::open_run(&gpu, &run, false).unwrap();
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
@@ -141,17 +141,29 @@ fn states_of_frames_are_shown_and_the_scene_goes_on_before_them() {
     session.advance(1, &mut records).unwrap();
     let (_, rows) = crate::cli::table(&run.join("diagnostics.csv"));
     assert_eq!((f64::from(records[0].step), records[0].time), (rows[0][0], rows[0][1]), "from the start");
-    // the window plays it from there
+    // the window plays what is there, each state once, and simulates nothing
     let worker = Worker::start(GpuOptions::default(), || {});
     let mut seen = Outbox::default();
     worker.send(Command::Pace(Pace::Fastest));
     worker.send(Command::Open(Request::of(out), None));
     wait(&worker, &mut seen, "run", |seen| seen.opened.is_some() && seen.shown.is_some());
-    assert!(near(seen.status.time, 0.2), "{:?}", seen.status);
+    assert!(near(seen.status.time, 0.2) && seen.status.replay, "{:?}", seen.status);
+    let begun = Instant::now();
+    worker.send(Command::Play(true));
+    wait(&worker, &mut seen, "first state", |seen| seen.status.playing && seen.status.time < 0.1);
+    wait(&worker, &mut seen, "last state", |seen| !seen.status.playing && near(seen.status.time, 0.2));
+    assert!(begun.elapsed() > Duration::from_secs_f64(4.0 / 25.0), "as fast as a film: {:?}", begun.elapsed());
+    assert!(seen.records.is_empty() && seen.notes.is_empty(), "{:?}", seen.notes);
     worker.send(Command::Rewind(0.1));
     worker.send(Command::Play(true));
+    worker.send(Command::Play(false));
+    wait(&worker, &mut seen, "way back", |seen| seen.rewound.is_some() && !seen.status.playing);
+    assert!(seen.records.is_empty() && seen.status.replay);
+    // whoever asks for it has it simulated from there
+    worker.send(Command::Rewind(0.1));
+    worker.send(Command::GoOn);
     wait(&worker, &mut seen, "end", |seen| seen.status.finished && seen.records.len() > 2);
-    assert!(seen.notes.is_empty(), "{:?}", seen.notes);
+    assert!(seen.notes.is_empty() && !seen.status.replay, "{:?}", seen.notes);
     // what is left of a branch has no start to go back to
     std::fs::remove_file(run.join("states/0000.npz")).unwrap();
     let mut session = Session::open_run(&gpu, &run, false).unwrap();

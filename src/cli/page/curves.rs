@@ -22,6 +22,7 @@ pub(super) struct Tables {
     gauges: Option<Sheet>,
     bodies: Option<Sheet>,
     obstacles: Option<Sheet>,
+    pub(super) fragments: Option<Sheet>,
     /// What could not be read.
     pub(super) wrong: Vec<String>,
 }
@@ -39,7 +40,8 @@ impl Tables {
         let steps = read("diagnostics.csv", &[]);
         let [probes, gauges] = GAUGES.map(|name| read(name, &[]));
         let (bodies, obstacles) = (read("bodies.csv", &["body"]), read("obstacles.csv", &["obstacle"]));
-        Self { steps, probes, gauges, bodies, obstacles, wrong }
+        let fragments = read("fragments.csv", &["parent", "body"]);
+        Self { steps, probes, gauges, bodies, obstacles, fragments, wrong }
     }
 
     /// Mass, momentum and energy: parts, and what they come to.

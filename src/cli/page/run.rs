@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::curves::Tables;
 pub(in crate::cli) use super::curves::gauges;
+use super::pieces;
 use super::{cells, checks, device_text, memory, number, parameters, pictures, start, table};
 use crate::Result;
 use crate::export::atomic;
@@ -59,6 +60,11 @@ fn html(folder: &Path, report: &Value, scene: &str) -> String {
     if !bodies.is_empty() {
         heading(&mut page, "Bodies and obstacles");
         plots(&mut page, bodies);
+    }
+    if let Some(sheet) = &tables.fragments {
+        heading(&mut page, "Pieces");
+        page += &pieces::table(sheet);
+        plots(&mut page, [pieces::speeds(sheet)]);
     }
     heading(&mut page, "Books");
     let drift = report["drift"].as_object().into_iter().flatten();

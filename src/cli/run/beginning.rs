@@ -11,7 +11,7 @@ use super::super::tables::Marks;
 use super::super::{scenes, writer};
 use super::checkpoint::About;
 use super::overrides;
-use crate::export::container::Head;
+use crate::export::container::{Head, VERSION};
 use crate::export::{checkpoint, forms};
 use crate::gpu::Gpu;
 use crate::math::plain;
@@ -296,6 +296,14 @@ impl From {
     /// Reads head and texts of a checkpoint of a run; `changes` apply to its scene.
     fn read(run: &Path, path: &Path, changes: &[String]) -> Result<Self> {
         let (head, text, about) = checkpoint::read_texts(path)?;
+        if head.version != VERSION {
+            let (program, form) = (&head.source.program, head.version);
+            let text = format!(
+                "brisance {program} wrote it in form {form}, and the steps of this program ask for form {VERSION}"
+            );
+            let hint = "`render`, `convert` and `view` read it; run the scene again to go on";
+            return Err(Error::Usage(format!("{}: {text}: {hint}", path.display())));
+        }
         let about: About = toml::from_str(&about)
             .map_err(|error| Error::Usage(format!("{}: {}: {error}", path.display(), checkpoint::RUN)))?;
         let outside = about.options.scene.allow_outside;

@@ -9,7 +9,7 @@ use super::super::outcome::{Verdict, changed_by_hand, changes, device, status, t
 use super::super::page::run as page;
 use super::super::progress::clock;
 use super::super::writer::{Message, Written};
-use super::Run;
+use super::{PICTURES, Run, formats};
 use crate::expect::{Budget, Check, Ending};
 use crate::export::report::{self, Report, Status};
 use crate::math::plain;
@@ -153,9 +153,32 @@ impl Run<'_> {
         let wall = clock(self.start.elapsed());
         let (time, steps) = (report.time, report.steps);
         let time = plain(time);
-        say!("t = {time} s after {steps} steps in {wall}; {} frames in {}", report.frames, self.folder.path.display());
+        let left = left(report.frames, &formats(self.options, &self.scene));
+        say!("t = {time} s after {steps} steps in {wall}; {left} in {}", self.folder.path.display());
         for check in &report.expect {
             say!("  {check}");
         }
+    }
+}
+
+/// What so many frames are to be found as.
+fn left(frames: u32, formats: &[String]) -> String {
+    match formats {
+        [] => "tables".to_owned(),
+        some if some.iter().any(|name| PICTURES.contains(&name.as_str())) => format!("{frames} frames"),
+        others => format!("{frames} frames as {}", others.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_is_told_as_it_is() {
+        let told = |formats: &[&str]| left(25, &formats.iter().map(|&name| name.to_owned()).collect::<Vec<_>>());
+        assert_eq!(told(&[]), "tables");
+        assert_eq!(told(&["png", "vtk"]), "25 frames");
+        assert_eq!(told(&["fields", "vtk"]), "25 frames as fields, vtk");
     }
 }

@@ -1,12 +1,14 @@
 //! Which formats a run writes.
 
 use super::RunOptions;
+use crate::export::keyword;
 use crate::scene::Scene;
 
 /// Formats of a run: pictures unless unwanted, others if the scene or the command line asks.
 pub(super) fn formats(options: &RunOptions, scene: &Scene) -> Vec<String> {
     let mut formats: Vec<String> = if options.no_frames { Vec::new() } else { vec!["png".to_owned()] };
-    let asked = options.export.iter().cloned().chain(scene.output.formats().map(str::to_owned));
+    let asked = options.export.iter().map(|name| keyword(name).to_owned());
+    let asked = asked.chain(scene.output.formats().map(str::to_owned));
     for name in asked {
         if !formats.contains(&name) {
             formats.push(name);

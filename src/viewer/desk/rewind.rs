@@ -7,6 +7,7 @@ impl Desk {
     /// Goes to the last state that is kept up to a time \[s\], and waits there.
     pub(super) fn rewind(&mut self, time: f64) -> Result<()> {
         let Some(session) = &mut self.session else { return Ok(()) };
+        self.replay = session.is_of_a_run();
         let before = session.step_count();
         let time = session.rewind(time)?;
         (self.playing, self.steps_left) = (false, 0);
