@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::check;
-use super::mesh::MeshFolder;
-use super::source::{Finding, MOST_TOLD};
+use super::finding::{Finding, MOST_TOLD};
+use super::geometry::mesh::MeshFolder;
 use super::{
     Body, Boundaries, Boundary, Domain, Expect, Gas, GasState, Gauge, Material, Numerics, Obstacle, Output, Probe,
     Region, RenderSettings, Sampling, Scene, Shape, Time,

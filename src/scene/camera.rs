@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::camera_file::CameraFile;
+use super::geometry::camera_file::CameraFile;
 
 /// A camera: a pinhole, or parallel rays where `height` is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

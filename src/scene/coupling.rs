@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::source::Finding;
+use super::finding::Finding;
 use super::{Boundary, Scene};
 use crate::material::VolumeShare;
 

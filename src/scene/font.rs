@@ -6,8 +6,8 @@ use ab_glyph::FontArc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::mesh::MeshFolder;
-use super::source::Finding;
+use super::finding::Finding;
+use super::geometry::mesh::MeshFolder;
 
 /// Bytes that a font may have: those of East Asia have 20 MiB.
 const MOST_BYTES: u64 = 64 << 20;

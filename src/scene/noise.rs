@@ -1,6 +1,6 @@
 //! Noise on the gas at the start.
 
-use super::sample::random;
+use super::geometry::sample::random;
 use super::{Gas, GasState};
 
 /// Above this share a state might lose its pressure.

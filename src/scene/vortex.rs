@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::source::Finding;
+use super::finding::Finding;
 use super::{Gas, GasState, vector};
 
 /// A vortex around z that is added to the gas at the start. The gas turns around its centre at speed
@@ -49,8 +49,8 @@ pub(super) fn findings(gas: &Gas) -> Vec<Finding> {
     for (index, vortex) in gas.vortices.iter().enumerate() {
         let path = format!("gas.vortices[{index}]");
         if !(vortex.radius > 0.0 && vortex.radius.is_finite()) {
-            let message = format!("{} is out of range", vortex.radius);
-            findings.push(Finding::new(format!("{path}.radius"), message, "give a positive number [m]"));
+            let help = "give a positive number [m]";
+            findings.push(Finding::out_of_range(format!("{path}.radius"), vortex.radius, help));
         }
         let fall = std::f64::consts::E * vortex.cooling(gas.gamma);
         if fall >= least {

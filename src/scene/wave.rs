@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::source::Finding;
+use super::finding::Finding;
 use super::{Gas, GasState, Shape, vector};
 
 /// A wave that is added to the gas at the start: amplitude times cos(vector . x + phase).

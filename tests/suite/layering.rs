@@ -128,6 +128,29 @@ fn rooms_of_verify_depend_downwards_and_its_cases_on_no_other_case() {
     report(&failures);
 }
 
+/// Rooms of `scene` above the data and `geometry`, from the ground floor to the roof. Builder and root know all of them.
+const ROOMS_OF_SCENE: [&str; 2] = ["check", "file"];
+
+#[test]
+fn rooms_of_scene_depend_downwards() {
+    let mut failures = Vec::new();
+    let doors = ["src/scene/mod.rs", "src/scene/build.rs"].map(Path::new);
+    for (path, text) in files("src/scene", "rs") {
+        if doors.contains(&path.as_path()) || path.starts_with("src/scene/tests") {
+            continue;
+        }
+        let own = ROOMS_OF_SCENE.iter().position(|room| path.starts_with(Path::new("src/scene").join(room)));
+        let above = &ROOMS_OF_SCENE[own.map_or(0, |own| own + 1)..];
+        let code = text.lines().take_while(|line| *line != "#[cfg(test)]");
+        for (number, line) in code.enumerate() {
+            let names = |room: &&&str| ["scene", "super"].iter().any(|from| line.contains(&format!("{from}::{room}")));
+            let found = above.iter().filter(names);
+            failures.extend(found.map(|room| format!("{}:{}: {room}", path.display(), number + 1)));
+        }
+    }
+    report(&failures);
+}
+
 #[test]
 fn the_ground_floors_know_no_physics() {
     let words = ["pressure", "density", "velocity", "viscosity", "plastic", "particle"];

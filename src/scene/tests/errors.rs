@@ -1,8 +1,8 @@
 //! Every kind of mistake is reported with its line, its key and what is allowed.
 
 use super::{BASE, parse, report};
-use crate::scene::load::read;
-use crate::scene::source::Source;
+use crate::scene::file::load::read;
+use crate::scene::file::source::Source;
 use crate::scene::{Changes, Scene};
 
 /// The report must hold every one of the words.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use super::{BASE, parse};
-use crate::scene::limits::allowed;
+use crate::scene::check::limits::allowed;
 use crate::scene::{Boundary, Changes, SMALL, Scene, schema};
 
 fn root() -> PathBuf {
@@ -158,7 +158,7 @@ fn every_key_is_documented() {
 #[test]
 fn the_page_of_numerics_has_the_defaults_and_limits_of_the_types() {
     let page = std::fs::read_to_string(root().join("docs/scenes/numerics.md")).expect("a page");
-    let schema = crate::scene::mended::schema();
+    let schema = crate::scene::check::limits::schema();
     for (heading, table) in
         [("time", "Time"), ("numerics", "Numerics"), ("numerics.paper", "Paper"), ("numerics.expert", "Expert")]
     {

@@ -1,0 +1,339 @@
+//! Checks that types cannot express: limits, references, geometry. Every finding names key, value, limit and remedy.
+
+pub(in crate::scene) mod body;
+pub(in crate::scene) mod boundary;
+pub(in crate::scene) mod budget;
+pub(in crate::scene) mod disk;
+pub(in crate::scene) mod estimate;
+pub(in crate::scene) mod gauge;
+pub(in crate::scene) mod limits;
+pub(in crate::scene) mod range;
+pub(in crate::scene) mod render;
+pub(in crate::scene) mod shape;
+
+use std::fmt::Display;
+
+use crate::scene::finding::Finding;
+use crate::scene::{GasState, Integrator, MAX_BODIES, Obstacles, Preconditioner, Scene};
+
+/// Cells per active axis at least: the advection stencil needs this many.
+const FEWEST_CELLS: u32 = 3;
+/// Cells and their ring at most: positions are 32-bit integers on the device.
+const MOST_SLOTS: u64 = i32::MAX as u64;
+/// Edges of a cell may differ by this much, relative: what decimal numbers in a file lose.
+const CUBE_TOLERANCE: f64 = 1e-6;
+
+/// Everything that is wrong with a scene.
+pub(in crate::scene) fn findings(scene: &Scene) -> Vec<Finding> {
+    let mut check = Check { scene, sound_domain: false, findings: Vec::new() };
+    check.domain();
+    check.sound_domain = check.findings.is_empty();
+    check.gas();
+    check.boundary();
+    check.bodies();
+    if scene.bodies.len() > MAX_BODIES {
+        // what looks at pairs of bodies would not end
+        return check.findings;
+    }
+    check.names();
+    let before = check.findings.len();
+    check.geometry();
+    let sound_shapes = check.findings.len() == before;
+    let too_large = budget::shapes(scene);
+    if !too_large.is_empty() {
+        // nothing may ask one of them for a distance
+        check.findings.extend(too_large);
+        return check.findings;
+    }
+    check.gauges();
+    check.time();
+    check.numerics();
+    check.render();
+    check.expect();
+    if check.sound_domain {
+        check.ranges();
+    }
+    // what loops over cells comes last, and only where a count says that it ends
+    if check.sound_domain && sound_shapes {
+        let too_much = budget::findings(scene);
+        if too_much.is_empty() {
+            check.patches_cover();
+            shape::places(scene, &mut check.findings);
+            if check.findings.is_empty() {
+                check.remembered();
+            }
+        }
+        check.findings.extend(too_much);
+    } else if check.sound_domain {
+        shape::strays(scene, &mut check.findings);
+    }
+    check.findings
+}
+
+/// The scene and what has been found so far.
+pub(in crate::scene) struct Check<'s> {
+    pub(in crate::scene) scene: &'s Scene,
+    /// Whether cells may be counted.
+    sound_domain: bool,
+    pub(in crate::scene) findings: Vec<Finding>,
+}
+
+impl Check<'_> {
+    pub(in crate::scene) fn add(
+        &mut self,
+        path: impl Into<String>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        self.findings.push(Finding::new(path, message, help));
+    }
+
+    /// The same of a value that is wrong whatever stands beside it.
+    pub(in crate::scene) fn wrong_value(
+        &mut self,
+        path: impl Into<String>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        self.findings.push(Finding::of_value(path, message, help));
+    }
+
+    pub(in crate::scene) fn out_of_range(
+        &mut self,
+        path: impl Into<String>,
+        value: impl Display,
+        help: impl Into<String>,
+    ) {
+        self.findings.push(Finding::out_of_range(path, value, help));
+    }
+
+    pub(in crate::scene) fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
+        if !(value > 0.0 && value.is_finite()) {
+            self.wrong_value(path, format!("{value} is not positive"), format!("give a finite number above 0 {unit}"));
+        }
+    }
+
+    pub(in crate::scene) fn count(&mut self, path: impl Into<String>, value: u32, least: u32, most: u32) {
+        if !(least..=most).contains(&value) {
+            self.out_of_range(path, value, format!("give a whole number from {least} to {most}"));
+        }
+    }
+
+    /// A vector that must be finite and vanish along inactive axes.
+    pub(in crate::scene) fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
+        let axes = self.scene.domain.axes();
+        if vector.iter().any(|x| !x.is_finite()) {
+            self.add(path, format!("{vector:?} is not finite"), "give finite numbers");
+        } else if vector[axes..].iter().any(|x| *x != 0.0) {
+            let help = format!("the scene has {axes} axes: leave the other entries out or give 0");
+            self.add(path, format!("{vector:?} leaves the active axes"), help);
+        }
+    }
+
+    pub(in crate::scene) fn state(&mut self, path: &str, state: &GasState) {
+        self.positive(format!("{path}.density"), state.density, "[kg m^-3]");
+        self.positive(format!("{path}.pressure"), state.pressure, "[Pa]");
+        self.planar(format!("{path}.velocity"), state.velocity);
+    }
+
+    fn domain(&mut self) {
+        let domain = &self.scene.domain;
+        if !(1..=3).contains(&domain.dimension) {
+            self.add("domain.dimension", format!("{} is no number of axes", domain.dimension), "give 1, 2 or 3");
+            return;
+        }
+        let axes = domain.axes();
+        for d in 0..axes {
+            if domain.cells[d] < FEWEST_CELLS {
+                let message = format!("{:?}: too few cells along axis {}", &domain.cells[..axes], ["x", "y", "z"][d]);
+                self.add(
+                    "domain.cells",
+                    message,
+                    format!("give at least {FEWEST_CELLS} cells along every active axis"),
+                );
+            }
+            if !(domain.size[d] > 0.0 && domain.size[d].is_finite()) {
+                let message = format!("{:?}: no length along axis {}", &domain.size[..axes], ["x", "y", "z"][d]);
+                self.add("domain.size", message, "give finite lengths above 0 [m]");
+            }
+        }
+        if domain.cells[axes..].iter().any(|n| *n != 1) {
+            let message = format!("{:?} in a scene of dimension {axes}", domain.cells);
+            self.add("domain.cells", message, format!("give {axes} entries; inactive axes have one cell"));
+        }
+        self.planar("domain.origin", domain.origin);
+        let slots = (0..axes).map(|d| u64::from(domain.cells[d]) + 2).fold(1, u64::saturating_mul);
+        if slots > MOST_SLOTS {
+            let message = format!("{:?}: {slots} cells with their ring", &domain.cells[..axes]);
+            self.add("domain.cells", message, format!("give at most {MOST_SLOTS} in all"));
+        }
+        self.cubes();
+    }
+
+    fn cubes(&mut self) {
+        let domain = &self.scene.domain;
+        let edges = (0..domain.axes()).map(|d| domain.size[d] / f64::from(domain.cells[d])).collect::<Vec<_>>();
+        let even = edges.iter().all(|edge| (edge / edges[0] - 1.0).abs() <= CUBE_TOLERANCE);
+        if self.findings.is_empty() && !even {
+            let matching = domain.size.map(|size| (size / edges[0]).round().max(1.0) as u32);
+            let help = format!(
+                "cells must be cubes: size / cells must be equal along all axes, for example cells = {:?}",
+                &matching[..domain.axes()]
+            );
+            self.add("domain.cells", format!("cells of edges {edges:?}"), help);
+        }
+    }
+
+    fn gas(&mut self) {
+        let gas = &self.scene.gas;
+        if !(gas.gamma > 1.0 && gas.gamma.is_finite()) {
+            self.out_of_range("gas.gamma", gas.gamma, "give a number above 1; air has 1.4");
+        }
+        self.state("gas.ambient", &gas.ambient);
+        for (index, region) in gas.regions.iter().enumerate() {
+            self.state(&format!("gas.regions[{index}]"), &region.state);
+        }
+        self.planar("gravity", self.scene.gravity);
+        self.atmosphere();
+        for (index, wave) in gas.waves.iter().enumerate() {
+            self.planar(format!("gas.waves[{index}].vector"), wave.vector);
+            self.planar(format!("gas.waves[{index}].velocity"), wave.velocity);
+        }
+        self.findings.extend(crate::scene::wave::finding(gas));
+        for (index, vortex) in gas.vortices.iter().enumerate() {
+            self.planar(format!("gas.vortices[{index}].center"), vortex.center);
+        }
+        self.findings.extend(crate::scene::vortex::findings(gas));
+        for (index, flow) in gas.radial_flows.iter().enumerate() {
+            self.planar(format!("gas.radial_flows[{index}].center"), flow.center);
+        }
+        if !gas.noise_is_possible() {
+            self.out_of_range("gas.noise", gas.noise, "give a share from 0 to 0.5");
+        }
+    }
+
+    fn geometry(&mut self) {
+        let scene = self.scene;
+        let own = scene.shapes.iter().map(|(name, shape)| (format!("shapes.{name}"), shape));
+        for (path, shape) in scene.placed_shapes().into_iter().chain(own) {
+            shape::sizes(&path, shape, &mut self.findings);
+        }
+        for (index, probe) in scene.probes.iter().enumerate() {
+            let path = format!("probes[{index}].position");
+            self.planar(&path, probe.position);
+            let domain = &scene.domain;
+            let within = |d: usize| (domain.origin[d]..=domain.origin[d] + domain.size[d]).contains(&probe.position[d]);
+            if !(0..domain.axes()).all(within) {
+                self.add(&path, format!("{:?} lies outside the domain", probe.position), shape::extent(domain));
+            }
+        }
+    }
+
+    fn time(&mut self) {
+        self.findings.extend(limits::findings("time", &self.scene.time));
+    }
+
+    fn numerics(&mut self) {
+        let numerics = &self.scene.numerics;
+        self.findings.extend(limits::findings("numerics", numerics));
+        if self.scene.consistent() && !self.scene.bodies.is_empty() {
+            let help = "give \"cell\", or \"auto\", which chooses for the scene";
+            self.add(
+                "numerics.paper.face_velocity",
+                "\"consistent\" carries gas only, and this scene has bodies",
+                help,
+            );
+        }
+        if numerics.paper.obstacles == Obstacles::Cut && !self.scene.cut() {
+            let help = "give \"cells\", or \"auto\", which chooses for the scene";
+            self.add("numerics.paper.obstacles", "\"cut\" is for obstacles in gas alone, with the pair b1b0", help);
+        }
+        if numerics.expert.preconditioner == Preconditioner::Multigrid && self.scene.domain.dimension == 1 {
+            let help = "give \"jacobi\", or \"auto\", which chooses for the scene";
+            self.add("numerics.expert.preconditioner", "\"multigrid\" is for two and three dimensions", help);
+        }
+        if self.scene.solves() == 2 {
+            self.ars222();
+        }
+        self.findings.extend(crate::scene::coupling::findings(self.scene));
+    }
+
+    /// What two solves per step cannot do.
+    fn ars222(&mut self) {
+        let key = "numerics.integrator";
+        if !self.scene.bodies.is_empty() {
+            let help = "give \"predictor\", or \"auto\", which chooses for the scene";
+            self.add(key, "\"ars222\" moves gas only, and this scene has bodies", help);
+        }
+        if self.scene.time.cfl > Integrator::ARS_CFL {
+            let message = format!("\"ars222\" with time.cfl = {}", self.scene.time.cfl);
+            self.add(key, message, format!("give a time.cfl of at most {}", Integrator::ARS_CFL));
+        }
+    }
+
+    fn expect(&mut self) {
+        let expect = &self.scene.expect;
+        if expect.density_l1.is_some() && self.scene.riemann().is_none() {
+            let help = "it needs a scene of dimension 1 whose start has two states: ambient and one region that reaches one end";
+            self.add("expect.density_l1", "this scene has no exact solution", help);
+        }
+        let closed = self.scene.boundary.closed(self.scene.domain.dimension);
+        let drifts = [
+            ("gas_mass_drift", expect.gas_mass_drift.is_some()),
+            ("energy_drift", expect.energy_drift.is_some()),
+            ("energy_change", expect.energy_change.is_some()),
+        ];
+        if let Some((key, _)) = drifts.into_iter().find(|(_, given)| !closed && *given) {
+            self.add(format!("expect.{key}"), "the domain is open", "remove the key, or make every side a \"wall\"");
+        }
+        self.expected_bodies();
+        self.expected_probes();
+    }
+
+    fn expected_probes(&mut self) {
+        for (index, expected) in self.scene.expect.probes.iter().enumerate() {
+            let given = expected.ranges().into_iter().filter_map(|(key, range)| Some((key, range?)));
+            for (key, [low, high]) in given.filter(|(_, [low, high])| low > high) {
+                let path = format!("expect.probes[{index}].{key}");
+                self.add(path, format!("[{low}, {high}] is empty"), "give the lower value first");
+            }
+        }
+    }
+
+    fn expected_bodies(&mut self) {
+        let scene = self.scene;
+        let expect = &scene.expect;
+        let known = |name: &String| scene.bodies.iter().any(|body| body.name == *name);
+        let mut unknown = |path: String, kind: &str, name: &str| {
+            let help = format!("name an entry of {}", if kind == "body" { "bodies" } else { "probes" });
+            self.findings.push(Finding::of_value(path, format!("unknown {kind} `{name}`"), help));
+        };
+        for (index, order) in expect.order.iter().enumerate() {
+            for name in order.bodies.iter().filter(|name| !known(name)) {
+                unknown(format!("expect.order[{index}].bodies"), "body", name);
+            }
+        }
+        for (index, expected) in expect.probes.iter().enumerate() {
+            if scene.probes.iter().all(|probe| probe.name != expected.probe) {
+                unknown(format!("expect.probes[{index}].probe"), "probe", &expected.probe);
+            }
+        }
+        for (index, expected) in expect.bodies.iter().enumerate() {
+            let path = format!("expect.bodies[{index}]");
+            if !known(&expected.body) {
+                unknown(format!("{path}.body"), "body", &expected.body);
+            }
+        }
+        for (index, expected) in expect.bodies.iter().enumerate() {
+            let path = format!("expect.bodies[{index}]");
+            if let Some(center) = expected.center {
+                self.positive(format!("{path}.tolerance"), expected.tolerance.unwrap_or(0.0), "[m]");
+                self.planar(format!("{path}.center"), center);
+            }
+            for (quantity, [low, high]) in expected.ranges().filter(|(_, [low, high])| low > high) {
+                let help = "give the lower value first";
+                self.add(format!("{path}.{}", quantity.name()), format!("[{low}, {high}] is empty"), help);
+            }
+        }
+    }
+}
