@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 /// Types of WGSL, as Rust has them.
 #[allow(non_camel_case_types)]
 pub mod types {
-    /// Three signless whole numbers.
+    /// Two signless whole numbers.
+    pub type vec2u = [u32; 2];
+    /// Three of them.
     pub type vec3u = [u32; 3];
     /// Four of them.
     pub type vec4u = [u32; 4];
@@ -18,7 +20,7 @@ pub mod types {
 }
 
 /// A structure of both languages, as tests and generated parts of shaders need it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Shared {
     /// Its name in WGSL.
     pub name: &'static str,

@@ -70,7 +70,7 @@ fn finish_layers(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocat
         let ray = at.x + view.size.x * at.y;
         let own = light[ray];
         let row = (f32(at.y + view.first_row) + 0.5) / f32(view.size.y);
-        let background = mix(view.background_top.rgb, view.background_bottom.rgb, row);
+        let background = mix(view.background[0].rgb, view.background[1].rgb, row);
         let behind = view.exposure * (1.0 - own.a) * background;
         sum += vec4f(max(own.rgb - behind, vec3f(0.0)), own.a);
         if (view.particles > 0u) {

@@ -1,102 +1,63 @@
 // What a picture shows and from where: the grid, the camera, the light, and the rays through the picture.
-// Mirror of src/render/view.rs.
 
+// Generated from src/render/view.rs by scripts/generate.
 struct View {
-    // Cells per axis without the ring; 1 on inactive axes.
-    cells: vec3u,
-    // Active axes.
-    dimension: u32,
-    // Low corner of the domain [m].
-    origin: vec3f,
-    // Edge of a cell [m].
-    spacing: f32,
-    // Where rays start: all of them, or the middle one of parallel rays [m].
-    eye: vec3f,
-    // 1 for parallel rays.
-    parallel: u32,
-    // Unit vectors of the camera.
-    right: vec3f,
-    // Half the height of the picture: at unit distance, or in metres for parallel rays.
-    half_height: f32,
-    up: vec3f,
-    // Ratio of specific heats.
-    gamma: f32,
-    forward: vec3f,
-    // Quantity shown, FIELD_*.
-    field: u32,
-    // Rays across the whole picture.
-    size: vec2u,
-    // The band of rows drawn now: its first, and how many.
-    first_row: u32,
-    rows: u32,
-    // Samples of a ray's place along each axis where particles are drawn.
-    samples: u32,
-    // Rays per pixel along each axis.
-    supersampling: u32,
-    particles: u32,
-    // Width of the line around bodies in the plane, in rays.
-    outline: f32,
-    // Values at the two ends of the colours.
-    low: f32,
-    high: f32,
-    // Power applied to fractions of the range in the ray march.
-    contrast: f32,
-    // Length of a step of the ray march [m].
-    step: f32,
-    // Extinction at opacity 1 [m^-1].
-    opacity: f32,
-    // 1 if the ray march draws the gas.
-    volume: u32,
-    // Nodes of the obstacles' distance per cell and axis, 0 without obstacles.
-    fineness: u32,
-    // OPTICS_*.
-    optics: u32,
-    // The floor: the points x with dot(ground.xyz, x) = ground.w; zero for none.
-    ground: vec4f,
-    // Radius of a particle over the edge of its volume.
-    particle_scale: f32,
-    // Plastic strain at which a particle has lost half of its brightness.
-    dark_strain: f32,
-    // Quantity of the particles, PARTICLE_*.
-    particle_color: u32,
-    // 1 if the particles are smoothed into a surface.
-    smooth_skin: u32,
-    particle_low: f32,
-    particle_high: f32,
-    // Factor on all light.
-    exposure: f32,
-    // TONE_*.
-    tone: u32,
-    // Towards the light, unit, and its strength.
-    light: vec3f,
-    light_strength: f32,
-    // Unit vectors across the light, and the strength of the sky.
-    light_right: vec3f,
-    sky_strength: f32,
-    light_up: vec3f,
-    // 1 if there are shadows.
-    shadows: u32,
-    // The corner of the light grid that is nearest to the light, and the edge of its cells [m].
-    light_origin: vec3f,
-    light_spacing: f32,
-    // Heat, the place in the black-body ramp, is scale p / rho - offset.
-    heat_scale: f32,
-    heat_offset: f32,
-    // Extinction of the hottest gas [m^-1]; 0 for no emission.
-    heat_opacity: f32,
-    // Values at the ends of the line-of-sight pictures' grey are -gain and gain.
-    gain: f32,
-    slice_count: u32,
-    contour_count: u32,
-    arrows: vec2u,
-    // Light behind everything in 3D.
-    background_top: vec4f,
-    background_bottom: vec4f,
-    // Planes: the points x with dot(xyz, x) = w.
-    slices: array<vec4f, 4>,
-    // Values of the contour lines.
-    contours: array<vec4f, 8>,
+    cells: vec3u,               // Cells per axis without the ring; 1 on inactive axes
+    dimension: u32,             // Active axes
+    origin: vec3f,              // Low corner of the domain [m]
+    spacing: f32,               // Edge of a cell [m]
+    eye: vec3f,                 // Where rays start: all of them, or the middle one of parallel rays [m]
+    parallel: u32,              // 1 for parallel rays
+    right: vec3f,               // Unit vector to the right of the picture
+    half_height: f32,           // Half the height of the picture: at unit distance, or in metres for parallel rays
+    up: vec3f,                  // Unit vector to the top of the picture
+    gamma: f32,                 // Ratio of specific heats
+    forward: vec3f,             // Unit vector into the picture
+    field: u32,                 // Quantity shown, a FIELD_ constant of the shaders
+    size: vec2u,                // Rays across the whole picture
+    first_row: u32,             // First row of rays of the band drawn now
+    rows: u32,                  // Rows of rays of that band
+    samples: u32,               // Samples of a ray's place along each axis where particles are drawn
+    supersampling: u32,         // Rays per pixel along each axis
+    particles: u32,             // Number of particles
+    outline: f32,               // Width of the line around bodies in the plane, in rays
+    low: f32,                   // Value at the low end of the colours
+    high: f32,                  // Value at the high end of the colours
+    contrast: f32,              // Power applied to fractions of the range in the ray march
+    step: f32,                  // Length of a step of the ray march [m]
+    opacity: f32,               // Extinction at opacity 1 [m^-1]
+    volume: u32,                // 1 if the ray march draws the gas
+    fineness: u32,              // Nodes of the obstacles' distance per cell and axis, 0 without obstacles
+    optics: u32,                // Kind of line-of-sight picture, an OPTICS_ constant of the shaders
+    ground: vec4f,              // The floor: the points x with dot(xyz, x) = w; zero for none
+    particle_scale: f32,        // Radius of a particle over the edge of its volume
+    dark_strain: f32,           // Plastic strain at which a particle has lost half of its brightness
+    particle_color: u32,        // Quantity of the particles, a PARTICLE_ constant of the shaders
+    smooth_skin: u32,           // 1 if the particles are smoothed into a surface
+    particle_low: f32,          // Value at the low end of the particles' colours
+    particle_high: f32,         // Value at the high end of the particles' colours
+    exposure: f32,              // Factor on all light
+    tone: u32,                  // Tone map, a TONE_ constant of the shaders
+    light: vec3f,               // Unit vector towards the light
+    light_strength: f32,        // Strength of the light
+    light_right: vec3f,         // Unit vector across the light
+    sky_strength: f32,          // Strength of the sky
+    light_up: vec3f,            // Unit vector across the light
+    shadows: u32,               // 1 if there are shadows
+    light_origin: vec3f,        // Corner of the light grid that is nearest to the light [m]
+    light_spacing: f32,         // Edge of a cell of the light grid [m]
+    heat_scale: f32,            // Place in the black-body ramp per p / rho
+    heat_offset: f32,           // What is taken off that place
+    heat_opacity: f32,          // Extinction of the hottest gas [m^-1]; 0 for no emission
+    gain: f32,                  // Values at the ends of the line-of-sight pictures' grey are -gain and gain
+    slice_count: u32,           // Number of slices
+    contour_count: u32,         // Number of contour lines
+    arrows: vec2u,              // Velocity arrows along x and y
+    background: array<vec4f, 2>, // Light behind everything in 3D, at the top and the bottom of the picture
+    slices: array<vec4f, 4>,    // Slices: the points x with dot(xyz, x) = w
+    contours: array<vec4f, 8>,  // Values of the contour lines, as fractions of the range
 }
+// End of what is generated.
 
 struct Ray {
     start: vec3f,

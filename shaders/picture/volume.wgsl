@@ -203,7 +203,7 @@ fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     }
     gathered = over(gathered, EDGE_COLOR, select(edge.y, 0.0, wall_depth * along < middle));
     gathered = over(gathered, wall.color, wall.coverage);
-    let background = mix(view.background_top.rgb, view.background_bottom.rgb, pixel.y / f32(view.size.y));
+    let background = mix(view.background[0].rgb, view.background[1].rgb, pixel.y / f32(view.size.y));
     let alpha = 1.0 - gathered.passing;
     gathered = over(gathered, background, 1.0);
     light[i] = vec4f(view.exposure * gathered.color, alpha);

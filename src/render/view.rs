@@ -1,4 +1,4 @@
-//! What a picture shows and from where; mirror of `shaders/picture/view.wgsl`.
+//! What a picture shows and from where.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4};
@@ -8,6 +8,8 @@ use super::kernels::LIGHT_CELLS;
 use super::paper::Paper;
 use crate::scene::{RenderSettings, Scene};
 use crate::state::Grid;
+use crate::structure::structure;
+use crate::structure::types::{vec2u, vec3f, vec3u, vec4f};
 
 /// Diameter of a drawn particle over the edge of its volume: neighbours overlap, so that a body has no holes.
 /// Discs of a square lattice must reach the middle of its diagonals; spheres hide each other's gaps.
@@ -24,118 +26,119 @@ const OUTLINE: f32 = 1.2;
 /// Length of a step of the ray march over the edge of a cell.
 const MARCH_STEP: f32 = 0.7;
 
-/// Uniform of all drawing kernels, one row of 16 bytes per line of fields.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct View {
-    /// Cells per axis without the ring; 1 on inactive axes.
-    pub cells: [u32; 3],
-    /// Active axes.
-    pub dimension: u32,
-    /// Low corner of the domain \[m\].
-    pub origin: [f32; 3],
-    /// Edge of a cell \[m\].
-    pub spacing: f32,
-    /// Where rays start: all of them, or the middle one of parallel rays \[m\].
-    pub eye: [f32; 3],
-    /// 1 for parallel rays.
-    pub parallel: u32,
-    /// Unit vector to the right of the picture.
-    pub right: [f32; 3],
-    /// Half the height of the picture: at unit distance, or in metres for parallel rays.
-    pub half_height: f32,
-    /// Unit vector to the top of the picture.
-    pub up: [f32; 3],
-    /// Ratio of specific heats.
-    pub gamma: f32,
-    /// Unit vector into the picture.
-    pub forward: [f32; 3],
-    /// Quantity shown, a `FIELD_` constant of the shaders.
-    pub field: u32,
-    /// Rays across the whole picture.
-    pub size: [u32; 2],
-    /// First row of rays of the band drawn now.
-    pub first_row: u32,
-    /// Rows of rays of that band.
-    pub rows: u32,
-    /// Samples of a ray's place along each axis where particles are drawn.
-    pub samples: u32,
-    /// Rays per pixel along each axis.
-    pub supersampling: u32,
-    /// Number of particles.
-    pub particles: u32,
-    /// Width of the line around bodies in the plane, in rays.
-    pub outline: f32,
-    /// Value at the low end of the colours.
-    pub low: f32,
-    /// Value at the high end of the colours.
-    pub high: f32,
-    /// Power applied to fractions of the range in the ray march.
-    pub contrast: f32,
-    /// Length of a step of the ray march \[m\].
-    pub step: f32,
-    /// Extinction at opacity 1 \[m^-1\].
-    pub opacity: f32,
-    /// 1 if the ray march draws the gas.
-    pub volume: u32,
-    /// Nodes of the obstacles' distance per cell and axis, 0 without obstacles.
-    pub fineness: u32,
-    /// Kind of line-of-sight picture, an `OPTICS_` constant of the shaders.
-    pub optics: u32,
-    /// The floor: the points x with dot(xyz, x) = w; zero for none.
-    pub ground: [f32; 4],
-    /// Radius of a particle over the edge of its volume.
-    pub particle_scale: f32,
-    /// Plastic strain at which a particle has lost half of its brightness.
-    pub dark_strain: f32,
-    /// Quantity of the particles, a `PARTICLE_` constant of the shaders.
-    pub particle_color: u32,
-    /// 1 if the particles are smoothed into a surface.
-    pub smooth_skin: u32,
-    /// Value at the low end of the particles' colours.
-    pub particle_low: f32,
-    /// Value at the high end of the particles' colours.
-    pub particle_high: f32,
-    /// Factor on all light.
-    pub exposure: f32,
-    /// Tone map, a `TONE_` constant of the shaders.
-    pub tone: u32,
-    /// Unit vector towards the light.
-    pub light: [f32; 3],
-    /// Strength of the light.
-    pub light_strength: f32,
-    /// Unit vector across the light.
-    pub light_right: [f32; 3],
-    /// Strength of the sky.
-    pub sky_strength: f32,
-    /// Unit vector across the light.
-    pub light_up: [f32; 3],
-    /// 1 if there are shadows.
-    pub shadows: u32,
-    /// Corner of the light grid that is nearest to the light \[m\].
-    pub light_origin: [f32; 3],
-    /// Edge of a cell of the light grid \[m\].
-    pub light_spacing: f32,
-    /// Place in the black-body ramp per p / rho.
-    pub heat_scale: f32,
-    /// What is taken off that place.
-    pub heat_offset: f32,
-    /// Extinction of the hottest gas \[m^-1\]; 0 for no emission.
-    pub heat_opacity: f32,
-    /// Values at the ends of the line-of-sight pictures' grey are -gain and gain.
-    pub gain: f32,
-    /// Number of slices.
-    pub slice_count: u32,
-    /// Number of contour lines.
-    pub contour_count: u32,
-    /// Velocity arrows along x and y.
-    pub arrows: [u32; 2],
-    /// Light behind everything in 3D, at the top and the bottom of the picture.
-    pub background: [[f32; 4]; 2],
-    /// Slices: the points x with dot(xyz, x) = w.
-    pub slices: [[f32; 4]; 4],
-    /// Values of the contour lines, as fractions of the range.
-    pub contours: [[f32; 4]; 8],
+structure! {
+    /// Uniform of all drawing kernels, one row of 16 bytes per line of fields.
+    #[derive(Debug, Clone, Copy, Pod, Zeroable)]
+    pub View as "View" {
+        /// Cells per axis without the ring; 1 on inactive axes.
+        cells: vec3u,
+        /// Active axes.
+        dimension: u32,
+        /// Low corner of the domain \[m\].
+        origin: vec3f,
+        /// Edge of a cell \[m\].
+        spacing: f32,
+        /// Where rays start: all of them, or the middle one of parallel rays \[m\].
+        eye: vec3f,
+        /// 1 for parallel rays.
+        parallel: u32,
+        /// Unit vector to the right of the picture.
+        right: vec3f,
+        /// Half the height of the picture: at unit distance, or in metres for parallel rays.
+        half_height: f32,
+        /// Unit vector to the top of the picture.
+        up: vec3f,
+        /// Ratio of specific heats.
+        gamma: f32,
+        /// Unit vector into the picture.
+        forward: vec3f,
+        /// Quantity shown, a `FIELD_` constant of the shaders.
+        field: u32,
+        /// Rays across the whole picture.
+        size: vec2u,
+        /// First row of rays of the band drawn now.
+        first_row: u32,
+        /// Rows of rays of that band.
+        rows: u32,
+        /// Samples of a ray's place along each axis where particles are drawn.
+        samples: u32,
+        /// Rays per pixel along each axis.
+        supersampling: u32,
+        /// Number of particles.
+        particles: u32,
+        /// Width of the line around bodies in the plane, in rays.
+        outline: f32,
+        /// Value at the low end of the colours.
+        low: f32,
+        /// Value at the high end of the colours.
+        high: f32,
+        /// Power applied to fractions of the range in the ray march.
+        contrast: f32,
+        /// Length of a step of the ray march \[m\].
+        step: f32,
+        /// Extinction at opacity 1 \[m^-1\].
+        opacity: f32,
+        /// 1 if the ray march draws the gas.
+        volume: u32,
+        /// Nodes of the obstacles' distance per cell and axis, 0 without obstacles.
+        fineness: u32,
+        /// Kind of line-of-sight picture, an `OPTICS_` constant of the shaders.
+        optics: u32,
+        /// The floor: the points x with dot(xyz, x) = w; zero for none.
+        ground: vec4f,
+        /// Radius of a particle over the edge of its volume.
+        particle_scale: f32,
+        /// Plastic strain at which a particle has lost half of its brightness.
+        dark_strain: f32,
+        /// Quantity of the particles, a `PARTICLE_` constant of the shaders.
+        particle_color: u32,
+        /// 1 if the particles are smoothed into a surface.
+        smooth_skin: u32,
+        /// Value at the low end of the particles' colours.
+        particle_low: f32,
+        /// Value at the high end of the particles' colours.
+        particle_high: f32,
+        /// Factor on all light.
+        exposure: f32,
+        /// Tone map, a `TONE_` constant of the shaders.
+        tone: u32,
+        /// Unit vector towards the light.
+        light: vec3f,
+        /// Strength of the light.
+        light_strength: f32,
+        /// Unit vector across the light.
+        light_right: vec3f,
+        /// Strength of the sky.
+        sky_strength: f32,
+        /// Unit vector across the light.
+        light_up: vec3f,
+        /// 1 if there are shadows.
+        shadows: u32,
+        /// Corner of the light grid that is nearest to the light \[m\].
+        light_origin: vec3f,
+        /// Edge of a cell of the light grid \[m\].
+        light_spacing: f32,
+        /// Place in the black-body ramp per p / rho.
+        heat_scale: f32,
+        /// What is taken off that place.
+        heat_offset: f32,
+        /// Extinction of the hottest gas \[m^-1\]; 0 for no emission.
+        heat_opacity: f32,
+        /// Values at the ends of the line-of-sight pictures' grey are -gain and gain.
+        gain: f32,
+        /// Number of slices.
+        slice_count: u32,
+        /// Number of contour lines.
+        contour_count: u32,
+        /// Velocity arrows along x and y.
+        arrows: vec2u,
+        /// Light behind everything in 3D, at the top and the bottom of the picture.
+        background: [vec4f; 2],
+        /// Slices: the points x with dot(xyz, x) = w.
+        slices: [vec4f; 4],
+        /// Values of the contour lines, as fractions of the range.
+        contours: [vec4f; 8],
+    }
 }
 
 impl View {

@@ -2,8 +2,15 @@
 
 use std::path::Path;
 
+use brisance::render::View;
 use brisance::stage::structures;
 use brisance::state::{arrays, stages};
+use brisance::structure::Shared;
+
+/// For each file below `shaders/` that shows structures of Rust: a kernel that takes it, and the structures.
+pub(crate) fn shown() -> Vec<(&'static str, &'static str, Vec<Shared>)> {
+    [structures::all(), vec![("picture/view.wgsl", "picture/finish.wgsl", vec![View::shared()])]].concat()
+}
 
 /// File, table that it follows from, and the text.
 fn parts() -> Vec<(String, &'static str, String)> {
@@ -12,7 +19,7 @@ fn parts() -> Vec<(String, &'static str, String)> {
         ("docs/inside/arrays.md", "src/state/arrays.rs", format!("\n{}\n", arrays::table())),
         ("docs/method/overview.md", "src/state/stages.rs", format!("\n{}\n", stages::table())),
     ];
-    let structures = structures::all().into_iter().map(|(file, _, shown)| {
+    let structures = shown().into_iter().map(|(file, _, shown)| {
         let texts: Vec<&str> = shown.iter().map(|own| own.wgsl.as_str()).collect();
         (format!("shaders/{file}"), shown[0].source, texts.join("\n"))
     });

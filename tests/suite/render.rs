@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use brisance::export::{self, Exporter, Moment, Origin};
-use brisance::gpu::{Folder, Shader, readback};
-use brisance::render::{Renderer, View};
+use brisance::gpu::readback;
+use brisance::render::Renderer;
 use brisance::scene::{Camera, Field};
 use brisance::simulation::Simulation;
 
@@ -278,64 +278,6 @@ fn pictures_to_look_at() {
     render(2, 128, [1280, 720], &format!("{fields}\nrender.colormap = \"inferno\""));
     render(3, 64, [1280, 720], &format!("render.colormap = \"inferno\"{block}"));
     render(3, 64, [1024, 640], "render.mode = \"density\"\nrender.colormap = \"magma\"");
-}
-
-#[test]
-fn view_has_the_offsets_of_the_shader() {
-    let shader = Shader::load("picture/slice.wgsl", &brisance::render::shader_constants(), &Folder::Embedded).unwrap();
-    let compiled = shader.compile().unwrap();
-    let (_, view) = compiled.module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("View")).unwrap();
-    let wgpu::naga::TypeInner::Struct { members, span } = &view.inner else { panic!("View is a struct") };
-    let offset =
-        |name: &str| members.iter().find(|member| member.name.as_deref() == Some(name)).unwrap().offset as usize;
-    macro_rules! same {
-        ($($field:ident),*) => { $(assert_eq!(offset(stringify!($field)), std::mem::offset_of!(View, $field));)* };
-    }
-    same!(
-        cells,
-        dimension,
-        origin,
-        spacing,
-        eye,
-        parallel,
-        right,
-        half_height,
-        up,
-        gamma,
-        forward,
-        field,
-        size,
-        first_row
-    );
-    same!(
-        rows,
-        samples,
-        supersampling,
-        particles,
-        outline,
-        low,
-        high,
-        contrast,
-        step,
-        opacity,
-        volume,
-        fineness,
-        optics
-    );
-    same!(
-        ground,
-        particle_scale,
-        dark_strain,
-        particle_color,
-        smooth_skin,
-        particle_low,
-        particle_high,
-        exposure,
-        tone
-    );
-    same!(light, light_strength, light_right, sky_strength, light_up, shadows, light_origin, light_spacing, heat_scale);
-    same!(heat_offset, heat_opacity, gain, slice_count, contour_count, arrows, slices, contours);
-    assert_eq!(*span as usize, size_of::<View>());
 }
 
 #[test]
