@@ -116,7 +116,12 @@ fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         }
     }
     work[part(FILTER_FLOW, slot)] = change.flow;
-    energy[part(FILTER_ENERGY, slot)] = change.energy;
+    if inside(cell_of(slot)) {
+        energy[part(FILTER_ENERGY, slot)] = change.energy;
+    } else {
+        // What an open face was told belongs to the gas before the filter: the next carrier has none of it, as at the start.
+        energy[part(OPEN_PRESSURE, slot)] = 0.0;
+    }
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -124,5 +129,5 @@ fn odd_even_remove(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     conserved[slot] += work[part(FILTER_FLOW, slot)];
-    energy[slot] += energy[part(FILTER_ENERGY, slot)];
+    energy[slot] += select(0.0, energy[part(FILTER_ENERGY, slot)], inside(cell_of(slot)));
 }

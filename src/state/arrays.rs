@@ -211,7 +211,8 @@ pub const USES: &[Use] = &[
         "p0 of open faces").at(Slots::Ring),
     Use::new("energy", Name::Part(1, "OPEN_PRESSURE"), (At(FluidUpdate), Next(Carrier)), "Pa",
         "the same, for the carrier").at(Slots::Ring).of(Scenes::Gas),
-    Use::new("energy", Name::Part(1, "FILTER_ENERGY"), (At(OddEven), At(OddEven)), "J m^-3", "what the filter changes"),
+    Use::new("energy", Name::Part(1, "FILTER_ENERGY"), (At(OddEven), At(OddEven)), "J m^-3", "what the filter changes")
+        .at(Slots::Domain),
     Use::new("energy", Name::Part(2, "RECEIVERS"), (At(Interface), At(Interface)), "",
         "who receives what a solid slot hands on").of(Scenes::Bodies),
     Use::new("energy", Name::Part(2, "ADVECTED_ENERGY"), (At(GasAdvection), At(IntermediatePressure)), "J m^-3",
