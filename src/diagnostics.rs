@@ -85,8 +85,8 @@ pub struct StepRecord {
     pub fracture_energy: f32,
     /// Mass of the particles that have broken \[kg\].
     pub broken_mass: f32,
-    /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start, and the energy of blasts. What clamped and driven
-    /// parts give is not in it. Mass is 0.
+    /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start, the energy of blasts, and what
+    /// charges have given to the gas, their mass among it. What clamped and driven parts give is not in it.
     pub given: Total,
     /// Conjugate gradient iterations.
     pub iterations: u32,

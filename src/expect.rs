@@ -116,6 +116,7 @@ impl Budget {
         for (sum, borrowed) in budget.momentum.iter_mut().zip(borrowed) {
             *sum += borrowed;
         }
+        budget.gas_mass_with_crossed -= simulation.released().mass;
         budget.close_gas(simulation, stored);
         budget.noise_momentum = NOISE_SPEED * scene.gas.ambient.sound_speed(scene.gas.gamma) * budget.gas_mass.abs();
         budget.add_solids(&simulation.snapshot()?, scene);
@@ -145,6 +146,9 @@ impl Budget {
         }
         let [x, y, z] = self.momentum;
         self.gas_books = [x, y, z, self.energy - stored - simulation.blasts()];
+        for (sum, released) in self.gas_books.iter_mut().zip(simulation.released().momentum) {
+            *sum -= released;
+        }
         let pulled = simulation.pulled();
         for (k, sum) in self.gas_books.iter_mut().enumerate() {
             *sum += bodies.iter().map(|borne| borne[k]).sum::<f64>() - pulled[k];

@@ -39,6 +39,8 @@ pub mod diagnostics;
 #[doc(hidden)]
 pub mod expect;
 #[doc(hidden)]
+pub mod explosive;
+#[doc(hidden)]
 pub mod export;
 #[doc(hidden)]
 pub mod input;

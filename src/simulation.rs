@@ -1,5 +1,6 @@
 //! The step: the whole method on one page, and the run around it.
 
+mod charges;
 mod elastic;
 mod fault;
 mod history;
@@ -24,6 +25,7 @@ use crate::stage::{
 };
 use crate::state::constants::NO_FAULT;
 use crate::state::{Control, Phase, State};
+pub use charges::Released;
 use least_step::LeastStep;
 pub use live::Blast;
 use pace::Pace;
@@ -68,8 +70,13 @@ pub struct Simulation {
     gas_before: [f64; 3],
     /// Impulse and work of the gas on each body, if that is told, on each obstacle, and on walls with gauges, since the start.
     borne: Vec<[f64; 4]>,
-    /// Energy of blasts.
+    /// Energy of blasts and charges.
     blasts: f64,
+    /// Charges that have not gone off come after those that have.
+    due: Vec<charges::Due>,
+    released: Released,
+    /// The time asked for \[s\].
+    target: f64,
     /// Pressure solves per step.
     solves: u32,
     time: f64,
@@ -128,6 +135,9 @@ impl Simulation {
             gas_before: state.start_momentum,
             borne: vec![[0.0; 4]; state.load_count.iter().sum()],
             blasts: 0.0,
+            due: charges::due(scene)?,
+            released: Released::default(),
+            target: 0.0,
             solves: scene.solves(),
             time: 0.0,
             step: 0,
@@ -256,12 +266,18 @@ impl Simulation {
         Ok(records)
     }
 
-    /// Asks the device to stop at a time \[s\].
+    /// Asks for a stop at a time \[s\]; on the way there the charges whose time has come go off.
     ///
     /// # Errors
     /// Driver errors.
     pub fn set_target(&mut self, time: f64) -> Result<()> {
         self.least_step.start_frame();
+        self.target = time;
+        self.head_for(self.next_charge(time).unwrap_or(time))
+    }
+
+    /// Asks the device to stop at a time \[s\].
+    fn head_for(&mut self, time: f64) -> Result<()> {
         let mut control = self.control()?;
         control.remaining = (time - self.time).max(0.0) as f32;
         (control.time, control.time_error) = (self.time as f32, 0.0);
@@ -322,7 +338,14 @@ impl Simulation {
         }
         endless.map_or(Ok(()), |endless| Err(self.too_short(&endless)?))?;
         self.recorded = self.recorded.next(newest, control.phase != 0, self.solves, &self.state);
-        Ok(control.remaining <= 0.0 && control.phase == 0)
+        if control.remaining > 0.0 || control.phase != 0 {
+            return Ok(false);
+        }
+        let Some(time) = self.next_charge(self.target) else { return Ok(true) };
+        self.time = time;
+        self.set_off()?;
+        self.head_for(self.next_charge(self.target).unwrap_or(self.target))?;
+        Ok(false)
     }
 
     /// What the device decided last.

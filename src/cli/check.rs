@@ -12,7 +12,7 @@ use crate::export::png;
 use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::render::Renderer;
-use crate::scene::{Breaking, Estimate, Overlap, Scene, ThinBody, ThinObstacle};
+use crate::scene::{Breaking, ChargeEstimate, Estimate, Overlap, PlaceEstimate, Scene, ThinBody, ThinObstacle};
 use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -38,7 +38,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
     let breaking = scene.breaking();
-    let lost = scene.thin_obstacles();
+    let (lost, charges) = (scene.thin_obstacles(), scene.charge_estimates());
     let texts = estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning));
     for warning in texts.chain(lost.iter().map(lost_text)) {
         tell!("warning: {warning}");
@@ -53,7 +53,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "thin_obstacles": lost, "breaking": breaking,
+            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "thin_obstacles": lost, "breaking": breaking, "charges": charges,
             "scene": scene });
         say!("{object}");
         return Ok(());
@@ -65,7 +65,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     say!("# {}\n#", scene.title);
     say!("# cells      {cells} = {} of edge {} m", plan.cells, plain(domain.spacing()));
     say!("# particles  {}", plan.particles);
-    say_bodies(&overlaps, &thin, &breaking);
+    say_things(&overlaps, &thin, &breaking, &charges);
     if !scene.variants.is_empty() {
         say!("# variants   {}", scene.variants.keys().cloned().collect::<Vec<_>>().join(", "));
     }
@@ -83,8 +83,8 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     Ok(())
 }
 
-/// What is to be known of the bodies, for people.
-fn say_bodies(overlaps: &[Overlap], thin: &[ThinBody], breaking: &[Breaking]) {
+/// What is to be known of bodies and charges, for people.
+fn say_things(overlaps: &[Overlap], thin: &[ThinBody], breaking: &[Breaking], charges: &[ChargeEstimate]) {
     for overlap in overlaps {
         say!("# overlap    {}", overlap_text(overlap));
     }
@@ -93,6 +93,31 @@ fn say_bodies(overlaps: &[Overlap], thin: &[ThinBody], breaking: &[Breaking]) {
     }
     for body in breaking {
         say!("# breaks     {}", breaking_text(body));
+    }
+    charges.iter().for_each(say_charge);
+}
+
+/// A charge and what it does by the curves of Kingery and Bulmash, for people.
+fn say_charge(charge: &ChargeEstimate) {
+    let ground = if charge.on_ground { "on the ground" } else { "in free air" };
+    let (tnt, radius) = (plain(charge.tnt), plain(charge.radius));
+    say!(
+        "# charge     `{}`: as {tnt} kg of TNT {ground}; radius {radius} m, {:.1} cells",
+        charge.charge,
+        charge.radius_cells
+    );
+    say!("#            its near field is computed apart, up to {:.1} cells around it", charge.reach_cells);
+    for place in &charge.places {
+        let PlaceEstimate { place, distance, scaled_distance, wave, fine_cell } = place;
+        let wave = wave.map_or("no curve there".to_owned(), |[arrival, pressure, impulse]| {
+            let [arrival, pressure] = [1e3 * arrival, 1e-3 * pressure].map(plain);
+            format!("after {arrival} ms {pressure} kPa, {} Pa s", plain(impulse))
+        });
+        say!(
+            "#   {place:10} {} m, Z = {scaled_distance:.2}: {wave}; cells of {} m show it",
+            plain(*distance),
+            plain(*fine_cell)
+        );
     }
 }
 

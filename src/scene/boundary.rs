@@ -220,6 +220,11 @@ impl Boundaries {
         [&self.x_min, &self.x_max, &self.y_min, &self.y_max, &self.z_min, &self.z_max]
     }
 
+    /// The same, to change them.
+    pub(super) fn sides_mut(&mut self) -> [&mut Boundary; 6] {
+        [&mut self.x_min, &mut self.x_max, &mut self.y_min, &mut self.y_max, &mut self.z_min, &mut self.z_max]
+    }
+
     /// True if no gas can cross any side of a domain with `dimension` active axes.
     #[must_use]
     pub fn closed(&self, dimension: u32) -> bool {

@@ -6,8 +6,8 @@ use super::check;
 use super::finding::{Finding, MOST_TOLD};
 use super::geometry::mesh::MeshFolder;
 use super::{
-    Body, Boundaries, Boundary, Domain, Expect, Gas, GasState, Gauge, Material, Numerics, Obstacle, Output, Probe,
-    Region, RenderSettings, Sampling, Scene, Shape, Time,
+    Body, Boundaries, Boundary, Charge, Domain, Expect, Gas, GasState, Gauge, Material, Numerics, Obstacle, Output,
+    Probe, Region, RenderSettings, Sampling, Scene, Shape, Time,
 };
 use crate::{Error, Result};
 
@@ -41,6 +41,7 @@ impl Scene {
                 shapes: std::collections::BTreeMap::new(),
                 bodies: Vec::new(),
                 obstacles: Vec::new(),
+                charges: Vec::new(),
                 gravity: [0.0; 3],
                 time: Time::default(),
                 numerics: Numerics::default(),
@@ -117,6 +118,13 @@ impl SceneBuilder {
     #[must_use]
     pub fn probe<const N: usize>(mut self, name: impl Into<String>, position: [f64; N]) -> Self {
         self.scene.probes.push(Probe { name: name.into(), position: filled(position, 0.0) });
+        self
+    }
+
+    /// Adds a charge that goes off during the run.
+    #[must_use]
+    pub fn charge(mut self, charge: Charge) -> Self {
+        self.scene.charges.push(charge);
         self
     }
 

@@ -11,6 +11,7 @@ mod body;
 mod boundary;
 mod build;
 mod camera;
+mod charge;
 mod check;
 mod color;
 mod coupling;
@@ -30,6 +31,7 @@ mod region;
 mod render;
 mod settings;
 mod shape;
+mod shock_tube;
 mod shot;
 #[cfg(test)]
 mod tests;
@@ -46,7 +48,6 @@ use serde::{Deserialize, Serialize};
 include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
 pub use crate::material::Material;
-use crate::riemann::ExactRiemann;
 pub use atmosphere::Atmosphere;
 pub use beyond::{MAX_REMEMBERED, Remembered};
 pub use body::{Body, Contact, Friction, Motion, MotionAt, Sampling};
@@ -56,6 +57,8 @@ pub use boundary::{
 };
 pub use build::SceneBuilder;
 pub use camera::{Camera, CameraKey, CameraPath};
+pub use charge::{Charge, Placed};
+pub use check::blast_estimate::{ChargeEstimate, PlaceEstimate};
 pub use check::body::MAX_BODIES;
 pub use check::boundary::MAX_OPENINGS;
 pub use check::budget::MOST_PARTICLES;
@@ -119,6 +122,9 @@ pub struct Scene {
     /// Static obstacles; `numerics.paper.obstacles` says how finely the grid sees them.
     #[serde(default)]
     pub obstacles: Vec<Obstacle>,
+    /// Explosives that go off during the run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub charges: Vec<Charge>,
     /// Acceleration of gravity `[m s^-2]`.
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
@@ -202,7 +208,7 @@ fn default_gamma() -> f64 {
     1.4
 }
 
-/// Density, velocity and pressure of a gas.
+/// Density, velocity and pressure of a gas. In a file, `temperature` and `air` may say one or both of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GasState {
@@ -317,51 +323,6 @@ impl Scene {
         self.materials.values().map(|material| material.params_with_fracture(share, cell)).collect()
     }
 
-    /// The exact solution of a shock tube and the place of its jump: a scene of dimension 1 with no bodies, obstacles or gravity
-    /// whose gas starts as one region in ambient gas, so that the two ends differ and one jump lies between them.
-    #[must_use]
-    pub fn riemann(&self) -> Option<(ExactRiemann, f64)> {
-        let plain = self.domain.dimension == 1
-            && self.bodies.is_empty()
-            && self.obstacles.is_empty()
-            && self.gas.waves.is_empty()
-            && self.gas.vortices.is_empty()
-            && self.gas.radial_flows.is_empty()
-            && self.gas.noise == 0.0
-            && self.gravity == [0.0; 3];
-        let [region] = &self.gas.regions[..] else { return None };
-        let inside = |x: f64| region.shape.distance([x, 0.0, 0.0]) < 0.0;
-        let (mut low, mut high) = (self.domain.origin[0], self.domain.origin[0] + self.domain.size[0]);
-        let primitive = |x: f64| {
-            let state = self.gas_at([x, 0.0, 0.0]);
-            (state.density, state.velocity[0], state.pressure)
-        };
-        let nudge = 1e-9 * self.domain.size[0];
-        let (left, right) = (primitive(low + nudge), primitive(high - nudge));
-        if !plain || inside(low + nudge) == inside(high - nudge) {
-            return None;
-        }
-        let first = inside(low + nudge);
-        while high - low > 1e-14 * self.domain.size[0] {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if inside(middle) == first { low = middle } else { high = middle }
-        }
-        Some((ExactRiemann::new(self.gas.gamma, left, right), 0.5 * (low + high)))
-    }
-
-    /// The exact solution and the place of its jump, while its waves are inside the domain: later the sides have their say.
-    #[must_use]
-    pub fn riemann_until_waves_leave(&self, time: f64) -> Option<(ExactRiemann, f64)> {
-        let (exact, jump) = self.riemann()?;
-        let ends = [self.domain.origin[0], self.domain.origin[0] + self.domain.size[0]];
-        let speeds = exact.wave_speeds();
-        let inside = jump + speeds[0] * time >= ends[0] && jump + speeds[4] * time <= ends[1];
-        inside.then_some((exact, jump))
-    }
-
     /// The JSON schema of scene files (draft 2020-12).
     #[must_use]
     pub fn schema() -> schemars::Schema {
@@ -372,5 +333,7 @@ impl Scene {
 /// The JSON schema of scene files, indented: what `brisance schema` prints.
 #[must_use]
 pub fn schema() -> String {
-    format!("{:#}", Scene::schema().to_value())
+    let mut schema = Scene::schema().to_value();
+    file::gas_state::add_keys(&mut schema);
+    format!("{schema:#}")
 }

@@ -53,6 +53,7 @@ impl Simulation {
             time += f64::from(record.dt);
             record.time = time;
             record.add_up(&mut self.given);
+            record.given.mass = self.released.mass as f32;
             self.pull(&record);
             self.bear(&record);
             records.push(record);

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Simulation;
 use super::recorded::Recorded;
+use super::{Released, Simulation};
 use crate::error::{Error, Result};
 use crate::gpu::{Allocation, readback};
 
@@ -43,6 +43,12 @@ pub struct Host {
     borne: Vec<[f64; 4]>,
     /// What [`Simulation::blasts`] says.
     blasts: f64,
+    /// What [`Simulation::released`] says.
+    #[serde(default)]
+    released: Released,
+    /// The time that the run was asked for \[s\].
+    #[serde(default)]
+    target: f64,
     /// How much of each loop was recorded last.
     recorded: [u32; 4],
 }
@@ -82,6 +88,8 @@ impl Simulation {
             gas_before: self.gas_before,
             borne: self.borne.clone(),
             blasts: self.blasts,
+            released: self.released,
+            target: self.target,
             recorded: self.recorded.numbers(),
         };
         Ok(Saved { time: self.time, step: self.step, host, arrays })
@@ -126,6 +134,7 @@ impl Simulation {
         }
         let host = &saved.host;
         (self.time, self.step, self.given, self.blasts) = (saved.time, saved.step, host.given, host.blasts);
+        (self.released, self.target) = (host.released, host.target);
         (self.pulled, self.gas_before, self.borne) = (host.pulled, host.gas_before, host.borne.clone());
         self.recorded = Recorded::of(host.recorded);
         self.gpu.check()

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules from the ground floor to the roof. A module may use lower floors only.
 const FLOORS: [&[&str]; 10] = [
-    &["math", "error", "input", "riemann", "spelling", "structure"],
+    &["math", "error", "input", "riemann", "spelling", "structure", "explosive"],
     &["material", "gpu"],
     &["scene", "numerics"],
     &["state"],

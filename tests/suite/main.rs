@@ -8,6 +8,7 @@ mod bench;
 mod bits;
 mod books;
 mod boundaries;
+mod charges;
 mod checkpoint;
 mod cli;
 mod cold;

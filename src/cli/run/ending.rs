@@ -10,7 +10,7 @@ use super::super::page::run as page;
 use super::super::progress::clock;
 use super::super::writer::{Message, Written};
 use super::{PICTURES, Run, formats};
-use crate::expect::{Budget, Check, Ending};
+use crate::expect::{Budget, Check, Ending, Gauge};
 use crate::export::report::{self, Report, Status};
 use crate::math::plain;
 use crate::scene::Scene;
@@ -155,6 +155,9 @@ impl Run<'_> {
         let time = plain(time);
         let left = left(report.frames, &formats(self.options, &self.scene));
         say!("t = {time} s after {steps} steps in {wall}; {left} in {}", self.folder.path.display());
+        if !self.scene.charges.is_empty() {
+            say_gauges(&report.gauges);
+        }
         for check in &report.expect {
             say!("  {check}");
         }
@@ -167,6 +170,17 @@ fn left(frames: u32, formats: &[String]) -> String {
         [] => "tables".to_owned(),
         some if some.iter().any(|name| PICTURES.contains(&name.as_str())) => format!("{frames} frames"),
         others => format!("{frames} frames as {}", others.join(", ")),
+    }
+}
+
+/// What gauges and probes have seen of charges.
+fn say_gauges(gauges: &BTreeMap<String, Gauge>) {
+    let none = |value: Option<f64>| value.map_or("-".to_owned(), |value| plain(1e3 * value));
+    say!("  gauge             arrival [ms]  overpressure [kPa]  positive phase [ms]  impulse [Pa s]");
+    for (name, gauge) in gauges {
+        let [arrival, phase] = [none(gauge.arrival), none(gauge.positive_phase)];
+        let (pressure, impulse) = (plain(1e-3 * gauge.peak_overpressure), plain(gauge.impulse));
+        say!("  {name:16}  {arrival:>12}  {pressure:>18}  {phase:>19}  {impulse:>14}");
     }
 }
 

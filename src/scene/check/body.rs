@@ -26,7 +26,15 @@ impl Check<'_> {
         let obstacles = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect::<Vec<_>>();
         let probes = scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>();
         let gauges = scene.gauges.iter().map(|gauge| gauge.name.as_str()).collect::<Vec<_>>();
-        for (list, names) in [("bodies", bodies), ("obstacles", obstacles), ("probes", probes), ("gauges", gauges)] {
+        let charges = scene.charges.iter().map(|charge| charge.name.as_str()).collect::<Vec<_>>();
+        let lists = [
+            ("bodies", bodies),
+            ("obstacles", obstacles),
+            ("probes", probes),
+            ("gauges", gauges),
+            ("charges", charges),
+        ];
+        for (list, names) in lists {
             let mut seen = BTreeSet::new();
             for (index, name) in names.into_iter().enumerate() {
                 let plain = |c: char| !(c.is_control() || [',', '"'].contains(&c));

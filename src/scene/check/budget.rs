@@ -140,6 +140,11 @@ fn work(scene: &Scene) -> Work {
     for shape in everywhere {
         work.distances = work.distances.saturating_add(sampled.saturating_mul(shape.parts_count()));
     }
+    // twice at each charge: what is gas around it
+    let looks = 2 * u64::from(crate::scene::charge::SAMPLES).pow(domain.axes() as u32) * scene.charges.len() as u64;
+    let solids = scene.bodies.iter().map(|body| &body.shape).chain(scene.obstacles.iter().map(|own| &own.shape));
+    let parts = solids.fold(0u64, |sum, shape| sum.saturating_add(shape.parts_count()));
+    work.distances = work.distances.saturating_add(looks.saturating_mul(parts));
     let mut before: Vec<(u64, [[f64; 3]; 2])> = Vec::new();
     let boxed = |shape: &Shape| {
         let (low, high) = shape.bounds();

@@ -1,8 +1,10 @@
 //! Checks that types cannot express: limits, references, geometry. Every finding names key, value, limit and remedy.
 
+pub(in crate::scene) mod blast_estimate;
 pub(in crate::scene) mod body;
 pub(in crate::scene) mod boundary;
 pub(in crate::scene) mod budget;
+pub(in crate::scene) mod charge;
 pub(in crate::scene) mod disk;
 pub(in crate::scene) mod estimate;
 pub(in crate::scene) mod gauge;
@@ -46,6 +48,7 @@ pub(in crate::scene) fn findings(scene: &Scene) -> Vec<Finding> {
         return check.findings;
     }
     check.gauges();
+    check.charges();
     check.time();
     check.numerics();
     check.render();
@@ -61,6 +64,7 @@ pub(in crate::scene) fn findings(scene: &Scene) -> Vec<Finding> {
             shape::places(scene, &mut check.findings);
             if check.findings.is_empty() {
                 check.remembered();
+                check.charge_places();
             }
         }
         check.findings.extend(too_much);

@@ -10,6 +10,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use crate::material::{PRESETS, Units};
 use crate::scene::check;
 use crate::scene::check::budget;
+use crate::scene::file::gas_state;
 use crate::scene::file::mended::Mended;
 use crate::scene::file::numbers;
 use crate::scene::file::source::{self, Source};
@@ -182,6 +183,7 @@ pub(in crate::scene) fn read(
     }
     source.index(&root);
     numbers::findings(&root, &mut findings);
+    let settled = gas_state::take(&mut root, &mut findings);
     let mut root = Spanned::new(place, root);
     let (words, mut mended) = vocabulary::findings(&mut root);
     // keys that took the place of others are found where they stand
@@ -189,6 +191,7 @@ pub(in crate::scene) fn read(
     look::apply(root.get_mut());
     findings.extend(words);
     let Some(mut scene) = readable(source, root, &mut mended, &mut findings) else { return Err(findings) };
+    scene.settle(&settled);
     scene.resolve();
     let folder = Path::new(source.name()).parent().unwrap_or(Path::new(""));
     let dimension = scene.domain.dimension;

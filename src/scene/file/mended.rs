@@ -156,7 +156,8 @@ fn readable(schema: &Value, place: &Range<usize>, depth: u32) -> Option<Spanned<
     Some(Spanned::new(place.clone(), value))
 }
 
-fn number(text: &'static str) -> Option<DeValue<'static>> {
+/// A number, from the text of a document with the key `v`.
+pub(in crate::scene) fn number(text: &'static str) -> Option<DeValue<'static>> {
     DeTable::parse(text).ok()?.into_inner().remove("v").map(Spanned::into_inner)
 }
 

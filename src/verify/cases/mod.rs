@@ -6,6 +6,7 @@ mod blast_2d;
 mod blasts;
 mod bow_shocks;
 mod buoyancy;
+mod charges;
 mod clamped;
 mod cold;
 mod contacts;
@@ -39,7 +40,7 @@ use super::harness::{Case, Suite};
 /// All cases in the order of the report, those of a group together.
 pub fn cases() -> impl Iterator<Item = &'static Case> {
     let lines = [tubes::CASES, athena::CASES, blasts::CASES, waves::CASES];
-    let blasts = [blast_2d::CASES, line_explosion::CASES, explosions::CASES];
+    let blasts = [blast_2d::CASES, line_explosion::CASES, explosions::CASES, charges::CASES];
     let streams = [forward_step::CASES, steady::CASES, bow_shocks::CASES, jet::CASES];
     let coupled = [
         plates::CASES,

@@ -370,10 +370,12 @@ impl Run {
         Run { scene, snapshot, records, summary, label, solver, solver_load }
     }
 
-    /// Largest change of the mass of the gas since the first step, owed gas and what has left included, over the mass or over what
+    /// Largest change of the mass of the gas since the first step, owed gas, what has left and what charges gave included, over the mass or over what
     /// has left, whichever is more.
     fn mass_drift(&self) -> f64 {
-        let parts = |record: &StepRecord| [record.gas, record.owed, record.crossed].map(|part| f64::from(part.mass));
+        let parts = |record: &StepRecord| {
+            [record.gas.mass, record.owed.mass, record.crossed.mass, -record.given.mass].map(f64::from)
+        };
         let Some(first) = self.records.first().map(parts) else { return 0.0 };
         let drifts = self.records.iter().map(parts).map(|now| {
             let change: f64 = now.iter().sum::<f64>() - first.iter().sum::<f64>();

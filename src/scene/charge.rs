@@ -1,0 +1,153 @@
+//! `[[charges]]`: explosives that go off during the run.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::geometry::fill::lattice;
+use super::{Boundary, GasState, Scene, vector};
+use crate::explosive::{Explosive, NearField, explosive};
+
+/// The near field is computed apart until its front has come so many cells far, or to this scaled distance \[m kg^(-1/3)\], where products
+/// have burned: the farther of both, unless something stands nearer.
+const NEAR_CELLS: f64 = 8.0;
+const NEAR_SCALED: f64 = 1.6;
+/// What stands nearer than so many cells is inside the near field.
+const FEWEST_NEAR_CELLS: f64 = 3.0;
+/// The same in radii of the charge.
+const NEAR_RADII: f64 = 1.5;
+/// Points per axis of the box around the near field that say how much of it is gas.
+pub(super) const SAMPLES: u32 = 20;
+/// Least part of the near field that must be gas.
+const LEAST_SHARE: f64 = 0.02;
+
+/// A charge: a ball of explosive, in 2D a rod along z, in 1D a slab. It burns from its middle; how its products expand among still gas is
+/// computed apart, and takes the place of the gas around it as soon as it spans some cells.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Charge {
+    /// Name in messages, unique.
+    pub name: String,
+    /// What it is made of: `tnt`, `c4`, `petn` or `comp_b`.
+    pub explosive: String,
+    /// Mass of what lies in the domain, outside of obstacles `[kg]`; in 2D per metre along z, in 1D per square metre.
+    pub mass: f64,
+    /// Its middle `[m]`.
+    #[serde(deserialize_with = "vector::point")]
+    #[schemars(with = "Vec<f64>")]
+    pub center: [f64; 3],
+    /// When it is set off `[s]`.
+    #[serde(default)]
+    pub time: f64,
+    /// Whether its products burn on in the air, as long as the near field is computed apart.
+    #[serde(default)]
+    pub afterburn: bool,
+    /// Radius up to which the near field is computed apart `[m]`; as far as nothing stands in its way, at most 8 cells or 1.6 m for a
+    /// kilogram, when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near_field: Option<f64>,
+}
+
+/// How a charge is put into the gas.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    /// The ball, whole: where obstacles and sides cut a part of it off, its mass is larger than that of the charge.
+    pub ball: NearField,
+    /// Radius of the near field \[m\].
+    pub reach: f64,
+    /// Part of the near field that is gas.
+    pub share: f64,
+}
+
+impl Charge {
+    /// What it is made of.
+    #[must_use]
+    pub fn made_of(&self) -> Option<&'static Explosive> {
+        explosive(&self.explosive)
+    }
+}
+
+impl Scene {
+    /// How a charge is put into the gas at the start; none if its explosive is unknown, or too little of it is gas.
+    #[must_use]
+    pub fn placed(&self, charge: &Charge) -> Option<Placed> {
+        let ball = self.ball(charge, charge.made_of()?);
+        let cell = self.domain.spacing();
+        let reach_of = |ball: &NearField| {
+            let most = (NEAR_CELLS * cell).max(NEAR_SCALED * ball.scale());
+            let around = || self.free_distance(charge.center, ball.radius()).clamp(FEWEST_NEAR_CELLS * cell, most);
+            charge.near_field.unwrap_or_else(around).max(NEAR_RADII * ball.radius())
+        };
+        let share = self.gas_share(charge.center, reach_of(&ball));
+        if share < LEAST_SHARE {
+            return None;
+        }
+        let ball = NearField { mass: charge.mass / share, ..ball };
+        let reach = reach_of(&ball);
+        Some(Placed { ball, reach, share: self.gas_share(charge.center, reach) })
+    }
+
+    /// The charge as a whole ball in the gas around it.
+    pub(super) fn ball(&self, charge: &Charge, explosive: &'static Explosive) -> NearField {
+        let GasState { density, pressure, .. } = self.still_gas(charge.center, charge.center);
+        let (axes, gamma, afterburn) = (self.domain.axes(), self.gas.gamma, charge.afterburn);
+        NearField { explosive, mass: charge.mass, axes, density, pressure, gamma, afterburn }
+    }
+
+    /// Distance \[m\] from a point to the nearest body, obstacle, probe or wall that does not lie within `touching`, or to the nearest open
+    /// side.
+    fn free_distance(&self, center: [f64; 3], touching: f64) -> f64 {
+        let shapes = self.bodies.iter().map(|body| &body.shape).chain(self.obstacles.iter().map(|own| &own.shape));
+        let probes = self
+            .probes
+            .iter()
+            .map(|probe| probe.position.iter().zip(center).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt());
+        let things = shapes.map(|shape| shape.distance(center)).chain(self.walls(center)).chain(probes);
+        let near = things.filter(|distance| *distance > touching).fold(f64::INFINITY, f64::min);
+        near.min(self.open_distance(center))
+    }
+
+    /// Distances to the sides of the domain that are walls, at least in part.
+    fn walls(&self, center: [f64; 3]) -> impl Iterator<Item = f64> {
+        self.side_distances(center).filter(|(_, open)| !open).map(|(distance, _)| distance)
+    }
+
+    /// Distance to the nearest side that is no wall.
+    pub(super) fn open_distance(&self, center: [f64; 3]) -> f64 {
+        let open = self.side_distances(center).filter(|(_, open)| *open);
+        open.map(|(distance, _)| distance).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance to each side, and whether it is no wall as a whole.
+    fn side_distances(&self, center: [f64; 3]) -> impl Iterator<Item = (f64, bool)> {
+        let domain = &self.domain;
+        let sides = self.boundary.sides().into_iter().take(2 * domain.axes()).enumerate();
+        sides.map(move |(side, rule)| {
+            let low = center[side / 2] - domain.origin[side / 2];
+            (if side.is_multiple_of(2) { low } else { domain.size[side / 2] - low }, *rule != Boundary::Wall)
+        })
+    }
+
+    /// Part of a ball that is gas at the start.
+    fn gas_share(&self, center: [f64; 3], radius: f64) -> f64 {
+        let axes = self.domain.axes();
+        let points = lattice(axes, SAMPLES).into_iter().filter_map(|at| {
+            let inside = at.iter().map(|x| x * x).sum::<f64>() < 0.25;
+            inside.then(|| std::array::from_fn(|d| center[d] + 2.0 * radius * at[d]))
+        });
+        let (mut all, mut gas) = (0.0, 0.0);
+        for point in points {
+            all += 1.0;
+            gas += f64::from(self.is_gas(point));
+        }
+        gas / f64::max(all, 1.0)
+    }
+
+    /// Whether a point is in the domain, outside of obstacles and bodies.
+    fn is_gas(&self, point: [f64; 3]) -> bool {
+        let domain = &self.domain;
+        let within = |d: usize| (domain.origin[d]..=domain.origin[d] + domain.size[d]).contains(&point[d]);
+        (0..domain.axes()).all(within)
+            && !self.inside_obstacle(point)
+            && self.bodies.iter().all(|body| body.shape.distance(point) >= 0.0)
+    }
+}

@@ -1,0 +1,215 @@
+//! Charges: when they go off, and how their near field takes the place of the gas around them. All of it happens between two steps.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::Simulation;
+use crate::error::{Error, Result};
+use crate::explosive::Profile;
+use crate::gpu::readback;
+use crate::scene::{Charge, CutGeometry, Scene};
+use crate::snapshot::kind;
+use crate::state::Grid;
+use crate::state::cut::gas_shares;
+
+/// Shells of the near field.
+const SHELLS: usize = 1024;
+/// Steps of a near field at most: some 10,000 bring a front through many radii of a charge.
+const MOST_STEPS: usize = 2_000_000;
+/// Widest zone of a near field, in cells.
+const WIDEST: f64 = 0.125;
+/// How far the gas of a near field reaches beyond its front.
+const BEYOND: f64 = 1.2;
+/// Points per axis of a cell.
+const SAMPLES: usize = 4;
+
+/// What charges have given to the gas since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Released {
+    /// Charges that have gone off.
+    pub count: usize,
+    /// \[kg\]
+    pub mass: f64,
+    /// \[kg m s^-1\]
+    pub momentum: [f64; 3],
+}
+
+/// A near field that waits for its time.
+#[derive(Clone, Debug)]
+pub(super) struct Due {
+    /// When it takes the place of the gas \[s\].
+    time: f64,
+    charge: Charge,
+    /// Energy of the charge \[J\].
+    energy: f64,
+    profile: Profile,
+}
+
+/// All of them, by their times.
+///
+/// # Errors
+/// [`Error::Scene`] if there is no room for one; checked scenes have it.
+pub(super) fn due(scene: &Scene) -> Result<Vec<Due>> {
+    let near_field = |charge: &Charge| {
+        let none = || Error::Scene(format!("charge `{}`: there is no gas around it", charge.name));
+        let placed = scene.placed(charge).ok_or_else(none)?;
+        let mut expansion = placed.ball.start(BEYOND * placed.reach, WIDEST * scene.domain.spacing());
+        expansion.run_to(placed.reach, MOST_STEPS);
+        let burnt = placed.ball.afterburnt(expansion.time);
+        let energy = charge.mass * (placed.ball.explosive.specific_energy() + burnt);
+        let profile = expansion.profile(placed.reach, SHELLS);
+        Ok(Due { time: charge.time + expansion.time, charge: charge.clone(), energy, profile })
+    };
+    let mut all = scene.charges.par_iter().map(near_field).collect::<Result<Vec<_>>>()?;
+    all.sort_by(|a, b| a.time.total_cmp(&b.time));
+    Ok(all)
+}
+
+/// The near field in a cell.
+#[derive(Clone, Copy, Debug)]
+struct Mapped {
+    slot: usize,
+    /// Part of the cell within the near field.
+    covered: f64,
+    /// Density, momentum and energy per volume, mean of that part.
+    state: [f64; 5],
+}
+
+impl Due {
+    /// The cells of kind GAS that the near field touches.
+    fn cells(&self, scene: &Scene, simulation: &Simulation, words: &[u32]) -> Vec<Mapped> {
+        let domain = &scene.domain;
+        let (axes, grid, spacing) = (domain.axes(), &simulation.state.grid, domain.spacing());
+        let (center, radius) = (self.charge.center, self.profile.radius);
+        let range = |d: usize| {
+            let cell = |x: f64| ((x - domain.origin[d]) / spacing).floor().clamp(0.0, f64::from(domain.cells[d] - 1));
+            if d < axes { cell(center[d] - radius) as u32..cell(center[d] + radius) as u32 + 1 } else { 0..1 }
+        };
+        let [x, y, z] = [range(0), range(1), range(2)];
+        let rows = z.flat_map(|z| y.clone().map(move |y| [y, z]));
+        let cells: Vec<[u32; 3]> = rows.flat_map(|[y, z]| x.clone().map(move |x| [x, y, z])).collect();
+        let look = |cell: [u32; 3]| {
+            let slot = grid.slot(cell.map(|c| c as i32));
+            (words[slot] & u32::from(kind::MASK) == u32::from(kind::GAS)).then(|| self.mapped(scene, cell, slot))?
+        };
+        cells.into_par_iter().filter_map(look).collect()
+    }
+
+    /// Mean over regular points of a cell; none outside of the near field.
+    fn mapped(&self, scene: &Scene, cell: [u32; 3], slot: usize) -> Option<Mapped> {
+        let (axes, spacing) = (scene.domain.axes(), scene.domain.spacing());
+        let middle = scene.domain.cell_center(cell);
+        let (mut sum, mut inside) = ([0.0; 5], 0.0);
+        let count = SAMPLES.pow(axes as u32);
+        for point in 0..count {
+            let at = |d: usize| (point / SAMPLES.pow(d as u32) % SAMPLES) as f64;
+            let arm: [f64; 3] = std::array::from_fn(|d| {
+                let offset = (at(d) + 0.5) / SAMPLES as f64 - 0.5;
+                if d < axes { middle[d] + offset * spacing - self.charge.center[d] } else { 0.0 }
+            });
+            let away = arm.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let shell = (away / self.profile.radius * self.profile.shells.len() as f64) as usize;
+            let Some(&[density, outward, internal]) = self.profile.shells.get(shell) else { continue };
+            inside += 1.0;
+            sum[0] += density;
+            for d in 0..3 {
+                sum[d + 1] += outward * arm[d] / away.max(f64::MIN_POSITIVE);
+            }
+            sum[4] += internal + 0.5 * outward * outward / density;
+        }
+        (inside > 0.0).then(|| Mapped { slot, covered: inside / count as f64, state: sum.map(|part| part / inside) })
+    }
+}
+
+impl Simulation {
+    /// What charges have given to the gas since the start.
+    #[must_use]
+    pub fn released(&self) -> Released {
+        self.released
+    }
+
+    /// When the next charge's near field takes the place of the gas, if that is not after a time \[s\].
+    pub(super) fn next_charge(&self, until: f64) -> Option<f64> {
+        self.due.get(self.released.count).map(|due| due.time).filter(|time| *time <= until)
+    }
+
+    /// Puts the near field of the next charge in the place of the gas: mass and energy grow by those of the charge.
+    pub(super) fn set_off(&mut self) -> Result<()> {
+        let due = self.due[self.released.count].clone();
+        let (gpu, scene) = (&self.gpu, &self.scene);
+        let mut flow = readback::read(gpu, &self.state.gas.conserved)?;
+        let mut energy = readback::read_range(gpu, &self.state.gas.energy, 0, self.state.grid.slots())?;
+        let words = readback::read(gpu, &self.state.interface.cells)?;
+        let geometry = scene.cut_geometry();
+        let shares = gas_shares(&self.state.grid, &geometry);
+        let volume = scene.domain.cell_volume();
+        let mut cells = due.cells(scene, self, &words);
+        join_clusters(&mut cells, &cut_clusters(&self.state.grid, &geometry), &shares);
+        let sum = |value: &dyn Fn(&Mapped) -> f64| {
+            cells.iter().map(|cell| volume * shares[cell.slot] * cell.covered * value(cell)).sum::<f64>()
+        };
+        let old = [sum(&|cell| f64::from(flow[cell.slot][0])), sum(&|cell| f64::from(energy[cell.slot]))];
+        let new = [sum(&|cell| cell.state[0]), sum(&|cell| cell.state[4])];
+        if new[0] <= 0.0 {
+            let text =
+                format!("charge `{}` goes off where there is no gas; move it, or set it off earlier", due.charge.name);
+            return Err(Error::Usage(text));
+        }
+        let (denser, hotter) = ((due.charge.mass + old[0]) / new[0], (due.energy + old[1]) / new[1]);
+        let mut gained = [0.0; 5];
+        for cell in &cells {
+            let before = flow[cell.slot].map(f64::from);
+            let left = 1.0 - cell.covered;
+            let after: [f64; 4] = std::array::from_fn(|k| left * before[k] + cell.covered * denser * cell.state[k]);
+            let heat = left * f64::from(energy[cell.slot]) + cell.covered * hotter * cell.state[4];
+            let room = volume * shares[cell.slot];
+            for (k, value) in after.into_iter().enumerate() {
+                flow[cell.slot][k] = value as f32;
+                gained[k] += room * (f64::from(flow[cell.slot][k]) - before[k]);
+            }
+            gained[4] += room * (f64::from(heat as f32) - f64::from(energy[cell.slot]));
+            energy[cell.slot] = heat as f32;
+        }
+        self.state.gas.conserved.write(gpu, 0, &flow);
+        self.state.gas.energy.write(gpu, 0, &energy);
+        self.book(gained);
+        self.gpu.check()
+    }
+
+    /// Counts what a charge has given: mass, momentum, energy.
+    fn book(&mut self, gained: [f64; 5]) {
+        self.released.count += 1;
+        self.released.mass += gained[0];
+        for d in 0..3 {
+            self.released.momentum[d] += gained[d + 1];
+            self.given[d] += gained[d + 1];
+            self.gas_before[d] += gained[d + 1];
+        }
+        self.given[3] += gained[4];
+        self.blasts += gained[4];
+    }
+}
+
+/// Slots of the cells that share one state.
+fn cut_clusters(grid: &Grid, geometry: &CutGeometry) -> Vec<Vec<usize>> {
+    let slot = |&at: &usize| grid.slot(geometry.cells[at].cell.map(|c| c as i32));
+    geometry.clusters.iter().map(|cluster| cluster.iter().map(slot).collect()).collect()
+}
+
+/// Cells that share one state get the same.
+fn join_clusters(cells: &mut Vec<Mapped>, clusters: &[Vec<usize>], shares: &[f64]) {
+    for cluster in clusters.iter().filter(|cluster| cluster.len() > 1) {
+        let members: Vec<Mapped> = cells.iter().filter(|cell| cluster.contains(&cell.slot)).copied().collect();
+        if members.is_empty() {
+            continue;
+        }
+        let room: f64 = cluster.iter().map(|&slot| shares[slot]).sum();
+        let filled: f64 = members.iter().map(|cell| shares[cell.slot] * cell.covered).sum();
+        let mean = |k: usize| {
+            members.iter().map(|cell| shares[cell.slot] * cell.covered * cell.state[k]).sum::<f64>() / filled
+        };
+        let (covered, state) = (filled / room, std::array::from_fn(mean));
+        cells.retain(|cell| !cluster.contains(&cell.slot));
+        cells.extend(cluster.iter().map(|&slot| Mapped { slot, covered, state }));
+    }
+}
