@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use ply_rs_bw::ply::{
-    ElementDef, Encoding, Ply, Property, PropertyAccess, PropertyAccessResult, PropertyDef, PropertyType, ScalarType,
-};
+use ply_rs_bw::ply::{DefaultElement, ElementDef, Encoding, Header, PropertyDef, PropertyType, ScalarType};
 use ply_rs_bw::writer::Writer;
+use rayon::prelude::*;
 
 use super::surface::Surface;
 use crate::Result;
@@ -23,44 +22,35 @@ pub(super) struct Part {
     pub(super) body: u32,
 }
 
-/// A corner or a triangle.
-enum Element {
-    Corner { numbers: [f32; 3 + CORNER.len()], piece: u32, body: u32 },
-    Triangle { corners: [u32; 3], piece: u32 },
-}
+/// Bytes of a corner and of a triangle.
+const CORNER_BYTES: usize = 4 * (3 + CORNER.len() + 2);
+const TRIANGLE_BYTES: usize = 1 + 4 * 3 + 4;
 
-impl PropertyAccess for Element {
-    fn new() -> Self {
-        Element::Triangle { corners: [0; 3], piece: 0 }
+impl Part {
+    /// The corners as bytes, in the order of the head.
+    fn corner_bytes(&self) -> Vec<u8> {
+        let mut bytes = vec![0; CORNER_BYTES * self.surface.points.len()];
+        let own = [self.piece.to_le_bytes(), self.body.to_le_bytes()];
+        bytes.par_chunks_exact_mut(CORNER_BYTES).zip(&self.surface.points).enumerate().for_each(
+            |(k, (into, place))| {
+                let numbers = self.corners.get(k).copied().unwrap_or_default();
+                let words = place.iter().chain(&numbers).map(|number| number.to_le_bytes()).chain(own);
+                into.chunks_exact_mut(4).zip(words).for_each(|(into, word)| into.copy_from_slice(&word));
+            },
+        );
+        bytes
     }
 
-    fn set_property(&mut self, _: &str, _: Property) -> PropertyAccessResult {
-        PropertyAccessResult::Ignored
+    /// The triangles as bytes; the corners before those of the part are so many.
+    fn triangle_bytes(&self, first: u32) -> Vec<u8> {
+        let mut bytes = vec![0; TRIANGLE_BYTES * self.surface.triangles.len()];
+        bytes.par_chunks_exact_mut(TRIANGLE_BYTES).zip(&self.surface.triangles).for_each(|(into, three)| {
+            into[0] = 3;
+            let words = three.map(|corner| first + corner).into_iter().chain([self.piece]).map(u32::to_le_bytes);
+            into[1..].chunks_exact_mut(4).zip(words).for_each(|(into, word)| into.copy_from_slice(&word));
+        });
+        bytes
     }
-
-    fn get_float(&self, name: &str) -> Option<f32> {
-        let Element::Corner { numbers, .. } = self else { return None };
-        names().position(|own| own == name).map(|place| numbers[place])
-    }
-
-    fn get_uint(&self, name: &str) -> Option<u32> {
-        match (self, name) {
-            (Element::Corner { piece, .. } | Element::Triangle { piece, .. }, "piece") => Some(*piece),
-            (Element::Corner { body, .. }, "body") => Some(*body),
-            _ => None,
-        }
-    }
-
-    fn get_list_uint(&self, _: &str) -> Option<&[u32]> {
-        match self {
-            Element::Triangle { corners, .. } => Some(corners),
-            Element::Corner { .. } => None,
-        }
-    }
-}
-
-fn names() -> impl Iterator<Item = &'static str> {
-    ["x", "y", "z"].into_iter().chain(CORNER)
 }
 
 /// Writes parts one after another.
@@ -68,30 +58,31 @@ fn names() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// [`crate::Error::Io`].
 pub(super) fn write(path: &Path, comments: &[String], parts: &[Part]) -> Result<()> {
-    let (mut corners, mut triangles) = (Vec::new(), Vec::new());
-    for Part { surface, corners: numbers, piece, body } in parts {
-        let first = corners.len() as u32;
-        corners.extend(surface.points.iter().enumerate().map(|(k, [x, y, z])| {
-            let [u, v, w, strain, damage] = numbers.get(k).copied().unwrap_or_default();
-            Element::Corner { numbers: [*x, *y, *z, u, v, w, strain, damage], piece: *piece, body: *body }
-        }));
-        let three = |three: &[u32; 3]| Element::Triangle { corners: three.map(|k| first + k), piece: *piece };
-        triangles.extend(surface.triangles.iter().map(three));
-    }
-    let mut ply = Ply::<Element>::new();
-    ply.header.encoding = Encoding::BinaryLittleEndian;
-    ply.header.comments = comments.to_vec();
+    let count = |of: fn(&Part) -> usize| parts.iter().map(of).sum::<usize>();
+    let (corners, triangles) = (count(|part| part.surface.points.len()), count(|part| part.surface.triangles.len()));
+    let mut header = Header::new();
+    header.encoding = Encoding::BinaryLittleEndian;
+    header.comments = comments.to_vec();
     let whole = |name: &str| PropertyDef::new(name.to_owned(), PropertyType::Scalar(ScalarType::UInt));
     let real = |name: &str| PropertyDef::new(name.to_owned(), PropertyType::Scalar(ScalarType::Float));
     let list = PropertyType::List(ScalarType::UChar, ScalarType::UInt);
-    let of_corners: Vec<PropertyDef> = names().map(real).chain([whole("piece"), whole("body")]).collect();
+    let names = ["x", "y", "z"].into_iter().chain(CORNER);
+    let of_corners: Vec<PropertyDef> = names.map(real).chain([whole("piece"), whole("body")]).collect();
     let of_triangles = vec![PropertyDef::new("vertex_indices".to_owned(), list), whole("piece")];
-    for (name, properties, elements) in [("vertex", of_corners, corners), ("face", of_triangles, triangles)] {
+    for (name, properties, count) in [("vertex", of_corners, corners), ("face", of_triangles, triangles)] {
         let mut definition = ElementDef::new(name.to_owned());
-        definition.count = elements.len();
+        definition.count = count;
         definition.properties = properties.into_iter().map(|property| (property.name.clone(), property)).collect();
-        ply.header.elements.insert(name.to_owned(), definition);
-        ply.payload.insert(name.to_owned(), elements);
+        header.elements.insert(name.to_owned(), definition);
     }
-    atomic::write(path, |mut out| Writer::new().write_ply_unchecked(&mut out, &ply).map(|_| ()))
+    atomic::write(path, |mut out| {
+        Writer::<DefaultElement>::new().write_header(&mut out, &header)?;
+        parts.iter().try_for_each(|part| out.write_all(&part.corner_bytes()))?;
+        let mut first = 0;
+        parts.iter().try_for_each(|part| {
+            let bytes = part.triangle_bytes(first);
+            first += part.surface.points.len() as u32;
+            out.write_all(&bytes)
+        })
+    })
 }

@@ -195,21 +195,20 @@ fn meshed((block, field): ([i32; 3], Field)) -> Part {
     Part { block, points, triangles }
 }
 
-/// One surface of all parts: a corner for each cell.
+/// One surface of all parts: a corner for each cell. Cells in the outermost layers of blocks are those of neighbours, too.
 fn joined(parts: Vec<Part>, cell: f32) -> Surface {
     let (mut surface, mut known) = (Surface::default(), HashMap::new());
     for Part { block, points, triangles } in parts {
-        let numbers: Vec<u32> = points
-            .iter()
-            .map(|(place, own, nearest)| {
-                *known.entry(*own).or_insert_with(|| {
-                    let point = std::array::from_fn(|axis| (place[axis] + (block[axis] * BLOCK) as f32) * cell);
-                    surface.points.push(point);
-                    surface.nearest.push(*nearest);
-                    surface.points.len() as u32 - 1
-                })
-            })
-            .collect();
+        let mut numbers = Vec::with_capacity(points.len());
+        for (place, own, nearest) in points {
+            let mut new = || {
+                surface.points.push(std::array::from_fn(|axis| (place[axis] + (block[axis] * BLOCK) as f32) * cell));
+                surface.nearest.push(nearest);
+                surface.points.len() as u32 - 1
+            };
+            let is_shared = (0..3).any(|axis| own[axis].rem_euclid(BLOCK) == 0);
+            numbers.push(if is_shared { *known.entry(own).or_insert_with(new) } else { new() });
+        }
         surface.triangles.extend(triangles.iter().map(|three| three.map(|corner| numbers[corner as usize])));
     }
     surface

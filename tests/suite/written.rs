@@ -27,7 +27,13 @@ fn what_a_run_will_write_is_told() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    for (scene, cells) in [("sod", "400"), ("bursting_diaphragm_2d", "80"), ("bursting_shell_3d", "16")] {
+    for (scene, cells) in [
+        ("sod", "400"),
+        ("bursting_diaphragm_2d", "80"),
+        ("fig03_elastic_shell_2d", "48"),
+        ("kelvin_helmholtz", "48"),
+        ("bursting_shell_3d", "16"),
+    ] {
         let given = [scene, "--resolution", cells, "--set", "time.frames=4"];
         let out = folder.path().join(scene);
         let told: serde_json::Value =

@@ -4,9 +4,14 @@
 
 use crate::scene::Scene;
 
-/// Share of the raw pixels that a PNG takes, by axes of the scene, and the same of small pictures in a moving one.
-const PNG: [f64; 3] = [0.022, 0.08, 0.30];
-const MOVING: [f64; 3] = [0.04, 0.11, 0.20];
+/// Share of the raw pixels that a PNG takes, by axes of the scene; in a plane, of those that show it. How much more small pictures in
+/// a moving one take.
+const PNG: [f64; 3] = [0.022, 0.185, 0.30];
+const MOVING: [f64; 3] = [1.8, 1.4, 0.67];
+/// What a plane without bodies, where less is torn up, takes of that.
+const GAS_ALONE: f64 = 0.57;
+/// Pixels beside and above a plane, for bar and letters.
+const MARGINS: [f64; 2] = [220.0, 70.0];
 /// Pictures in the moving one at most, and pixels of a row of it at most.
 const MOVING_FRAMES: f64 = 32.0;
 const MOVING_WIDTH: u32 = 320;
@@ -55,12 +60,26 @@ impl Scene {
     /// Of all pictures of a frame. In one dimension a picture has all fields.
     fn picture_bytes(&self, formats: &[&str]) -> f64 {
         let share = |name: &str, bytes: f64| if formats.contains(&name) { bytes } else { 0.0 };
-        let pixel = share("png", RAW * PNG[self.axis()]) + share("png16", PNG16) + share("exr", EXR);
-        let pixels = self.shots().unwrap_or_default().into_iter().map(|shot| {
+        let of_shots = self.shots().unwrap_or_default().into_iter().map(|shot| {
             let fields = if self.axis() == 0 { 1 } else { shot.fields.len() };
-            fields as f64 * shot.settings.size.map(f64::from).iter().product::<f64>()
+            let size = shot.settings.size.map(f64::from);
+            let pixel = share("png", RAW * self.png(size)) + share("png16", PNG16) + share("exr", EXR);
+            pixel * fields as f64 * size[0] * size[1]
         });
-        pixel * pixels.sum::<f64>()
+        of_shots.sum()
+    }
+
+    /// Share of the raw pixels of a picture of some size that a PNG takes.
+    fn png(&self, [wide, high]: [f64; 2]) -> f64 {
+        let all = PNG[self.axis()];
+        if self.axis() != 1 {
+            return all;
+        }
+        let aspect = self.domain.size[0] / self.domain.size[1];
+        let room = [wide - MARGINS[0], high - MARGINS[1]].map(|side| side.max(1.0));
+        let width = room[0].min(room[1] * aspect);
+        let bodies = if self.bodies.is_empty() { GAS_ALONE } else { 1.0 };
+        all * bodies * width * (width / aspect) / (wide * high)
     }
 
     /// Of cells and particles of a frame.
@@ -85,9 +104,10 @@ impl Scene {
         let plots = plots as f64 * (PLOT + PLACE * steps.min(PLACES));
         let [wide, high] = self.render.size;
         let pixels = |block: u32| f64::from(wide / block) * f64::from(high / block);
-        let last = pixels(1) * PNG[self.axis()];
+        let share = self.png([wide, high].map(f64::from));
+        let last = pixels(1) * share;
         let shown = frames / (frames / MOVING_FRAMES).ceil();
-        let moving = shown * pixels(wide.div_ceil(MOVING_WIDTH).max(1)) * MOVING[self.axis()];
+        let moving = shown * pixels(wide.div_ceil(MOVING_WIDTH).max(1)) * share * MOVING[self.axis()];
         let pictures = if formats.contains(&"png") { BASE64 * RAW * (last + moving) } else { 0.0 };
         PAGE + plots + pictures
     }
