@@ -343,7 +343,7 @@ impl Simulation {
         }
         let Some(time) = self.next_charge(self.target) else { return Ok(true) };
         self.time = time;
-        self.set_off()?;
+        self.release_next()?;
         self.head_for(self.next_charge(self.target).unwrap_or(self.target))?;
         Ok(false)
     }

@@ -59,6 +59,13 @@ pub struct Placed {
 }
 
 impl Charge {
+    /// A charge of TNT that is set off at the start of the run, or as soon as it is asked for.
+    #[must_use]
+    pub fn tnt(name: impl Into<String>, mass: f64, center: [f64; 3]) -> Self {
+        let (name, explosive) = (name.into(), "tnt".to_owned());
+        Self { name, explosive, mass, center, time: 0.0, afterburn: false, near_field: None }
+    }
+
     /// What it is made of.
     #[must_use]
     pub fn made_of(&self) -> Option<&'static Explosive> {
@@ -84,6 +91,18 @@ impl Scene {
         let ball = NearField { mass: charge.mass / share, ..ball };
         let reach = reach_of(&ball);
         Some(Placed { ball, reach, share: self.gas_share(charge.center, reach) })
+    }
+
+    /// Whether a charge is smaller than the domain, in it, and in gas at the start.
+    #[must_use]
+    pub fn has_room_for(&self, charge: &Charge) -> bool {
+        let fits = |explosive| 2.0 * self.ball(charge, explosive).radius() < self.longest_side();
+        charge.mass > 0.0 && charge.made_of().is_some_and(fits) && self.placed(charge).is_some()
+    }
+
+    /// Longest edge of the domain \[m\].
+    pub(super) fn longest_side(&self) -> f64 {
+        self.domain.size[..self.domain.axes()].iter().copied().fold(0.0, f64::max)
     }
 
     /// The charge as a whole ball in the gas around it.

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
+use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
 use crate::explosive::Profile;
 use crate::gpu::readback;
@@ -26,7 +27,7 @@ const SAMPLES: usize = 4;
 /// What charges have given to the gas since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Released {
-    /// Charges that have gone off.
+    /// Charges of the scene that have gone off.
     pub count: usize,
     /// \[kg\]
     pub mass: f64,
@@ -48,21 +49,23 @@ pub(super) struct Due {
 /// All of them, by their times.
 ///
 /// # Errors
-/// [`Error::Scene`] if there is no room for one; checked scenes have it.
+/// [`Error::Usage`] if there is no room for one; checked scenes have it.
 pub(super) fn due(scene: &Scene) -> Result<Vec<Due>> {
-    let near_field = |charge: &Charge| {
-        let none = || Error::Scene(format!("charge `{}`: there is no gas around it", charge.name));
-        let placed = scene.placed(charge).ok_or_else(none)?;
-        let mut expansion = placed.ball.start(BEYOND * placed.reach, WIDEST * scene.domain.spacing());
-        expansion.run_to(placed.reach, MOST_STEPS);
-        let burnt = placed.ball.afterburnt(expansion.time);
-        let energy = charge.mass * (placed.ball.explosive.specific_energy() + burnt);
-        let profile = expansion.profile(placed.reach, SHELLS);
-        Ok(Due { time: charge.time + expansion.time, charge: charge.clone(), energy, profile })
-    };
-    let mut all = scene.charges.par_iter().map(near_field).collect::<Result<Vec<_>>>()?;
+    let mut all = scene.charges.par_iter().map(|charge| near_field(scene, charge)).collect::<Result<Vec<_>>>()?;
     all.sort_by(|a, b| a.time.total_cmp(&b.time));
     Ok(all)
+}
+
+/// The near field of a charge.
+fn near_field(scene: &Scene, charge: &Charge) -> Result<Due> {
+    let none = || Error::Usage(format!("charge `{}`: there is no gas around it; choose another place", charge.name));
+    let placed = scene.placed(charge).ok_or_else(none)?;
+    let mut expansion = placed.ball.start(BEYOND * placed.reach, WIDEST * scene.domain.spacing());
+    expansion.run_to(placed.reach, MOST_STEPS);
+    let burnt = placed.ball.afterburnt(expansion.time);
+    let energy = charge.mass * (placed.ball.explosive.specific_energy() + burnt);
+    let profile = expansion.profile(placed.reach, SHELLS);
+    Ok(Due { time: charge.time + expansion.time, charge: charge.clone(), energy, profile })
 }
 
 /// The near field in a cell.
@@ -133,9 +136,34 @@ impl Simulation {
         self.due.get(self.released.count).map(|due| due.time).filter(|time| *time <= until)
     }
 
-    /// Puts the near field of the next charge in the place of the gas: mass and energy grow by those of the charge.
-    pub(super) fn set_off(&mut self) -> Result<()> {
+    /// Sets a charge off where there is gas, as soon as the step that is under way is finished. Its near field takes the place of the gas at
+    /// once. Returns its energy \[J\].
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if it does not fit into the domain or there is no gas around it; driver errors.
+    pub fn set_off(&mut self, charge: &Charge, records: &mut Vec<StepRecord>) -> Result<f64> {
+        if !self.scene.has_room_for(charge) {
+            let text = format!(
+                "{} kg at {:?} m do not fit into the gas of this scene; choose less, or another place",
+                charge.mass, charge.center
+            );
+            return Err(Error::Usage(text));
+        }
+        self.settle(records)?;
+        let before = self.blasts;
+        self.release(&near_field(&self.scene, charge)?)?;
+        Ok(self.blasts - before)
+    }
+
+    /// The next charge of the scene goes off.
+    pub(super) fn release_next(&mut self) -> Result<()> {
         let due = self.due[self.released.count].clone();
+        self.released.count += 1;
+        self.release(&due)
+    }
+
+    /// Puts a near field in the place of the gas: mass and energy grow by those of the charge.
+    fn release(&mut self, due: &Due) -> Result<()> {
         let (gpu, scene) = (&self.gpu, &self.scene);
         let mut flow = readback::read(gpu, &self.state.gas.conserved)?;
         let mut energy = readback::read_range(gpu, &self.state.gas.energy, 0, self.state.grid.slots())?;
@@ -178,7 +206,6 @@ impl Simulation {
 
     /// Counts what a charge has given: mass, momentum, energy.
     fn book(&mut self, gained: [f64; 5]) {
-        self.released.count += 1;
         self.released.mass += gained[0];
         for d in 0..3 {
             self.released.momentum[d] += gained[d + 1];

@@ -307,11 +307,11 @@ impl Desk {
 
     fn strike(&mut self, strike: &Strike) -> Result<()> {
         let (Some(session), Some(look)) = (&mut self.session, &self.look) else { return Ok(()) };
-        let blast = session.strike(strike, look, &mut self.records)?;
+        let (place, energy) = session.strike(strike, look, &mut self.records)?;
         self.replay = false;
         (self.stale, self.news) = (true, true);
-        let place = blast.center.map(plain)[..session.scene().domain.axes()].join(", ");
-        self.note(Weight::Fine, format!("{} J at ({place}) m", plain(blast.energy)));
+        let place = place.map(plain)[..session.scene().domain.axes()].join(", ");
+        self.note(Weight::Fine, format!("{} J at ({place}) m", plain(energy)));
         Ok(())
     }
 

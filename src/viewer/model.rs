@@ -84,10 +84,17 @@ pub enum Pace {
 pub struct Strike {
     /// Where on the picture, as shares of its width and height from the top left corner.
     pub at: [f64; 2],
-    /// Energy \[J\]; per metre of depth in 2D.
-    pub energy: f64,
-    /// Radius \[m\].
-    pub radius: f64,
+    /// What goes off there.
+    pub source: Source,
+}
+
+/// What a click sets off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// Energy \[J\], per metre of depth in 2D, in the gas of a ball of a radius \[m\].
+    Energy(f64, f64),
+    /// A mass of TNT \[kg\], per metre of depth in 2D.
+    Tnt(f64),
 }
 
 /// What the window asks for.

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::model::{Look, Strike};
+use super::model::{Look, Source, Strike};
 use super::past::{self, Found, Kept, Past, Recorded};
 use super::pick;
 use crate::diagnostics::StepRecord;
@@ -11,7 +11,7 @@ use crate::expect::{self, Budget, Ending, Summary, Warning};
 use crate::export::states;
 use crate::gpu::{Detail, Gpu};
 use crate::render::{Picture, Renderer, SceneBuffers, Stored};
-use crate::scene::{Camera, Field, RenderSettings, Scene};
+use crate::scene::{Camera, Charge, Field, RenderSettings, Scene};
 use crate::simulation::{Blast, Saved, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -340,11 +340,11 @@ impl Session {
         Ok(())
     }
 
-    /// Sets energy free where a click on a picture of this look points; the blast as it was.
+    /// Sets energy free where a click on a picture of this look points; the place \[m\], and the energy \[J\] as it was.
     ///
     /// # Errors
-    /// [`Error::Usage`] if the click misses the domain or its gas.
-    pub fn strike(&mut self, strike: &Strike, look: &Look, records: &mut Vec<StepRecord>) -> Result<Blast> {
+    /// [`Error::Usage`] if the click misses the domain or its gas, or there is no room for the charge.
+    pub fn strike(&mut self, strike: &Strike, look: &Look, records: &mut Vec<StepRecord>) -> Result<([f64; 3], f64)> {
         self.whole()?;
         let [width, height] = look.settings.size.map(f64::from);
         let ray = self.renderer.ray(&look.settings, self.time(), [strike.at[0] * width, strike.at[1] * height]);
@@ -352,11 +352,13 @@ impl Session {
         let particles = if grid.dimension == 3 { self.simulation.snapshot()?.particles } else { Vec::new() };
         let center = pick::point(&ray, &grid, &particles)
             .ok_or_else(|| Error::Usage("the click is beside the domain; nothing was detonated".to_owned()))?;
-        let mut blast = Blast { center, radius: strike.radius, energy: strike.energy };
         let before = records.len();
-        blast.energy = self.simulation.detonate(&blast, records)?;
+        let energy = match strike.source {
+            Source::Energy(energy, radius) => self.simulation.detonate(&Blast { center, radius, energy }, records)?,
+            Source::Tnt(mass) => self.simulation.set_off(&Charge::tnt("click", mass, center), records)?,
+        };
         self.summary.add(&records[before..]);
-        Ok(blast)
+        Ok((center, energy))
     }
 
     /// The simulation.

@@ -235,8 +235,7 @@ impl View {
         if response.clicked() && struck {
             let share = (pointer - place.min) / place.size();
             let at = [f64::from(share.x), f64::from(share.y)];
-            let (energy, radius) = (self.panel.blast.energy, self.panel.blast.radius);
-            self.commands.push(Command::Detonate(Strike { at, energy, radius }));
+            self.commands.push(Command::Detonate(Strike { at, source: self.panel.blast.source() }));
         }
         if struck && response.hovered() {
             ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);

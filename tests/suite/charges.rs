@@ -1,7 +1,7 @@
 //! Charges: what they give to the gas, when, and what is not taken for one.
 
 use brisance::expect::Budget;
-use brisance::scene::Scene;
+use brisance::scene::{Charge, Scene};
 use brisance::simulation::Simulation;
 
 use crate::common::gpu_or_skip;
@@ -80,4 +80,22 @@ fn what_is_no_charge_is_refused() {
         let error = Scene::parse(&scene.unwrap(), "charge.toml", &[set.to_owned()][..]).unwrap_err().to_string();
         assert!(error.contains(told) && error.contains("charges[0]"), "{set}: {error}");
     }
+}
+
+#[test]
+fn a_charge_goes_off_when_it_is_asked_for() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene(2, "");
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+    simulation.advance_to(1e-3).unwrap();
+    let before = Budget::read(&simulation, &scene, 0.0).unwrap();
+    let energy = simulation.set_off(&Charge::tnt("click", 0.2, [0.5, 0.6, 0.0]), &mut Vec::new()).unwrap();
+    assert!((energy / (0.2 * TNT) - 1.0).abs() < 1e-6, "{energy}");
+    simulation.advance_to(2e-3).unwrap();
+    let after = Budget::read(&simulation, &scene, 0.0).unwrap();
+    assert!(((after.gas_mass - before.gas_mass) / 0.2 - 1.0).abs() < 1e-5, "{after:?}");
+    let drift = after.drift_since(&before);
+    assert!(drift["gas_mass"].abs() < 1e-6 && drift["energy"].abs() < 1e-5, "{drift:?}");
+    let error = simulation.set_off(&Charge::tnt("click", 1e8, [0.5, 0.6, 0.0]), &mut Vec::new()).unwrap_err();
+    assert!(error.to_string().contains("do not fit"), "{error}");
 }

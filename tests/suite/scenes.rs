@@ -9,7 +9,29 @@ use brisance::scene::{Changes, Scene};
 use crate::common::gpu_or_skip;
 
 /// Scenes that were not looked through for warnings: what is told of them may be right, or a fault.
-const UNJUDGED: &[&str] = &[];
+const UNJUDGED: &[&str] = &[
+    "demos/glass_front_2d.toml",
+    "demos/meteor_3d.toml",
+    "demos/playground_2d.toml",
+    "demos/shaped_cavity_2d.toml",
+    "demos/sonic_boom_2d.toml",
+    "paper/fig01_car_landmine.toml",
+    "paper/fig02_tribunny.toml",
+    "paper/fig03_elastic_shell_2d.toml",
+    "paper/fig04_trucks.toml",
+    "paper/fig05_bullets_2d.toml",
+    "paper/fig06_pumpkin.toml",
+    "paper/fig08_supernova.toml",
+    "paper/fig10_cylinder_flow.toml",
+    "paper/fig11_airplane.toml",
+    "paper/fig12_cactus_forest.toml",
+    "paper/fig13_ghost_update.toml",
+    "paper/fig14_ordering.toml",
+    "paper/fig15_stair_flow.toml",
+    "paper/fig18_mach_diamond_2d.toml",
+    "paper/fig19_koalas.toml",
+    "validation/line_explosion.toml",
+];
 
 /// Runs a shipped scene and demands that it has expectations and meets them, and that nothing but what it expects is to be warned of.
 fn meets_its_expectations(path: &str, changes: [&[&str]; 2]) {

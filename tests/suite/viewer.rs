@@ -7,7 +7,7 @@ use brisance::gpu::GpuOptions;
 use brisance::render::{Renderer, SceneBuffers};
 use brisance::scene::{Changes, Field, Scene};
 use brisance::simulation::Simulation;
-use brisance::viewer::model::{Command, Look, Outbox, Pace, Phase, Request, Shown, Strike, Weight};
+use brisance::viewer::model::{Command, Look, Outbox, Pace, Phase, Request, Shown, Source, Strike, Weight};
 use brisance::viewer::record;
 use brisance::viewer::session::Session;
 use brisance::viewer::worker::Worker;
@@ -213,15 +213,20 @@ fn the_worker_opens_steps_detonates_changes_and_saves() {
     worker.send(Command::Steps(3));
     wait(&worker, &mut seen, "three steps", |seen| seen.records.len() == 3);
     let before = seen.records.last().unwrap().given.energy;
-    worker.send(Command::Detonate(Strike { at: [0.5, 0.5], energy: 0.75, radius: 0.2 }));
+    worker.send(Command::Detonate(Strike { at: [0.5, 0.5], source: Source::Energy(0.75, 0.2) }));
     worker.send(Command::Steps(1));
     wait(&worker, &mut seen, "blast", |seen| seen.records.len() == 4);
     let given = seen.records[3].given.energy - before;
     assert!((given - 0.75).abs() < 0.05, "the books have {given} J");
     assert!(seen.notes.iter().any(|note| note.weight == Weight::Fine), "{:?}", seen.notes);
-    worker.send(Command::Detonate(Strike { at: [0.001, 0.001], energy: 0.75, radius: 0.2 }));
+    worker.send(Command::Detonate(Strike { at: [0.001, 0.001], source: Source::Energy(0.75, 0.2) }));
     wait(&worker, &mut seen, "word about a miss", |seen| {
         seen.notes.iter().any(|note| note.text.contains("beside the domain"))
+    });
+    // its walls are nearer than a kilogram is wide
+    worker.send(Command::Detonate(Strike { at: [0.5, 0.5], source: Source::Tnt(1e9) }));
+    wait(&worker, &mut seen, "word about a charge", |seen| {
+        seen.notes.iter().any(|note| note.text.contains("do not fit into the gas"))
     });
     let mut scene = (*opened.scene).clone();
     scene.gravity = [0.0, 0.0, -5.0];

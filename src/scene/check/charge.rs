@@ -70,7 +70,7 @@ impl Check<'_> {
                 return self.add(center, format!("{place} lies inside {kind} `{name}`"), help);
             }
         }
-        let longest = scene.domain.size[..scene.domain.axes()].iter().copied().fold(0.0, f64::max);
+        let longest = scene.longest_side();
         let radius = charge.made_of().map_or(0.0, |explosive| scene.ball(charge, explosive).radius());
         if 2.0 * radius > longest {
             let message = format!("a charge of radius {radius:.3e} m in a domain of {longest:.3e} m");

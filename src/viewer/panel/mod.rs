@@ -9,13 +9,15 @@ mod plots;
 
 use egui::{CollapsingHeader, DragValue, Grid, RichText, ScrollArea, Ui};
 
-use super::model::{Command, Status};
+use super::model::{Command, Source, Status};
 use super::theme;
 use super::view::View;
 use crate::math::plain;
 use crate::scene::Scene;
 use parameters::Parameters;
 
+/// Energy of a kilogram of TNT \[J\].
+const TNT: f64 = 4.294e6;
 /// Energy of the first blast, in energies that the ambient gas of its ball holds.
 const BLAST: f64 = 20.0;
 
@@ -33,11 +35,17 @@ pub(super) struct Panel {
     measures: bool,
 }
 
-/// Energy \[J\] and radius \[m\] of a blast.
+/// Pressures of air \[Pa\] in scenes in kg, m and s.
+const AIR: std::ops::Range<f64> = 1e3..1e7;
+
+/// What a click sets off: a mass of TNT \[kg\], or an energy \[J\] within a radius \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Numbers {
-    pub(super) energy: f64,
-    pub(super) radius: f64,
+    energy: f64,
+    radius: f64,
+    mass: f64,
+    /// Whether it is the mass that counts.
+    by_mass: bool,
 }
 
 impl Numbers {
@@ -51,7 +59,13 @@ impl Numbers {
         let energy = BLAST * scene.gas.ambient.pressure / (scene.gas.gamma - 1.0) * volume;
         // Two digits are enough to begin with.
         let digit = 10.0_f64.powf(energy.log10().floor() - 1.0);
-        Self { energy: (energy / digit).round() * digit, radius }
+        let mass = (energy / digit).round() * digit / TNT;
+        Self { energy: (energy / digit).round() * digit, radius, mass, by_mass: !scene.charges.is_empty() }
+    }
+
+    /// What a click sets off.
+    pub(super) fn source(&self) -> Source {
+        if self.by_mass { Source::Tnt(self.mass) } else { Source::Energy(self.energy, self.radius) }
     }
 }
 
@@ -136,8 +150,17 @@ fn detonate(ui: &mut Ui, view: &mut View) {
         ui.label(RichText::new("needs a picture of a plane or of space").color(theme::FAINT));
         return;
     }
-    let blast = &mut view.panel.blast;
+    let (blast, air) = (&mut view.panel.blast, AIR.contains(&view.scene.gas.ambient.pressure));
+    if air {
+        ui.checkbox(&mut blast.by_mass, "TNT by mass").on_hover_text("for scenes in kg, m and s");
+    }
     rows(ui, "blast", |ui| {
+        if blast.by_mass {
+            ui.label("TNT");
+            ui.add(positive(&mut blast.mass, ["kg/m\u{b2}", "kg/m", "kg"][view.scene.domain.axes() - 1]));
+            ui.end_row();
+            return;
+        }
         ui.label("energy");
         ui.add(positive(&mut blast.energy, unit));
         ui.end_row();
