@@ -14,7 +14,7 @@ pub const MAX_BODIES: usize = 1024;
 const MOST_LETTERS: usize = 200;
 
 impl Check<'_> {
-    pub(in crate::scene) fn names(&mut self) {
+    pub(crate) fn names(&mut self) {
         let scene = self.scene;
         if scene.title.len() > MOST_LETTERS || scene.title.chars().any(char::is_control) {
             let length = scene.title.len();
@@ -50,7 +50,7 @@ impl Check<'_> {
         }
     }
 
-    pub(in crate::scene) fn bodies(&mut self) {
+    pub(crate) fn bodies(&mut self) {
         let scene = self.scene;
         for (name, material) in &scene.materials {
             for (parameter, value, allowed) in material.findings() {

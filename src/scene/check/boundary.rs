@@ -15,7 +15,7 @@ pub const MAX_OPENINGS: usize = 64;
 
 impl Check<'_> {
     /// Every side.
-    pub(in crate::scene) fn boundary(&mut self) {
+    pub(crate) fn boundary(&mut self) {
         let boundary = &self.scene.boundary;
         let axes = self.scene.domain.axes();
         let mut openings = 0;
@@ -42,7 +42,7 @@ impl Check<'_> {
     }
 
     /// Ambient gas under gravity fills the domain.
-    pub(in crate::scene) fn atmosphere(&mut self) {
+    pub(crate) fn atmosphere(&mut self) {
         let scene = self.scene;
         let known = scene.gas.ambient.pressure > 0.0 && scene.gas.ambient.density > 0.0 && scene.gas.gamma > 1.0;
         if known && scene.is_stratified() && scene.least_pressure_ratio() < THINNEST {
@@ -56,7 +56,7 @@ impl Check<'_> {
     }
 
     /// What outlets remember has room on the device.
-    pub(in crate::scene) fn remembered(&mut self) {
+    pub(crate) fn remembered(&mut self) {
         if self.scene.remembered().states.len() > MAX_REMEMBERED {
             let message = format!("more than {MAX_REMEMBERED} different states lie at the outlets at the start");
             self.add("boundary", message, "let fewer regions end there, or make the sides a \"far_field\"");
@@ -104,7 +104,7 @@ impl Check<'_> {
     }
 
     /// Patches that hold no face.
-    pub(in crate::scene) fn patches_cover(&mut self) {
+    pub(crate) fn patches_cover(&mut self) {
         let domain = &self.scene.domain;
         for (index, (side, name)) in self.scene.boundary.sides().into_iter().zip(Boundaries::NAMES).enumerate() {
             let Boundary::Patched(patched) = side else { continue };

@@ -9,7 +9,7 @@ use crate::scene::{Boundary, Domain, Scene, Shape};
 /// Single shapes that one shape may be made of, copies and uses counted as often as they are there.
 const MOST_PARTS: u64 = 1_000_000;
 /// Keys and entries of lists that a scene may have that somebody wrote, its variants among them.
-pub(in crate::scene) const MOST_VALUES: u64 = 100_000;
+pub(crate) const MOST_VALUES: u64 = 100_000;
 /// Particles of a scene at most: the device's largest buffer holds no more.
 pub const MOST_PARTICLES: u64 = 1 << 27;
 /// Rows of cells that bodies touch at most, each body counted by itself.
@@ -27,7 +27,7 @@ const PASSES: u64 = 4;
 
 /// The work of a scene.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::scene) struct Work {
+pub(crate) struct Work {
     /// Particles, about.
     particles: u64,
     /// Rows of cells that bodies touch.
@@ -38,7 +38,7 @@ pub(in crate::scene) struct Work {
 
 impl Shape {
     /// Single shapes whose distance the distance of this one takes, about; faces and corners count, too.
-    pub(in crate::scene) fn parts_count(&self) -> u64 {
+    pub(crate) fn parts_count(&self) -> u64 {
         let below = || self.parts().iter().fold(1u64, |sum, (_, part)| sum.saturating_add(part.parts_count()));
         match self {
             Shape::Polygon { points, .. } | Shape::Revolve { points, .. } => points.len() as u64,
@@ -52,7 +52,7 @@ impl Shape {
     }
 
     /// Shapes in each other, the innermost counted as 1.
-    pub(in crate::scene) fn depth(&self) -> u32 {
+    pub(crate) fn depth(&self) -> u32 {
         match self {
             Shape::Use(named) => named.depth() + 1,
             _ => 1 + self.parts().iter().map(|(_, part)| part.depth()).max().unwrap_or(0),
@@ -61,7 +61,7 @@ impl Shape {
 }
 
 /// A text of too many keys and entries; nothing may look at each of them.
-pub(in crate::scene) fn values(root: &DeTable<'_>, most: u64) -> Option<Finding> {
+pub(crate) fn values(root: &DeTable<'_>, most: u64) -> Option<Finding> {
     let count = root.iter().fold(0, |sum: u64, (_, value)| sum + values_count(value.get_ref()));
     let help = format!("at most {most} are read; a large outline is better a mesh file");
     (count > most).then(|| Finding::new("", format!("{count} keys and entries of lists"), help))
@@ -76,7 +76,7 @@ fn values_count(value: &DeValue<'_>) -> u64 {
 }
 
 /// Shapes of too many parts; nothing may ask one of them for a distance.
-pub(in crate::scene) fn shapes(scene: &Scene) -> Vec<Finding> {
+pub(crate) fn shapes(scene: &Scene) -> Vec<Finding> {
     let own = scene.shapes.iter().map(|(name, shape)| (format!("shapes.{name}"), shape));
     let placed = scene.placed_shapes().into_iter().chain(scene.patch_shapes()).chain(own);
     let finding = |(path, shape): (String, &Shape)| {
@@ -89,7 +89,7 @@ pub(in crate::scene) fn shapes(scene: &Scene) -> Vec<Finding> {
 }
 
 /// What a sound domain and sound shapes cost.
-pub(in crate::scene) fn findings(scene: &Scene) -> Vec<Finding> {
+pub(crate) fn findings(scene: &Scene) -> Vec<Finding> {
     let mut found = Vec::new();
     let mut limit = |path: &str, number: u64, what: &str, most: u64, help: &str| {
         if number > most {

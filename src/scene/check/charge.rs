@@ -12,7 +12,7 @@ const MASSES: [f64; 2] = [1e-9, 1e9];
 
 impl Check<'_> {
     /// What charges are.
-    pub(in crate::scene) fn charges(&mut self) {
+    pub(crate) fn charges(&mut self) {
         let scene = self.scene;
         if scene.charges.len() > MOST_CHARGES {
             let message = format!("{} charges", scene.charges.len());
@@ -24,7 +24,7 @@ impl Check<'_> {
     }
 
     /// Where charges are. Asked of a scene that is sound else.
-    pub(in crate::scene) fn charge_places(&mut self) {
+    pub(crate) fn charge_places(&mut self) {
         let scene = self.scene;
         for (index, charge) in scene.charges.iter().enumerate() {
             self.charge_place(&format!("charges[{index}]"), charge);

@@ -7,7 +7,7 @@ use crate::scene::{Boundary, Gauge, GaugePlace};
 const MOST_GAUGES: usize = 1000;
 
 impl Check<'_> {
-    pub(in crate::scene) fn gauges(&mut self) {
+    pub(crate) fn gauges(&mut self) {
         let scene = self.scene;
         if scene.gauges.len() > MOST_GAUGES {
             return self.add("gauges", format!("{} gauges", scene.gauges.len()), format!("give at most {MOST_GAUGES}"));

@@ -9,19 +9,19 @@ use crate::scene::Scene;
 use crate::scene::finding::Finding;
 
 /// The schema of scenes.
-pub(in crate::scene) fn schema() -> &'static Value {
+pub(crate) fn schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
     SCHEMA.get_or_init(|| Scene::schema().to_value())
 }
 
 /// A schema with its reference followed.
-pub(in crate::scene) fn meant(own: &Value) -> &Value {
+pub(crate) fn meant(own: &Value) -> &Value {
     let name = own["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/"));
     name.map_or(own, |name| &schema()["$defs"][name])
 }
 
 /// Numbers of a section that lie outside of their limits.
-pub(in crate::scene) fn findings(section: &str, values: &impl Serialize) -> Vec<Finding> {
+pub(crate) fn findings(section: &str, values: &impl Serialize) -> Vec<Finding> {
     let mut findings = Vec::new();
     // plain data becomes JSON; numbers that are not finite become null
     let values = serde_json::to_value(values).unwrap_or_default();
@@ -53,7 +53,7 @@ fn within(number: f64, schema: &Value) -> bool {
 }
 
 /// What a schema allows a number to be, in words: "above 0 and at most 1".
-pub(in crate::scene) fn allowed(schema: &Value) -> Option<String> {
+pub(crate) fn allowed(schema: &Value) -> Option<String> {
     let limit = |name: &str| schema[name].as_f64();
     let low = match (limit("exclusiveMinimum"), limit("minimum"), limit("maximum")) {
         (Some(low), ..) => format!("above {low}"),

@@ -1,17 +1,17 @@
 //! Checks that types cannot express: limits, references, geometry. Every finding names key, value, limit and remedy.
 
-pub(in crate::scene) mod blast_estimate;
-pub(in crate::scene) mod body;
-pub(in crate::scene) mod boundary;
-pub(in crate::scene) mod budget;
-pub(in crate::scene) mod charge;
-pub(in crate::scene) mod disk;
-pub(in crate::scene) mod estimate;
-pub(in crate::scene) mod gauge;
-pub(in crate::scene) mod limits;
-pub(in crate::scene) mod range;
-pub(in crate::scene) mod render;
-pub(in crate::scene) mod shape;
+pub(crate) mod blast_estimate;
+pub(crate) mod body;
+pub(crate) mod boundary;
+pub(crate) mod budget;
+pub(crate) mod charge;
+pub(crate) mod disk;
+pub(crate) mod estimate;
+pub(crate) mod gauge;
+pub(crate) mod limits;
+pub(crate) mod range;
+pub(crate) mod render;
+pub(crate) mod shape;
 
 use std::fmt::Display;
 
@@ -26,7 +26,7 @@ const MOST_SLOTS: u64 = i32::MAX as u64;
 const CUBE_TOLERANCE: f64 = 1e-6;
 
 /// Everything that is wrong with a scene.
-pub(in crate::scene) fn findings(scene: &Scene) -> Vec<Finding> {
+pub(crate) fn findings(scene: &Scene) -> Vec<Finding> {
     let mut check = Check { scene, sound_domain: false, findings: Vec::new() };
     check.domain();
     check.sound_domain = check.findings.is_empty();
@@ -75,56 +75,41 @@ pub(in crate::scene) fn findings(scene: &Scene) -> Vec<Finding> {
 }
 
 /// The scene and what has been found so far.
-pub(in crate::scene) struct Check<'s> {
-    pub(in crate::scene) scene: &'s Scene,
+pub(crate) struct Check<'s> {
+    pub(crate) scene: &'s Scene,
     /// Whether cells may be counted.
     sound_domain: bool,
-    pub(in crate::scene) findings: Vec<Finding>,
+    pub(crate) findings: Vec<Finding>,
 }
 
 impl Check<'_> {
-    pub(in crate::scene) fn add(
-        &mut self,
-        path: impl Into<String>,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) {
+    pub(crate) fn add(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
         self.findings.push(Finding::new(path, message, help));
     }
 
     /// The same of a value that is wrong whatever stands beside it.
-    pub(in crate::scene) fn wrong_value(
-        &mut self,
-        path: impl Into<String>,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) {
+    pub(crate) fn wrong_value(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
         self.findings.push(Finding::of_value(path, message, help));
     }
 
-    pub(in crate::scene) fn out_of_range(
-        &mut self,
-        path: impl Into<String>,
-        value: impl Display,
-        help: impl Into<String>,
-    ) {
+    pub(crate) fn out_of_range(&mut self, path: impl Into<String>, value: impl Display, help: impl Into<String>) {
         self.findings.push(Finding::out_of_range(path, value, help));
     }
 
-    pub(in crate::scene) fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
+    pub(crate) fn positive(&mut self, path: impl Into<String>, value: f64, unit: &str) {
         if !(value > 0.0 && value.is_finite()) {
             self.wrong_value(path, format!("{value} is not positive"), format!("give a finite number above 0 {unit}"));
         }
     }
 
-    pub(in crate::scene) fn count(&mut self, path: impl Into<String>, value: u32, least: u32, most: u32) {
+    pub(crate) fn count(&mut self, path: impl Into<String>, value: u32, least: u32, most: u32) {
         if !(least..=most).contains(&value) {
             self.out_of_range(path, value, format!("give a whole number from {least} to {most}"));
         }
     }
 
     /// A vector that must be finite and vanish along inactive axes.
-    pub(in crate::scene) fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
+    pub(crate) fn planar(&mut self, path: impl Into<String>, vector: [f64; 3]) {
         let axes = self.scene.domain.axes();
         if vector.iter().any(|x| !x.is_finite()) {
             self.add(path, format!("{vector:?} is not finite"), "give finite numbers");
@@ -134,7 +119,7 @@ impl Check<'_> {
         }
     }
 
-    pub(in crate::scene) fn state(&mut self, path: &str, state: &GasState) {
+    pub(crate) fn state(&mut self, path: &str, state: &GasState) {
         self.positive(format!("{path}.density"), state.density, "[kg m^-3]");
         self.positive(format!("{path}.pressure"), state.pressure, "[Pa]");
         self.planar(format!("{path}.velocity"), state.velocity);

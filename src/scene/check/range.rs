@@ -18,7 +18,7 @@ const GAMMA: [f64; 2] = [1.0001, 1000.0];
 
 impl Check<'_> {
     /// Every number of the scene that kernels see. Where something else is wrong with one, its range says nothing.
-    pub(in crate::scene) fn ranges(&mut self) {
+    pub(crate) fn ranges(&mut self) {
         let before = std::mem::take(&mut self.findings);
         self.all_ranges();
         if self.findings.is_empty() {

@@ -14,7 +14,7 @@ const MAX_CONTOURS: u32 = 32;
 const POLE: f64 = 89.9;
 
 impl Check<'_> {
-    pub(in crate::scene) fn render(&mut self) {
+    pub(crate) fn render(&mut self) {
         if let Some(kelvin) = self.scene.output.ambient_kelvin {
             self.positive("output.ambient_kelvin".to_owned(), kelvin, "[K]");
         }

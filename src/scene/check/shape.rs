@@ -11,7 +11,7 @@ const MOST_LOOKS: f64 = 2e7;
 const MAX_COPIES: u32 = 10_000;
 
 /// Sizes that are not positive, directions without length, empty lists.
-pub(in crate::scene) fn sizes(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
+pub(crate) fn sizes(path: &str, shape: &Shape, findings: &mut Vec<Finding>) {
     let mut add = |finding: Finding| findings.push(finding.below(path));
     let mut positive = |key: &str, value: f64| {
         // infinite: an entry that was left out; the text holds no infinite numbers
@@ -144,7 +144,7 @@ fn direction(path: &str, key: &str, vector: [f64; 3], findings: &mut Vec<Finding
 }
 
 /// What misses the domain among shapes without fault, where others have one.
-pub(in crate::scene) fn strays(scene: &Scene, findings: &mut Vec<Finding>) {
+pub(crate) fn strays(scene: &Scene, findings: &mut Vec<Finding>) {
     let mut own = Vec::new();
     let told = Told::new(findings);
     if !told.below("shapes.") {
@@ -158,7 +158,7 @@ pub(in crate::scene) fn strays(scene: &Scene, findings: &mut Vec<Finding>) {
 }
 
 /// Bodies, obstacles and regions that miss the domain, and bodies that reach out of it.
-pub(in crate::scene) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
+pub(crate) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
     for (index, region) in scene.gas.regions.iter().enumerate() {
         misses(scene, &format!("gas.regions[{index}].shape"), &region.shape, findings);
     }
@@ -191,7 +191,7 @@ pub(in crate::scene) fn places(scene: &Scene, findings: &mut Vec<Finding>) {
 }
 
 /// The domain in words.
-pub(in crate::scene) fn extent(domain: &Domain) -> String {
+pub(crate) fn extent(domain: &Domain) -> String {
     let range = |d: usize| format!("{} to {}", domain.origin[d], domain.origin[d] + domain.size[d]);
     let ranges = (0..domain.axes()).map(|d| format!("{} from {}", ["x", "y", "z"][d], range(d)));
     format!("the domain has {}", ranges.collect::<Vec<_>>().join(", "))

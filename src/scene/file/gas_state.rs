@@ -31,7 +31,7 @@ fn standard_atmosphere(altitude: f64) -> [f64; 2] {
 
 /// Where a state stands.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::scene) enum Place {
+pub(crate) enum Place {
     Ambient,
     Region(usize),
     /// Numbered as in [`Boundaries::sides`].
@@ -39,10 +39,10 @@ pub(in crate::scene) enum Place {
 }
 
 /// What `temperature` and `air` say of a state: density and pressure.
-pub(in crate::scene) type Settled = (Place, [f64; 2]);
+pub(crate) type Settled = (Place, [f64; 2]);
 
 /// Takes `temperature` and `air` out of all states of a document and tells what they mean.
-pub(in crate::scene) fn take(root: &mut DeTable<'_>, findings: &mut Vec<Finding>) -> Vec<Settled> {
+pub(crate) fn take(root: &mut DeTable<'_>, findings: &mut Vec<Finding>) -> Vec<Settled> {
     let mut all = Vec::new();
     let mut take = |place: Place, path: &str, state: &mut Spanned<DeValue<'_>>| {
         if let DeValue::Table(state) = state.get_mut() {
@@ -72,7 +72,7 @@ pub(in crate::scene) fn take(root: &mut DeTable<'_>, findings: &mut Vec<Finding>
 
 impl Scene {
     /// Takes over what [`take`] has found.
-    pub(in crate::scene) fn settle(&mut self, settled: &[Settled]) {
+    pub(crate) fn settle(&mut self, settled: &[Settled]) {
         for &(place, [density, pressure]) in settled {
             let state = match place {
                 Place::Ambient => Some(&mut self.gas.ambient),
@@ -162,7 +162,7 @@ fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
 }
 
 /// Adds the keys to the schema that editors use: any two of density, pressure and temperature, or `air`.
-pub(in crate::scene) fn add_keys(schema: &mut Value) {
+pub(crate) fn add_keys(schema: &mut Value) {
     for name in ["GasState", "Region"] {
         let state = &mut schema["$defs"][name];
         state["properties"]["temperature"] = json!({ "type": "number", "format": "double", "description": "Temperature of air `[K]`, in place of density or pressure." });

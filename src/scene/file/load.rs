@@ -37,7 +37,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Scene`] with every mistake, or that there is too much of it.
-    pub(in crate::scene) fn written(text: &str, file_name: &str, changes: &Changes) -> Result<Scene> {
+    pub(crate) fn written(text: &str, file_name: &str, changes: &Changes) -> Result<Scene> {
         let mut source = Source::new(text, file_name, &changes.set);
         read(&mut source, changes, budget::MOST_VALUES).map_err(|findings| Error::Scene(source.report(&findings)))
     }
@@ -117,7 +117,7 @@ impl Scene {
     }
 
     /// Puts in the defaults that depend on other keys.
-    pub(in crate::scene) fn resolve(&mut self) {
+    pub(crate) fn resolve(&mut self) {
         for body in &self.bodies {
             let preset = PRESETS.iter().position(|preset| preset.name == body.material);
             if let Some(Ok(material)) = preset.map(|index| Material::of_preset(index, Units::Si, &[])) {
@@ -151,7 +151,7 @@ fn least_multiple(a: u32, b: u32) -> u32 {
 }
 
 /// The scene of a text with changes, whose keys the source has, or all that is wrong with it.
-pub(in crate::scene) fn read(
+pub(crate) fn read(
     source: &mut Source,
     changes: &Changes,
     most_values: u64,

@@ -15,7 +15,7 @@ const DEEPEST: u32 = 16;
 
 /// What stands in a scene that had to be mended before it could be read.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct Mended {
+pub(crate) struct Mended {
     /// Paths whose values stand for something that is missing or cannot be read: findings about them mean nothing.
     stand_ins: Vec<String>,
     /// Whether something stays that cannot be read.
@@ -25,7 +25,7 @@ pub(in crate::scene) struct Mended {
 impl Mended {
     /// Whether a finding is about what the user wrote. Where a shape is not known, nor is what it leaves to others, or to those that use
     /// it; where the domain or all of the gas is not, only what is said of one value holds.
-    pub(in crate::scene) fn concerns(&self, finding: &Finding) -> bool {
+    pub(crate) fn concerns(&self, finding: &Finding) -> bool {
         let of_shapes = finding.path.ends_with(".shape") || finding.path.ends_with(".clamped");
         // an entry of a list of numbers is told by the name of the list
         let entry = |rest: &str| rest.starts_with('[') && rest.ends_with(']') && rest.rfind('[') == Some(0);
@@ -39,17 +39,17 @@ impl Mended {
     }
 
     /// How many values stand for others.
-    pub(in crate::scene) fn stand_ins_count(&self) -> usize {
+    pub(crate) fn stand_ins_count(&self) -> usize {
         self.stand_ins.len()
     }
 
     /// What is at a path is not known: findings about it mean nothing.
-    pub(in crate::scene) fn unknown(&mut self, path: &str) {
+    pub(crate) fn unknown(&mut self, path: &str) {
         self.stand_ins.push(path.to_owned());
     }
 
     /// Puts something readable in the place of a value.
-    pub(in crate::scene) fn stand_in(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &Value) {
+    pub(crate) fn stand_in(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &Value) {
         match readable(schema, &value.span(), 0) {
             Some(readable) => {
                 *value = readable;
@@ -61,7 +61,7 @@ impl Mended {
 
     /// Puts something readable in the place of what no reader takes: the value of the path, or what it lies in where it has been
     /// replaced before. Whether there is such a value.
-    pub(in crate::scene) fn replace(&mut self, root: &mut DeTable<'_>, path: &str) -> bool {
+    pub(crate) fn replace(&mut self, root: &mut DeTable<'_>, path: &str) -> bool {
         let mut path = path;
         while self.stand_ins.iter().any(|own| own == path) {
             path = path.rfind(['.', '[']).map_or("", |end| &path[..end]);
@@ -157,18 +157,18 @@ fn readable(schema: &Value, place: &Range<usize>, depth: u32) -> Option<Spanned<
 }
 
 /// A number, from the text of a document with the key `v`.
-pub(in crate::scene) fn number(text: &'static str) -> Option<DeValue<'static>> {
+pub(crate) fn number(text: &'static str) -> Option<DeValue<'static>> {
     DeTable::parse(text).ok()?.into_inner().remove("v").map(Spanned::into_inner)
 }
 
 /// The words that one choice stands for.
-pub(in crate::scene) fn words_of(choice: &Value) -> Vec<&str> {
+pub(crate) fn words_of(choice: &Value) -> Vec<&str> {
     let own = choice["const"].as_str().into_iter();
     own.chain(choice["enum"].as_array().into_iter().flatten().filter_map(Value::as_str)).collect()
 }
 
 /// What the schema asks for, if the value is of another type.
-pub(in crate::scene) fn wrong_type(schema: &Value, value: &DeValue<'_>) -> Option<String> {
+pub(crate) fn wrong_type(schema: &Value, value: &DeValue<'_>) -> Option<String> {
     let kinds: Vec<&str> = match &schema["type"] {
         Value::String(kind) => vec![kind],
         Value::Array(kinds) => kinds.iter().filter_map(Value::as_str).collect(),
@@ -192,6 +192,6 @@ pub(in crate::scene) fn wrong_type(schema: &Value, value: &DeValue<'_>) -> Optio
 }
 
 /// A type of value as TOML names it.
-pub(in crate::scene) fn kind_name(kind: &str) -> &str {
+pub(crate) fn kind_name(kind: &str) -> &str {
     if kind == "object" { "table" } else { kind }
 }

@@ -12,7 +12,7 @@ const VECTORS: [&str; 16] = [
 ];
 
 /// Numbers that are not finite and vectors of the wrong length, in the text itself.
-pub(in crate::scene) fn findings(root: &DeTable<'_>, findings: &mut Vec<Finding>) {
+pub(crate) fn findings(root: &DeTable<'_>, findings: &mut Vec<Finding>) {
     let domain = root.get("domain").and_then(|domain| domain.get_ref().get("dimension"));
     let dimension =
         domain.and_then(|value| value.get_ref().as_integer()).and_then(|value| value.as_str().parse::<usize>().ok());

@@ -17,7 +17,7 @@ const DEEPEST: usize = 64;
 const LONGEST_LINE: usize = 400;
 
 /// A scene file and its overrides, laid out in one buffer so that a position names the line of either.
-pub(in crate::scene) struct Source {
+pub(crate) struct Source {
     /// Name of the scene file.
     name: String,
     /// The file, a newline, and one line per override.
@@ -32,7 +32,7 @@ pub(in crate::scene) struct Source {
 
 impl Source {
     /// Lays out a scene file and its overrides.
-    pub(in crate::scene) fn new(text: &str, name: &str, overrides: &[String]) -> Self {
+    pub(crate) fn new(text: &str, name: &str, overrides: &[String]) -> Self {
         let mut buffer = text.to_owned();
         let mut parts = std::iter::once(0..text.len()).collect::<Vec<_>>();
         for line in overrides {
@@ -45,22 +45,22 @@ impl Source {
     }
 
     /// The text of the scene file alone.
-    pub(in crate::scene) fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         &self.buffer[self.parts[0].clone()]
     }
 
     /// Name of the scene file.
-    pub(in crate::scene) fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
     /// Number of overrides.
-    pub(in crate::scene) fn override_count(&self) -> usize {
+    pub(crate) fn override_count(&self) -> usize {
         self.parts.len() - 1
     }
 
     /// Splits an override at its first `=`: key, TOML document `v = value` whose positions are those of the buffer.
-    pub(in crate::scene) fn override_document(&self, index: usize) -> Result<(String, Vec<String>), Finding> {
+    pub(crate) fn override_document(&self, index: usize) -> Result<(String, Vec<String>), Finding> {
         let range = self.parts[index + 1].clone();
         let line = &self.buffer[range.clone()];
         let Some((key, value)) = line.split_once('=') else {
@@ -86,12 +86,12 @@ impl Source {
     }
 
     /// Place of an override line.
-    pub(in crate::scene) fn override_place(&self, index: usize) -> Range<usize> {
+    pub(crate) fn override_place(&self, index: usize) -> Range<usize> {
         self.parts[index + 1].clone()
     }
 
     /// Remembers where every key of the document stands.
-    pub(in crate::scene) fn index(&mut self, root: &DeTable<'_>) {
+    pub(crate) fn index(&mut self, root: &DeTable<'_>) {
         walk(root, &mut |entry| {
             self.places.push((entry.path.to_owned(), entry.place()));
             self.keys.extend(entry.key.map(|key| (entry.path.to_owned(), key)));
@@ -99,12 +99,12 @@ impl Source {
     }
 
     /// How many keys and entries of lists there are.
-    pub(in crate::scene) fn value_count(&self) -> usize {
+    pub(crate) fn value_count(&self) -> usize {
         self.places.len()
     }
 
     /// The innermost key whose place holds the given one.
-    pub(in crate::scene) fn path_at(&self, span: &Range<usize>) -> String {
+    pub(crate) fn path_at(&self, span: &Range<usize>) -> String {
         let holds = |place: &Range<usize>| place.start <= span.start && span.end <= place.end;
         let inner =
             self.places.iter().chain(&self.keys).filter(|(_, place)| holds(place)).min_by_key(|(_, place)| place.len());
@@ -126,7 +126,7 @@ impl Source {
     }
 
     /// All findings as text, with the lines they belong to.
-    pub(in crate::scene) fn report(&self, findings: &[Finding]) -> String {
+    pub(crate) fn report(&self, findings: &[Finding]) -> String {
         let mut files = SimpleFiles::new();
         for (index, part) in self.parts.iter().enumerate() {
             let name = if index == 0 { self.name.clone() } else { "--set".to_owned() };
@@ -169,7 +169,7 @@ impl Source {
 }
 
 /// A key as people write it, `bodies[0].density`, as [`set`] takes it: `bodies.0.density`.
-pub(in crate::scene) fn key_path(key: &str) -> String {
+pub(crate) fn key_path(key: &str) -> String {
     key.trim().replace('[', ".").replace(']', "")
 }
 
@@ -189,7 +189,7 @@ fn count(findings: usize) -> String {
 }
 
 /// A key of a document.
-pub(in crate::scene) struct Entry<'e, 'a> {
+pub(crate) struct Entry<'e, 'a> {
     /// Key path.
     pub path: &'e str,
     /// Place of the key; entries of lists have none.
@@ -200,14 +200,14 @@ pub(in crate::scene) struct Entry<'e, 'a> {
 
 impl Entry<'_, '_> {
     /// Where to point at: the value, or the key of a table that has no text of its own.
-    pub(in crate::scene) fn place(&self) -> Range<usize> {
+    pub(crate) fn place(&self) -> Range<usize> {
         let place = self.value.span();
         self.key.clone().filter(|_| place.is_empty()).unwrap_or(place)
     }
 }
 
 /// Calls `visit` with every key.
-pub(in crate::scene) fn walk<'a>(root: &DeTable<'a>, visit: &mut impl FnMut(Entry<'_, 'a>)) {
+pub(crate) fn walk<'a>(root: &DeTable<'a>, visit: &mut impl FnMut(Entry<'_, 'a>)) {
     for (key, value) in root {
         walk_value(Entry { path: key.get_ref(), key: Some(key.span()), value }, visit);
     }
@@ -233,7 +233,7 @@ fn walk_value<'a>(entry: Entry<'_, 'a>, visit: &mut impl FnMut(Entry<'_, 'a>)) {
 }
 
 /// Puts a value at a key path (`bodies.0.density`), creating tables on the way.
-pub(in crate::scene) fn set<'a>(root: &mut DeTable<'a>, path: &str, value: Spanned<DeValue<'a>>) -> Result<(), String> {
+pub(crate) fn set<'a>(root: &mut DeTable<'a>, path: &str, value: Spanned<DeValue<'a>>) -> Result<(), String> {
     let place = value.span();
     let (first, mut rest) = split(path);
     let mut node = slot(root, first, &place);

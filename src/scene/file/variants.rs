@@ -69,7 +69,7 @@ impl<const N: usize> From<&[String; N]> for Changes {
 }
 
 /// Makes the changes of the variants of these names, one after the other; what could not be made.
-pub(in crate::scene) fn apply_all(root: &mut DeTable<'_>, names: &[String], text: &str) -> Vec<Finding> {
+pub(crate) fn apply_all(root: &mut DeTable<'_>, names: &[String], text: &str) -> Vec<Finding> {
     let help = "name one of the scene's variants, with keys and entries that exist";
     let wrong = |name: &String| Some(Finding::new("variants", apply(root, name, text).err()?, help));
     names.iter().filter_map(wrong).collect()

@@ -15,7 +15,7 @@ use crate::spelling::{closest, did_you_mean};
 
 /// Reports words that the schema does not know, values of another type and keys that are missing. Unknown keys are taken out, or take the
 /// place of the missing key that was meant; likely words or anything readable stand for the others, so that the rest can be read.
-pub(in crate::scene) fn findings(root: &mut Spanned<DeTable<'_>>) -> (Vec<Finding>, Mended) {
+pub(crate) fn findings(root: &mut Spanned<DeTable<'_>>) -> (Vec<Finding>, Mended) {
     let mut words = Words { findings: Vec::new(), mended: Mended::default() };
     let place = root.span();
     words.table("", root.get_mut(), limits::schema(), &place);

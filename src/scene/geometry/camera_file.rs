@@ -49,7 +49,7 @@ fn default_fps() -> f64 {
 
 impl Scene {
     /// Puts the key frames of camera files in their place: those of the scene's own path, and of its views.
-    pub(in crate::scene) fn resolve_cameras(&mut self, place: MeshFolder<'_>) -> Vec<Finding> {
+    pub(crate) fn resolve_cameras(&mut self, place: MeshFolder<'_>) -> Vec<Finding> {
         let mut findings = Vec::new();
         let own = self.render.path.clone();
         if let Some(path) = own.filter(|path| path.file.is_some()) {

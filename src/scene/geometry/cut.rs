@@ -48,7 +48,7 @@ impl Scene {
     }
 
     /// Whether an obstacle fills the cell around a point, or a part of it.
-    pub(in crate::scene) fn holds_obstacle(&self, point: [f64; 3]) -> bool {
+    pub(crate) fn holds_obstacle(&self, point: [f64; 3]) -> bool {
         let domain = &self.domain;
         let place = |d: usize| ((point[d] - domain.origin[d]) / domain.spacing()).max(0.0) as u32;
         let cell = std::array::from_fn(|d| place(d).min(domain.cells[d] - 1));

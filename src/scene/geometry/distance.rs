@@ -3,46 +3,46 @@
 type Vector = [f64; 3];
 type Bounds = (Vector, Vector);
 
-pub(in crate::scene) fn plus(a: Vector, b: Vector) -> Vector {
+pub(crate) fn plus(a: Vector, b: Vector) -> Vector {
     std::array::from_fn(|d| a[d] + b[d])
 }
 
-pub(in crate::scene) fn minus(a: Vector, b: Vector) -> Vector {
+pub(crate) fn minus(a: Vector, b: Vector) -> Vector {
     std::array::from_fn(|d| a[d] - b[d])
 }
 
-pub(in crate::scene) fn dot(a: Vector, b: Vector) -> f64 {
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(in crate::scene) fn length(a: Vector) -> f64 {
+pub(crate) fn length(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// The direction of a vector; checked scenes hold no zero vector.
-pub(in crate::scene) fn unit(a: Vector) -> Vector {
+pub(crate) fn unit(a: Vector) -> Vector {
     let norm = length(a);
     a.map(|x| x / norm)
 }
 
-pub(in crate::scene) fn cross(a: Vector, b: Vector) -> Vector {
+pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Height along an axis through the origin and distance from it.
-pub(in crate::scene) fn cylindrical(point: Vector, axis: Vector) -> (f64, f64) {
+pub(crate) fn cylindrical(point: Vector, axis: Vector) -> (f64, f64) {
     let axis = unit(axis);
     let along = dot(point, axis);
     (along, length(minus(point, axis.map(|x| x * along))))
 }
 
 /// Distance of the intersection of two perpendicular slabs from the distances to each.
-pub(in crate::scene) fn corner(a: f64, b: f64) -> f64 {
+pub(crate) fn corner(a: f64, b: f64) -> f64 {
     a.max(b).min(0.0) + a.max(0.0).hypot(b.max(0.0))
 }
 
 /// A box around the origin with edges rounded by `round`, which must not exceed half the smallest size.
-pub(in crate::scene) fn cuboid(point: Vector, size: Vector, round: f64) -> f64 {
+pub(crate) fn cuboid(point: Vector, size: Vector, round: f64) -> f64 {
     let outside: Vector = std::array::from_fn(|d| point[d].abs() - 0.5 * size[d] + round);
     let inner = outside.iter().fold(f64::NEG_INFINITY, |a, &b| a.max(b)).min(0.0);
     inner + length(outside.map(|x| x.max(0.0))) - round
@@ -51,7 +51,7 @@ pub(in crate::scene) fn cuboid(point: Vector, size: Vector, round: f64) -> f64 {
 /// Exact distance to an ellipsoid around the origin; infinite radii drop their axis.
 ///
 /// The nearest surface point is x_i = r_i^2 y_i / (t + r_i^2) with sum (x_i / r_i)^2 = 1. The sum falls with t; the largest root counts. [Eberly, Distance from a Point to an Ellipsoid, 2013]
-pub(in crate::scene) fn ellipsoid(point: Vector, radii: Vector) -> f64 {
+pub(crate) fn ellipsoid(point: Vector, radii: Vector) -> f64 {
     let axes = || (0..3).filter(|&d| radii[d].is_finite());
     let smallest = axes().map(|d| radii[d]).fold(f64::INFINITY, f64::min);
     // on a plane of symmetry the largest root can be double; a point this close to the plane has the same distance to rounding
@@ -80,7 +80,7 @@ pub(in crate::scene) fn ellipsoid(point: Vector, radii: Vector) -> f64 {
 }
 
 /// Distance to a line segment.
-pub(in crate::scene) fn segment(point: Vector, from: Vector, to: Vector) -> f64 {
+pub(crate) fn segment(point: Vector, from: Vector, to: Vector) -> f64 {
     let along = minus(to, from);
     let square = dot(along, along);
     let t = if square > 0.0 { (dot(minus(point, from), along) / square).clamp(0.0, 1.0) } else { 0.0 };
@@ -89,7 +89,7 @@ pub(in crate::scene) fn segment(point: Vector, from: Vector, to: Vector) -> f64 
 
 /// Pieces from point to point whose radius changes evenly between them. The slope of a piece is bounded by scaling, so that the
 /// distance is never steeper than 1.
-pub(in crate::scene) fn chain(point: Vector, points: &[Vector], radii: &[f64]) -> f64 {
+pub(crate) fn chain(point: Vector, points: &[Vector], radii: &[f64]) -> f64 {
     let radius = |k: usize| radii.get(k).or(radii.last()).copied().unwrap_or(0.0);
     let piece = |k: usize| {
         let (from, along) = (points[k], minus(points[k + 1], points[k]));
@@ -111,21 +111,21 @@ pub(in crate::scene) fn chain(point: Vector, points: &[Vector], radii: &[f64]) -
 }
 
 /// Bounds of a chain.
-pub(in crate::scene) fn chain_bounds(points: &[Vector], radii: &[f64]) -> Bounds {
+pub(crate) fn chain_bounds(points: &[Vector], radii: &[f64]) -> Bounds {
     let radius = |k: usize| radii.get(k).or(radii.last()).copied().unwrap_or(0.0);
     let balls = points.iter().enumerate().map(|(k, point)| around(*point, [radius(k); 3]));
     balls.fold(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]), join)
 }
 
 /// The mirror image of a point.
-pub(in crate::scene) fn mirrored(point: Vector, origin: Vector, normal: Vector) -> Vector {
+pub(crate) fn mirrored(point: Vector, origin: Vector, normal: Vector) -> Vector {
     let normal = unit(normal);
     let height = dot(minus(point, origin), normal);
     minus(point, normal.map(|x| 2.0 * height * x))
 }
 
 /// Bounds of the mirror images of the eight corners; a box without end has none in its mirror image.
-pub(in crate::scene) fn mirrored_bounds(bounds: Bounds, origin: Vector, normal: Vector) -> Bounds {
+pub(crate) fn mirrored_bounds(bounds: Bounds, origin: Vector, normal: Vector) -> Bounds {
     let (low, high) = bounds;
     if low.iter().chain(&high).any(|x| !x.is_finite()) {
         return ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
@@ -136,7 +136,7 @@ pub(in crate::scene) fn mirrored_bounds(bounds: Bounds, origin: Vector, normal: 
 }
 
 /// Bounds of a polygon that is turned about an axis.
-pub(in crate::scene) fn revolved_bounds(center: Vector, axis: Vector, points: &[[f64; 2]]) -> Bounds {
+pub(crate) fn revolved_bounds(center: Vector, axis: Vector, points: &[[f64; 2]]) -> Bounds {
     let direction = unit(axis);
     let place = |height: f64| plus(center, direction.map(|x| x * height));
     let discs = points.iter().map(|[radius, height]| around_disc(place(*height), axis, radius.abs(), 0.0));
@@ -144,7 +144,7 @@ pub(in crate::scene) fn revolved_bounds(center: Vector, axis: Vector, points: &[
 }
 
 /// A frustum: `point` holds distance from the axis and height above the base.
-pub(in crate::scene) fn frustum(point: [f64; 2], base: f64, top: f64, height: f64) -> f64 {
+pub(crate) fn frustum(point: [f64; 2], base: f64, top: f64, height: f64) -> f64 {
     let [across, along] = point;
     let rim = |z: f64, radius: f64| (across - across.min(radius)).hypot(along - z);
     let slope = [top - base, height];
@@ -157,7 +157,7 @@ pub(in crate::scene) fn frustum(point: [f64; 2], base: f64, top: f64, height: f6
 }
 
 /// A polygon in the plane; the sign follows from the number of edges crossed by a ray.
-pub(in crate::scene) fn polygon(point: [f64; 2], corners: &[[f64; 2]]) -> f64 {
+pub(crate) fn polygon(point: [f64; 2], corners: &[[f64; 2]]) -> f64 {
     let mut nearest = f64::INFINITY;
     let mut inside = false;
     for (index, &from) in corners.iter().enumerate() {
@@ -173,13 +173,13 @@ pub(in crate::scene) fn polygon(point: [f64; 2], corners: &[[f64; 2]]) -> f64 {
 }
 
 /// Minimum with a parabola where the two are within `radius`; lower than the minimum by at most radius / 4.
-pub(in crate::scene) fn smooth_minimum(a: f64, b: f64, radius: f64) -> f64 {
+pub(crate) fn smooth_minimum(a: f64, b: f64, radius: f64) -> f64 {
     let overlap = (radius - (a - b).abs()).max(0.0) / radius;
     a.min(b) - 0.25 * overlap * overlap * radius
 }
 
 /// Turns a point about an axis by the right-hand rule. (Rodrigues)
-pub(in crate::scene) fn turn(point: Vector, about: Vector, axis: Vector, degrees: f64) -> Vector {
+pub(crate) fn turn(point: Vector, about: Vector, axis: Vector, degrees: f64) -> Vector {
     let axis = unit(axis);
     let arm = minus(point, about);
     let (sin, cos) = degrees.to_radians().sin_cos();
@@ -189,12 +189,12 @@ pub(in crate::scene) fn turn(point: Vector, about: Vector, axis: Vector, degrees
 }
 
 /// Bounds around a point.
-pub(in crate::scene) fn around(center: Vector, half: Vector) -> Bounds {
+pub(crate) fn around(center: Vector, half: Vector) -> Bounds {
     (minus(center, half), plus(center, half))
 }
 
 /// Bounds of a disc with a thickness of `half` to both sides.
-pub(in crate::scene) fn around_disc(center: Vector, axis: Vector, radius: f64, half: f64) -> Bounds {
+pub(crate) fn around_disc(center: Vector, axis: Vector, radius: f64, half: f64) -> Bounds {
     let axis = unit(axis);
     // 0 times an endless height is no height
     let along = |d: usize| if axis[d] == 0.0 { 0.0 } else { axis[d].abs() * half };
@@ -202,7 +202,7 @@ pub(in crate::scene) fn around_disc(center: Vector, axis: Vector, radius: f64, h
 }
 
 /// Bounds of a half space: one side is closed if the normal lies along an axis.
-pub(in crate::scene) fn half_space_bounds(point: Vector, normal: Vector) -> Bounds {
+pub(crate) fn half_space_bounds(point: Vector, normal: Vector) -> Bounds {
     let lies = |d: usize| (0..3).all(|other| other == d || normal[other] == 0.0);
     let low = std::array::from_fn(|d| if lies(d) && normal[d] < 0.0 { point[d] } else { f64::NEG_INFINITY });
     let high = std::array::from_fn(|d| if lies(d) && normal[d] > 0.0 { point[d] } else { f64::INFINITY });
@@ -210,7 +210,7 @@ pub(in crate::scene) fn half_space_bounds(point: Vector, normal: Vector) -> Boun
 }
 
 /// Bounds of an extruded polygon.
-pub(in crate::scene) fn polygon_bounds(corners: &[[f64; 2]], base: f64, height: Option<f64>) -> Bounds {
+pub(crate) fn polygon_bounds(corners: &[[f64; 2]], base: f64, height: Option<f64>) -> Bounds {
     let least = |d: usize| corners.iter().map(|corner| corner[d]).fold(f64::INFINITY, f64::min);
     let most = |d: usize| corners.iter().map(|corner| corner[d]).fold(f64::NEG_INFINITY, f64::max);
     let (bottom, top) = height.map_or((f64::NEG_INFINITY, f64::INFINITY), |height| (base, base + height));
@@ -218,7 +218,7 @@ pub(in crate::scene) fn polygon_bounds(corners: &[[f64; 2]], base: f64, height: 
 }
 
 /// Bounds of the eight turned corners; endless boxes keep only the extents that turning cannot mix.
-pub(in crate::scene) fn turned_bounds(bounds: Bounds, about: Vector, axis: Vector, degrees: f64) -> Bounds {
+pub(crate) fn turned_bounds(bounds: Bounds, about: Vector, axis: Vector, degrees: f64) -> Bounds {
     let (low, high) = bounds;
     // column d of the rotation
     let columns: [Vector; 3] = std::array::from_fn(|d| {
@@ -236,11 +236,11 @@ pub(in crate::scene) fn turned_bounds(bounds: Bounds, about: Vector, axis: Vecto
 }
 
 /// Bounds of both.
-pub(in crate::scene) fn join(a: Bounds, b: Bounds) -> Bounds {
+pub(crate) fn join(a: Bounds, b: Bounds) -> Bounds {
     (std::array::from_fn(|d| a.0[d].min(b.0[d])), std::array::from_fn(|d| a.1[d].max(b.1[d])))
 }
 
 /// Bounds of what both hold.
-pub(in crate::scene) fn overlap(a: Bounds, b: Bounds) -> Bounds {
+pub(crate) fn overlap(a: Bounds, b: Bounds) -> Bounds {
     (std::array::from_fn(|d| a.0[d].max(b.0[d])), std::array::from_fn(|d| a.1[d].min(b.1[d])))
 }

@@ -90,7 +90,7 @@ impl Shape {
     }
 
     /// The shapes that this one is made of, each with its key below this shape's.
-    pub(in crate::scene) fn parts(&self) -> Vec<(String, &Shape)> {
+    pub(crate) fn parts(&self) -> Vec<(String, &Shape)> {
         let (key, shapes) = match self {
             Shape::Translate { shape, .. } => ("translate.shape", std::slice::from_ref(&**shape)),
             Shape::Rotate { shape, .. } => ("rotate.shape", std::slice::from_ref(&**shape)),

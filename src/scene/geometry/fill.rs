@@ -93,11 +93,11 @@ impl Scene {
     }
 
     /// From the centre to the corners of a cell \[m\].
-    pub(in crate::scene) fn cell_radius(&self) -> f64 {
+    pub(crate) fn cell_radius(&self) -> f64 {
         0.5 * self.domain.spacing() * f64::from(self.domain.dimension).sqrt()
     }
 
-    pub(in crate::scene) fn inside_obstacle(&self, point: [f64; 3]) -> bool {
+    pub(crate) fn inside_obstacle(&self, point: [f64; 3]) -> bool {
         self.obstacle_distance(point) < 0.0
     }
 
@@ -109,7 +109,7 @@ impl Scene {
     }
 
     /// State of the regions at a point, without what is added to it; the ambient one at the height of another.
-    pub(in crate::scene) fn still_gas(&self, point: [f64; 3], height: [f64; 3]) -> GasState {
+    pub(crate) fn still_gas(&self, point: [f64; 3], height: [f64; 3]) -> GasState {
         let last = self.gas.regions.iter().rev().find(|region| region.shape.distance(point) < 0.0);
         last.map_or_else(|| self.ambient_at(height), |region| region.state)
     }
@@ -132,7 +132,7 @@ impl Scene {
 }
 
 /// `count` regular points per axis of the unit cell around 0; 0 along inactive axes. x fastest.
-pub(in crate::scene) fn lattice(axes: usize, count: u32) -> Vec<[f64; 3]> {
+pub(crate) fn lattice(axes: usize, count: u32) -> Vec<[f64; 3]> {
     let total = count.pow(axes as u32);
     let offset = |index: u32, d: usize| {
         if d < axes { (f64::from(index / count.pow(d as u32) % count) + 0.5) / f64::from(count) - 0.5 } else { 0.0 }

@@ -23,7 +23,7 @@ use crate::input;
 use crate::scene::finding::Finding;
 use crate::scene::geometry::named::{one, placed_bounds, unplaced};
 use crate::scene::{shape, vector};
-pub(in crate::scene) use camera::{FileCamera, Sight, camera};
+pub(crate) use camera::{FileCamera, Sight, camera};
 use tree::Tree;
 
 /// Bytes that a mesh file may have.
@@ -77,12 +77,12 @@ pub enum Up {
 
 impl Up {
     /// The direction that is up in a scene of so many axes.
-    pub(in crate::scene) fn of_scene(dimension: u32) -> Self {
+    pub(crate) fn of_scene(dimension: u32) -> Self {
         if dimension == 3 { Up::Z } else { Up::Y }
     }
 
     /// A quarter turn about x, where two directions differ.
-    pub(in crate::scene) fn turned(self, to: Up, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn turned(self, to: Up, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match (self, to) {
             (Up::Y, Up::Z) => [x, -z, y],
             (Up::Z, Up::Y) => [x, z, -y],
@@ -129,20 +129,20 @@ type Key = (String, Option<String>, Option<bool>, bool);
 
 /// Surfaces that were read, by what they were read from: many bodies may share one.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct Surfaces {
+pub(crate) struct Surfaces {
     ready: BTreeMap<Key, Arc<Tree>>,
     triangles: usize,
 }
 
 /// Where mesh files may lie.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::scene) struct MeshFolder<'a> {
+pub(crate) struct MeshFolder<'a> {
     /// The folder of the scene.
-    pub(in crate::scene) folder: &'a Path,
+    pub(crate) folder: &'a Path,
     /// Files outside of it may be read, too.
-    pub(in crate::scene) outside: bool,
+    pub(crate) outside: bool,
     /// Axes of the scene.
-    pub(in crate::scene) dimension: u32,
+    pub(crate) dimension: u32,
 }
 
 impl MeshFolder<'_> {
@@ -171,7 +171,7 @@ impl MeshFolder<'_> {
     }
 
     /// The bytes of a file.
-    pub(in crate::scene) fn bytes(&self, within: &Path, path: &str, most: u64) -> Result<Vec<u8>, (String, String)> {
+    pub(crate) fn bytes(&self, within: &Path, path: &str, most: u64) -> Result<Vec<u8>, (String, String)> {
         let file = self.file(within, path)?;
         let name = file.display();
         let unreadable = |error: std::io::Error| {
@@ -183,12 +183,7 @@ impl MeshFolder<'_> {
 
 impl Mesh {
     /// Reads the surface, if none of `ready` is the same.
-    pub(in crate::scene) fn resolve(
-        &self,
-        path: &str,
-        place: MeshFolder<'_>,
-        surfaces: &mut Surfaces,
-    ) -> Option<Finding> {
+    pub(crate) fn resolve(&self, path: &str, place: MeshFolder<'_>, surfaces: &mut Surfaces) -> Option<Finding> {
         if self.tree.get().is_some() {
             return None;
         }
@@ -222,17 +217,17 @@ impl Mesh {
     }
 
     /// Triangles of the surface.
-    pub(in crate::scene) fn triangle_count(&self) -> usize {
+    pub(crate) fn triangle_count(&self) -> usize {
         self.tree.get().map_or(0, |tree| tree.triangles().len())
     }
 
-    pub(in crate::scene) fn distance(&self, point: [f64; 3]) -> f64 {
+    pub(crate) fn distance(&self, point: [f64; 3]) -> f64 {
         let Some(tree) = self.tree.get() else { return f64::INFINITY };
         let inner = unplaced(point, self.axis, self.degrees, self.offset);
         tree.distance(inner.map(|x| x / self.scale)) * self.scale
     }
 
-    pub(in crate::scene) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+    pub(crate) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         let Some(tree) = self.tree.get() else { return ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]) };
         placed_bounds(tree.bounds(), self.scale, self.axis, self.degrees, self.offset)
     }

@@ -14,7 +14,7 @@ use crate::scene::{Boundary, Scene, Shape, shape, vector};
 use crate::spelling::did_you_mean;
 
 /// Shapes in each other at most.
-pub(in crate::scene) const DEEPEST: u32 = 64;
+pub(crate) const DEEPEST: u32 = 64;
 
 /// Names that a message lists at most.
 const MOST_NAMES: usize = 40;
@@ -52,7 +52,7 @@ struct Counted {
     depth: u32,
 }
 
-pub(in crate::scene) fn one() -> f64 {
+pub(crate) fn one() -> f64 {
     1.0
 }
 
@@ -64,36 +64,36 @@ impl PartialEq for Named {
 }
 
 impl Named {
-    pub(in crate::scene) fn distance(&self, point: [f64; 3]) -> f64 {
+    pub(crate) fn distance(&self, point: [f64; 3]) -> f64 {
         let Some(Counted { shape, .. }) = self.shape.get() else { return f64::INFINITY };
         let inner = unplaced(point, self.axis, self.degrees, self.offset);
         shape.distance(inner.map(|x| x / self.scale)) * self.scale
     }
 
     /// See [`Shape::parts_count`].
-    pub(in crate::scene) fn parts_count(&self) -> u64 {
+    pub(crate) fn parts_count(&self) -> u64 {
         self.shape.get().map_or(0, |counted| counted.parts)
     }
 
     /// See [`Shape::depth`].
-    pub(in crate::scene) fn depth(&self) -> u32 {
+    pub(crate) fn depth(&self) -> u32 {
         self.shape.get().map_or(0, |counted| counted.depth)
     }
 
-    pub(in crate::scene) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+    pub(crate) fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         let Some(Counted { shape, .. }) = self.shape.get() else { return ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]) };
         placed_bounds(shape.bounds(), self.scale, self.axis, self.degrees, self.offset)
     }
 }
 
 /// A point as it was before a thing was turned and moved.
-pub(in crate::scene) fn unplaced(point: [f64; 3], axis: [f64; 3], degrees: f64, offset: [f64; 3]) -> [f64; 3] {
+pub(crate) fn unplaced(point: [f64; 3], axis: [f64; 3], degrees: f64, offset: [f64; 3]) -> [f64; 3] {
     let arm = distance::minus(point, offset);
     if degrees == 0.0 { arm } else { distance::turn(arm, [0.0; 3], axis, -degrees) }
 }
 
 /// Bounds of a thing that has been scaled, turned and moved.
-pub(in crate::scene) fn placed_bounds(
+pub(crate) fn placed_bounds(
     (low, high): ([f64; 3], [f64; 3]),
     scale: f64,
     axis: [f64; 3],
@@ -107,7 +107,7 @@ pub(in crate::scene) fn placed_bounds(
 
 impl Scene {
     /// Every shape that the scene places, with its key.
-    pub(in crate::scene) fn placed_shapes(&self) -> Vec<(String, &Shape)> {
+    pub(crate) fn placed_shapes(&self) -> Vec<(String, &Shape)> {
         let mut found = Vec::new();
         let regions = self.gas.regions.iter().enumerate();
         found.extend(regions.map(|(i, region)| (format!("gas.regions[{i}].shape"), &region.shape)));
@@ -126,7 +126,7 @@ impl Scene {
     }
 
     /// The shapes of the openings in the sides, with their keys.
-    pub(in crate::scene) fn patch_shapes(&self) -> Vec<(String, &Shape)> {
+    pub(crate) fn patch_shapes(&self) -> Vec<(String, &Shape)> {
         let names = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"];
         let sides = self.boundary.sides().into_iter().zip(names);
         let patches = sides.filter_map(|(side, name)| match side {
@@ -141,7 +141,7 @@ impl Scene {
     }
 
     /// Gives every `use` its shape and every `mesh` its surface.
-    pub(in crate::scene) fn resolve_shapes(&self, meshes: MeshFolder<'_>) -> Vec<Finding> {
+    pub(crate) fn resolve_shapes(&self, meshes: MeshFolder<'_>) -> Vec<Finding> {
         let mut library = Library::new(&self.shapes, meshes);
         for name in self.shapes.keys() {
             library.shape(name, &format!("shapes.{name}"));

@@ -22,14 +22,14 @@ pub struct Part {
 
 impl Part {
     /// The opening of a face is that of another part's face.
-    pub(in crate::scene) fn take_face(&mut self, face: usize, from: &Self, of: usize) {
+    pub(crate) fn take_face(&mut self, face: usize, from: &Self, of: usize) {
         self.apertures[face] = from.apertures[of];
         self.middles[face] = from.middles[of];
     }
 }
 
 /// Corner k of the cube: bit d says low or high along axis d.
-pub(in crate::scene) fn corner(k: usize) -> Point {
+pub(crate) fn corner(k: usize) -> Point {
     std::array::from_fn(|d| if k >> d & 1 == 1 { 0.5 } else { -0.5 })
 }
 
@@ -64,7 +64,7 @@ impl Sums {
 }
 
 /// What lies outside of the obstacle. `gas` tells it for the corners; `crossing` finds the surface on the edge between two of them.
-pub(in crate::scene) fn part(gas: [bool; 8], crossing: impl Fn(usize, usize) -> Point) -> Part {
+pub(crate) fn part(gas: [bool; 8], crossing: impl Fn(usize, usize) -> Point) -> Part {
     let mut part = Part::default();
     let mut sums = Sums::default();
     let mut cuts: Vec<[Point; 2]> = Vec::new();

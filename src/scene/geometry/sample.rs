@@ -92,7 +92,7 @@ impl Scene {
     }
 
     /// Those of one body.
-    pub(in crate::scene) fn seed_particles_of(&self, index: usize) -> impl Iterator<Item = Seed> + use<> {
+    pub(crate) fn seed_particles_of(&self, index: usize) -> impl Iterator<Item = Seed> + use<> {
         let body = &self.bodies[index];
         let sampled = self.sample(index);
         let count = sampled.inside.iter().filter(|(_, outer)| *outer).count();
@@ -140,7 +140,7 @@ impl Scene {
     }
 
     /// True if a body gets at least one particle.
-    pub(in crate::scene) fn has_particles(&self, index: usize) -> bool {
+    pub(crate) fn has_particles(&self, index: usize) -> bool {
         let claim = self.claim(index);
         self.rows_near(&claim.body.shape).any(|(range, row)| !self.sample_row(&claim, range, row).inside.is_empty())
     }
@@ -280,7 +280,7 @@ fn touch(a: &Shape, b: &Shape) -> bool {
 }
 
 /// A number from -1 to 1 that depends on `number` alone. [Steele, Lea, Flood 2014: splitmix64]
-pub(in crate::scene) fn random(number: usize) -> f64 {
+pub(crate) fn random(number: usize) -> f64 {
     let mut x = (number as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

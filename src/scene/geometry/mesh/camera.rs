@@ -19,18 +19,18 @@ const MOST_KEYS: usize = 1_000_000;
 
 /// A camera of a file.
 #[derive(Debug)]
-pub(in crate::scene) struct FileCamera {
+pub(crate) struct FileCamera {
     /// Vertical opening angle \[degrees\], or the height of what parallel rays see, in the file's lengths.
-    pub(in crate::scene) sight: Sight,
+    pub(crate) sight: Sight,
     /// From the outermost node to the camera's own.
     chain: Vec<Place>,
     /// Times of its first and last key frame \[s\]; none of a camera that stands still.
-    pub(in crate::scene) span: Option<[f64; 2]>,
+    pub(crate) span: Option<[f64; 2]>,
 }
 
 /// How a camera sees.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::scene) enum Sight {
+pub(crate) enum Sight {
     Pinhole { fov_degrees: f64 },
     Parallel { height: f64 },
 }
@@ -53,7 +53,7 @@ struct Track {
 }
 
 /// Reads a camera of a `.gltf` or `.glb`: that of the node of a name, or the only one. A finding is about `path` or `node`.
-pub(in crate::scene) fn camera(path: &str, wanted: Option<&str>, place: MeshFolder<'_>) -> Result<FileCamera, Finding> {
+pub(crate) fn camera(path: &str, wanted: Option<&str>, place: MeshFolder<'_>) -> Result<FileCamera, Finding> {
     let of_path = |(message, help): Problem| Finding::new("path", message, help);
     let end = path.to_lowercase();
     if !end.ends_with(".glb") && !end.ends_with(".gltf") {
@@ -231,7 +231,7 @@ impl Place {
 impl FileCamera {
     /// Place of the eye, direction of the view and direction that is up at a time \[s\] of the file, along the file's axes.
     /// A camera of glTF looks along its -z and has y up. [glTF 2.0, 3.10]
-    pub(in crate::scene) fn at(&self, time: f64) -> [DVec3; 3] {
+    pub(crate) fn at(&self, time: f64) -> [DVec3; 3] {
         let world = self.chain.iter().fold(DMat4::IDENTITY, |above, place| above * place.at(time));
         let direction = |own: DVec3| world.transform_vector3(own).normalize_or(own);
         [world.transform_point3(DVec3::ZERO), direction(DVec3::NEG_Z), direction(DVec3::Y)]
