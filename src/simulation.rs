@@ -182,15 +182,15 @@ impl Simulation {
         self.record_force(pass);
         self.time_step.record_listed(pass);
         self.still.record(pass, state);
-        self.record_advection(pass, 0, Carried::Now, Phase::Begin); // (3) eqs. 10-12
+        self.record_advection(pass, 0, Carried::Start, Phase::Begin); // (3) eqs. 10-12
         if self.solves == 1 {
-            self.record_advection(pass, 1, Carried::First, Phase::Begin);
+            self.record_advection(pass, 1, Carried::Halfway, Phase::Begin);
             self.record_pressure(pass, Phase::Begin);
         } else {
             self.record_pressure(pass, Phase::Begin);
             self.time_step.record_second(pass); // [Ascher, Ruuth & Spiteri 1997; Wicker & Skamarock 2002]
             self.gas_advection.record(pass, state, &self.time_step, 1, Phase::Second); // with the carrier that `fluid_update` left of the solved state
-            self.record_advection(pass, 2, Carried::Middle, Phase::Second);
+            self.record_advection(pass, 2, Carried::SecondHalfway, Phase::Second);
             self.record_pressure(pass, Phase::Second);
         }
         self.coupled_solve.record_solid(pass, state); // eq. 36
@@ -204,17 +204,17 @@ impl Simulation {
         }
     }
 
-    /// One stage of the advection.
-    fn record_advection(&self, pass: &mut Pass, stage: usize, source: Carried, phase: Phase) {
+    /// One Runge-Kutta stage of the advection, and before it the carrier of the state that it starts from.
+    fn record_advection(&self, pass: &mut Pass, runge_kutta: usize, source: Carried, phase: Phase) {
         self.carrier.record(pass, &self.state, source, phase);
-        self.gas_advection.record(pass, &self.state, &self.time_step, stage, phase);
+        self.gas_advection.record(pass, &self.state, &self.time_step, runge_kutta, phase);
     }
 
     /// The implicit part: solve and update of the gas.
     fn record_pressure(&self, pass: &mut Pass, phase: Phase) {
         let state = &self.state;
         if self.solves == 1 {
-            self.carrier.record(pass, state, Carried::Star, phase);
+            self.carrier.record(pass, state, Carried::Advected, phase);
         }
         self.intermediate_pressure.record(pass, state, phase); // (4) eqs. 9 and 17
         if let Some(elastic_first) = &self.elastic_first {

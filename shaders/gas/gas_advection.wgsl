@@ -199,8 +199,9 @@ fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     for (var turn = 0u; turn < when(!still && !beyond); turn++) { finish(slot, source(slot), change_of(slot, false)); }
 }
 
-// A column of params.march slots along the last axis: each state there is read once, each face computed once. Slots that are not INTERIOR
-// lie in columns, too: what is written there is overwritten by advect_listed, which runs afterwards.
+// A column of params.march slots along the last axis: each state there is read once, each face computed once. `moving`: the places of the
+// column where something moves, first and one after the last. Slots that are not INTERIOR lie in columns, too: what is written there is
+// overwritten by advect_listed, which runs afterwards.
 @compute @workgroup_size(WORKGROUP)
 fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let n = DIM - 1u;

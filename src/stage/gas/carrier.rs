@@ -9,16 +9,16 @@ use crate::state::{Over, Phase, State};
 /// The state whose velocity carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carried {
-    /// The state now.
-    Now = 0,
-    /// After the first Runge-Kutta stage of the advection.
-    First = 1,
+    /// That of the start of the step.
+    Start = 0,
+    /// Halfway through the advection.
+    Halfway = 1,
     /// After the advection.
-    Star = 2,
-    /// The state now, after the solve, which also moves still air.
+    Advected = 2,
+    /// After the solve, which also moves gas that was at rest.
     Solved = 3,
-    /// Before the second of two solves: as [`Carried::First`], in air that the first has moved.
-    Middle = 4,
+    /// Before the second of two solves: as [`Carried::Halfway`], in gas that the first has moved.
+    SecondHalfway = 4,
 }
 
 /// Kernels of the stage in order, for each state that carries; none where the cells' own velocities do.
@@ -35,8 +35,8 @@ impl CarrierVelocity {
     pub fn new(state: &State, wanted: bool, solves: u32) -> Result<Self> {
         let of = |carried: &Carried| {
             let (source, solved) = match *carried {
-                Carried::Solved => (Carried::Now, 1.0),
-                Carried::Middle => (Carried::First, 1.0),
+                Carried::Solved => (Carried::Start, 1.0),
+                Carried::SecondHalfway => (Carried::Halfway, 1.0),
                 unsolved => (unsolved, 0.0),
             };
             let form = |over: Over, entry: &str| {
@@ -58,8 +58,8 @@ impl CarrierVelocity {
         };
         let carrying: &[Carried] = match (wanted, solves) {
             (false, _) => &[],
-            (true, 1) => &[Carried::Now, Carried::First, Carried::Star, Carried::Solved],
-            (true, _) => &[Carried::Now, Carried::Solved, Carried::Middle],
+            (true, 1) => &[Carried::Start, Carried::Halfway, Carried::Advected, Carried::Solved],
+            (true, _) => &[Carried::Start, Carried::Solved, Carried::SecondHalfway],
         };
         Ok(Self { kernels: carrying.iter().map(of).collect::<Result<_>>()? })
     }

@@ -42,9 +42,9 @@ impl GasAdvection {
     }
 
     /// One of the stages, from 0, in a phase: two belong to one advection, or with two solves one to the first and two to the second.
-    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, stage: usize, phase: Phase) {
+    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, runge_kutta: usize, phase: Phase) {
         pass.stage(Stage::GasAdvection.name());
-        let kernels = &self.stages[stage];
+        let kernels = &self.stages[runge_kutta];
         for form in &kernels.forms {
             form.record(pass, state, phase);
         }
