@@ -40,7 +40,7 @@ pub struct Budget {
     pub momentum: [f64; 3],
     /// Momentum and energy of the gas alone, with what crossed and what it gave to bodies and obstacles, without what gravity and blasts
     /// gave to it. Only scenes with bodies that are held or driven know what the gas gave to bodies \[kg m s^-1\], \[J\].
-    pub gas_books: [f64; 4],
+    pub gas_budget: [f64; 4],
     /// Momentum below which a gap is rounding: a thousandth of that of all gas at the speed of sound \[kg m s^-1\].
     pub noise_momentum: f64,
     /// Cell that owes most, or has most too much.
@@ -52,7 +52,7 @@ pub struct Budget {
 }
 
 /// Whether a slot is of an obstacle, inside the domain.
-fn book_of_obstacle(word: u32, grid: &Grid, slot: usize) -> bool {
+fn ledger_of_obstacle(word: u32, grid: &Grid, slot: usize) -> bool {
     let inside = grid.cell(slot as u32).iter().zip(grid.cells).all(|(&at, count)| (0..count as i32).contains(&at));
     inside && word & u32::from(kind::MASK) == u32::from(kind::WALL)
 }
@@ -74,7 +74,7 @@ impl Budget {
         let owed = readback::read(gpu, &state.gas.owed_flow)?;
         let owed_energy = readback::read(gpu, &state.gas.owed_energy)?;
         let shares = gas_shares(&state.grid, &scene.cut_geometry());
-        let mut books = owed.iter().zip(&owed_energy);
+        let mut budgets = owed.iter().zip(&owed_energy);
         let everywhere = owed.len() == cells.len();
         let mut budget = Self {
             energy: stored,
@@ -85,10 +85,10 @@ impl Budget {
         let mut most = 0.0;
         for (slot, &word) in cells.iter().enumerate() {
             let inside = matches!((word & u32::from(kind::MASK)) as u8, kind::GAS | kind::SOLID);
-            // What has crossed the boundary is kept per volume, like the gas; debts are not.
+            // What has crossed the boundary is kept per volume, like the gas; what is owed is not.
             let share = if inside { 1.0 } else { volume };
-            let book = if everywhere || !inside { books.next() } else { None };
-            let (owed, owed_energy) = book.map_or(([0.0; 4], 0.0), |(flow, energy)| (*flow, *energy));
+            let entry = if everywhere || !inside { budgets.next() } else { None };
+            let (owed, owed_energy) = entry.map_or(([0.0; 4], 0.0), |(flow, energy)| (*flow, *energy));
             let room = volume * shares[slot];
             let covered = if word & u32::from(kind::MASK) == u32::from(kind::SOLID) {
                 room * f64::from(flow[slot][0])
@@ -104,7 +104,7 @@ impl Budget {
             budget.gas_mass_with_crossed += mass;
             budget.energy += share * f64::from(owed_energy) + room * f64::from(energy[slot]);
             // what obstacles have collected is a part of their loads
-            if book_of_obstacle(word, &state.grid, slot) {
+            if ledger_of_obstacle(word, &state.grid, slot) {
                 continue;
             }
             for (axis, sum) in budget.momentum.iter_mut().enumerate() {
@@ -138,19 +138,19 @@ impl Budget {
         Ok(())
     }
 
-    /// Adds the impulse on obstacles, and closes the books of the gas.
+    /// Adds the impulse on obstacles, and closes the budgets of the gas.
     fn close_gas(&mut self, simulation: &Simulation, stored: f64) {
         let (bodies, obstacles) = simulation.borne();
         for (axis, sum) in self.momentum.iter_mut().enumerate() {
             *sum += obstacles.iter().map(|borne| borne[axis]).sum::<f64>();
         }
         let [x, y, z] = self.momentum;
-        self.gas_books = [x, y, z, self.energy - stored - simulation.blasts()];
-        for (sum, released) in self.gas_books.iter_mut().zip(simulation.released().momentum) {
+        self.gas_budget = [x, y, z, self.energy - stored - simulation.blasts()];
+        for (sum, released) in self.gas_budget.iter_mut().zip(simulation.released().momentum) {
             *sum -= released;
         }
         let pulled = simulation.pulled();
-        for (k, sum) in self.gas_books.iter_mut().enumerate() {
+        for (k, sum) in self.gas_budget.iter_mut().enumerate() {
             *sum += bodies.iter().map(|borne| borne[k]).sum::<f64>() - pulled[k];
         }
     }

@@ -174,7 +174,7 @@ impl Simulation {
             particle_sort.record(pass, state);
             p2g.record(pass, state); // (1) particles to grid
         }
-        self.interface.record(pass, state); // (2) moving interface, blocked fraction, books of covered gas
+        self.interface.record(pass, state); // (2) moving interface, blocked fraction, ledger of covered gas
         if let Some(loads) = &self.loads {
             loads.record_owners(pass, state);
         }

@@ -166,10 +166,10 @@ impl Snapshot {
             deformation: readback::read(gpu, &particles.deformation)?,
             stress: readback::read(gpu, &particles.stress)?,
         };
-        let books = state.gas.owed_flow.len() == grid.slots();
-        let owed = if books { readback::read(gpu, &state.gas.owed_flow)? } else { Vec::new() };
+        let everywhere = state.gas.owed_flow.len() == grid.slots();
+        let owed = if everywhere { readback::read(gpu, &state.gas.owed_flow)? } else { Vec::new() };
         let cells = CellRows {
-            owed: owed.iter().map(|book| book[0]).collect(),
+            owed: owed.iter().map(|entry| entry[0]).collect(),
             maps: readback::read(gpu, &state.maps)?,
             conserved: readback::read(gpu, &state.gas.conserved)?,
             energy: readback::read_range(gpu, &state.gas.energy, 0, grid.slots())?,
@@ -212,7 +212,7 @@ pub struct CellRows {
     pub conserved: Vec<[f32; 4]>,
     /// Total energy per volume.
     pub energy: Vec<f32>,
-    /// Mass owed \[kg\]; empty where only the ring has books.
+    /// Mass owed \[kg\]; empty where only the ring has a ledger.
     pub owed: Vec<f32>,
     /// Maps, see [`State::maps`]; empty where none are kept.
     pub maps: Vec<[f32; 4]>,

@@ -18,15 +18,15 @@
 
 // Adds what a step brought to what crossed before, per cell volume, and leaves what float32 could not add: it comes with the next
 // step. Thousands of equal parts, as those of an inlet, would else be cut short by the same amount each. (A driver that reorders sums
-// would leave nothing; the books then wear as without.)
+// would leave nothing; the sums then drift as without.)
 fn keep_crossed(slot: u32) {
-    let book = book_of(slot);
-    let flow = owed_flow[book];
-    let total = owed_energy[book];
-    owed_flow[book] = flow + conserved[slot];
-    owed_energy[book] = total + energy[slot];
-    conserved[slot] -= owed_flow[book] - flow;
-    energy[slot] -= owed_energy[book] - total;
+    let place = ledger_place(slot);
+    let flow = owed_flow[place];
+    let total = owed_energy[place];
+    owed_flow[place] = flow + conserved[slot];
+    owed_energy[place] = total + energy[slot];
+    conserved[slot] -= owed_flow[place] - flow;
+    energy[slot] -= owed_energy[place] - total;
 }
 
 // Adds to one of the numbers in control.borrowed.
@@ -44,8 +44,8 @@ fn borrow(number: u32, value: f32) {
 }
 
 // What a gas cell has lost.
-fn book_loss(slot: u32, momentum: vec3f, heat: f32) {
-    if !RING_BOOKS {
+fn ledger_loss(slot: u32, momentum: vec3f, heat: f32) {
+    if !RING_LEDGER {
         owed_flow[slot] += vec4f(0.0, momentum);
         owed_energy[slot] += heat;
         return;
@@ -74,10 +74,10 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
     // What the first of two solves loses counts more than once in the second [shared/state.wgsl].
-    let booked = select(1.0, ARS_RETURNED, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
+    let counted = select(1.0, ARS_RETURNED, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
     atomicAdd(&control.floored, 1u);
     let left = flow.yzw * select(0.0, sqrt((total - least) / kinetic), total > least);
-    book_loss(slot, (flow.yzw - left) * booked, min(total - least, 0.0) * booked);
+    ledger_loss(slot, (flow.yzw - left) * counted, min(total - least, 0.0) * counted);
     energy[slot] = max(total, least);
     conserved[slot] = vec4f(flow.x, left);
 }

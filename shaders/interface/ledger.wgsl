@@ -1,4 +1,4 @@
-// interface, the gas books: what happens to the gas of cells that a body covers or uncovers.
+// interface, the ledger: what happens to the gas of cells that a body covers or uncovers.
 // A SOLID slot of the gas state keeps the gas of the cell it covers plus all fluxes through its faces: owed gas, not pressurised.
 // `owed` is what a GAS cell still owes (negative: it was filled with more than it holds). Gas plus owed gas is conserved.
 // A GAS cell settles a debt that it can stand, so much per step that its state changes little, and passes the rest on to its gas
@@ -31,7 +31,7 @@ const HELD_AT_SURFACE = 1.1;
 // `speed` is the largest change of velocity per step, in speeds of sound.
 struct Bounds { left: f32, speed: f32 }
 const IN_THE_OPEN = Bounds(-0.5, 0.3);
-// Two faces or more without gas behind them: a pocket, whose debts come back to it. It would be drained, or driven by momentum that
+// Two faces or more without gas behind them: a pocket, which what it hands on comes back to. It would be drained, or driven by momentum that
 // came without mass.
 const ENCLOSED = Bounds(0.25, 0.1);
 
@@ -149,7 +149,7 @@ fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     var bounds = ENCLOSED;
     if gas_neighbours + 1u >= 2u * DIM { bounds = IN_THE_OPEN; }
     if all.flow.x < bounds.left * gas.flow.x || internal_energy(all) < bounds.left * before { return 0.0; }
-    // No debt takes the entropy below what the floor keeps, nor further down where it is there: the floor's own books would come back.
+    // No debt takes the entropy below what the floor keeps, nor further down where it is there: the floor would give it back.
     let coldest = min(KEPT_ENTROPY * pressure_of(gas) / pow(gas.flow.x, params.gamma), params.least_entropy);
     let kick = bounds.speed * bounds.speed * params.gamma * (params.gamma - 1.0) * before / gas.flow.x;
     var part = min(1.0, SETTLED_PER_STEP * gas.flow.x / max(abs(all.flow.x - gas.flow.x), 1e-30));

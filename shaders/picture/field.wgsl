@@ -19,7 +19,7 @@
 @group(0) @binding(9) var<storage, read_write> glow: array<vec2u>;
 // Per entry of the colour table, how many entries before it are not transparent; then the same of the black-body ramp.
 @group(0) @binding(10) var<storage, read> visible: array<u32>;
-// Mass and momentum that a slot owes; one entry alone where no slot inside the domain has books.
+// Mass and momentum that a slot owes; one entry alone where no slot inside the domain has a ledger.
 @group(0) @binding(11) var<storage, read> owed_flow: array<vec4f>;
 
 // Largest pressure, impulse, what rounding took, largest plastic strain so far; one entry alone where no maps are kept.

@@ -1,4 +1,4 @@
-// Which slot has a thread, and what is special there: gas that rests, obstacles that cut cells, open sides, books of what is owed.
+// Which slot has a thread, and what is special there: gas that rests, obstacles that cut cells, open sides, the ledger of what is owed.
 // Needs the bindings cells and extra.
 #include "shared/index.wgsl"
 
@@ -202,18 +202,18 @@ fn velocity_beyond(o: Opening, here: vec4f) -> vec3f {
     return velocity_of(here);
 }
 
-// -- Books --
+// -- Ledger --
 
-// Where owed_flow and owed_energy have the books of a slot. With bodies or obstacles every slot has its own place. Else only slots of
+// Where owed_flow and owed_energy have the entry of a slot. With bodies or obstacles every slot has its own place. Else only slots of
 // the ring have one, in their order, and what the energy floor takes from gas goes to control.borrowed.
-override RING_BOOKS: bool;
+override RING_LEDGER: bool;
 
 // Slots of the ring.
 fn ring_count() -> u32 { return params.slots - params.cells.x * params.cells.y * params.cells.z; }
 
-// Place of a slot, with RING_BOOKS of one in the ring.
-fn book_of(slot: u32) -> u32 {
-    if !RING_BOOKS { return slot; }
+// Place of a slot, with RING_LEDGER of one in the ring.
+fn ledger_place(slot: u32) -> u32 {
+    if !RING_LEDGER { return slot; }
     let c = cell_of(slot);
     let n = params.cells;
     let before = vec3u(clamp(c, vec3i(0), vec3i(n)));           // cells with a smaller index along each axis

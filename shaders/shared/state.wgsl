@@ -105,7 +105,7 @@ struct Control {
     elastic_iterations: u32,    // Iterations of all rounds, this step
     longest_round: u32,         // Iterations of the longest one
     imbalance: f32,             // r . D^-1 r at the start of this round
-    borrowed: array<atomic<u32>, 8>, // Momentum and energy that the energy floor has taken from gas cells that have no books of their own, since the start: each a number of 64 bits, the low half first, in 2^-32 of a unit
+    borrowed: array<atomic<u32>, 8>, // Momentum and energy that the energy floor has taken from gas cells that have no ledger entry, since the start: each a number of 64 bits, the low half first, in 2^-32 of a unit
 }
 // End of what is generated.
 

@@ -173,7 +173,7 @@ fn elastic_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
     inverse_diagonal[slot] = vec4f(inverse_entry, 0.0);
 }
 
-// Walls: what they stop, the rubbing that goes with it, and the books.
+// Walls: what they stop, the rubbing that goes with it, and what they give.
 @compute @workgroup_size(WORKGROUP)
 fn elastic_finish(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var given = vec4f(0.0);

@@ -1,4 +1,4 @@
-// The books of what walls, gas films and gravity give to bodies: impulse [kg m s^-1] and work [J] of one step, a sum per group.
+// What walls, gas films and gravity give to bodies: impulse [kg m s^-1] and work [J] of one step, a sum per group.
 #include "shared/reduce.wgsl"
 
 @group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;

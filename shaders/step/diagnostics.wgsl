@@ -1,4 +1,4 @@
-// diagnostics: totals of gas, books and solids after a step, extremes, and one record of them in the history ring.
+// diagnostics: totals of gas, ledger and solids after a step, extremes, and one record of them in the history ring.
 // Sums are trees of fixed shape. Block k of `partials` holds one partial result per workgroup.
 #include "shared/reduce.wgsl"
 #include "shared/stress.wgsl"
@@ -53,7 +53,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
         if slot >= params.slots { continue; }
         let kind = kind_of(cells[slot]);
         let u = Gas(in_space(conserved[slot]), energy[slot]);
-        if !RING_BOOKS && (kind == GAS || kind == SOLID) {
+        if !RING_LEDGER && (kind == GAS || kind == SOLID) {
             owed += owed_flow[slot];
             heat.y += owed_energy[slot];
             more.y += abs(owed_flow[slot].x);
@@ -73,7 +73,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             owed += volume * u.flow;
             heat.y += volume * u.energy;
             more.y += volume * abs(u.flow.x);
-        } else if RING_BOOKS {
+        } else if RING_LEDGER {
             crossed += volume * u.flow;
             heat.z += volume * u.energy;
         } else {
@@ -81,7 +81,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             heat.z += volume * (owed_energy[slot] + u.energy);
         }
     }
-    for (var k = thread_index(group, lane); RING_BOOKS && k < ring_count(); k += striding_threads()) {
+    for (var k = thread_index(group, lane); RING_LEDGER && k < ring_count(); k += striding_threads()) {
         crossed += volume * owed_flow[k];
         heat.z += volume * owed_energy[k];
     }

@@ -129,13 +129,13 @@ fn measure(scene: &Scene, gpu: &Gpu, copy: f64, options: &BenchOptions) -> Resul
     simulation.set_target(NEVER)?;
     let warm = summary(&run_steps(&mut simulation, options.warmup)?);
     gpu.wait(None)?;
-    let books = Budget::read(&simulation, scene, warm.stored_energy())?;
+    let budgets = Budget::read(&simulation, scene, warm.stored_energy())?;
     let start = Instant::now();
     let whole = summary(&run_steps(&mut simulation, options.steps)?);
     let seconds = start.elapsed().as_secs_f64();
     let (records, times) = timed_steps(&mut simulation, options.steps, options.detail())?;
     let timed = summary(&records);
-    let drift = Budget::read(&simulation, scene, timed.stored_energy())?.drift_since(&books);
+    let drift = Budget::read(&simulation, scene, timed.stored_energy())?.drift_since(&budgets);
     let [mass_drift, energy_drift] = ["gas_mass", "energy"].map(|name| drift[name].abs());
     sound(mass_drift, energy_drift)?;
     let load = Load {
@@ -179,7 +179,7 @@ fn sound(mass_drift: f64, energy_drift: f64) -> Result<()> {
         if drift.is_nan() || drift > most {
             return Err(Error::Expectation(format!(
                 "no score: the measured steps lost or gained {drift:.1e} of the {name}, allowed are {most:.0e}; `brisance run` of the scene has \
-                 the books in diagnostics.csv"
+                 the budgets in diagnostics.csv"
             )));
         }
     }

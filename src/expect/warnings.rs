@@ -289,13 +289,13 @@ fn of_steps(name: Warned, scene: &Scene, budget: &Budget, summary: &Summary) -> 
     }
 }
 
-/// Momentum and energy that are missing or too much. What holds or drives bodies gives to them what no book knows, but what the gas gives
-/// to them is known: there the books are those of the gas.
+/// Momentum and energy that are missing or too much. What holds or drives bodies gives to them what no budget knows, but what the gas gives
+/// to them is known: there the budgets are those of the gas.
 fn gap(scene: &Scene, ending: &Ending<'_>) -> [f64; 2] {
     let of_gas = scene.bodies.iter().any(Body::is_driven);
     let all = |budget: &Budget| {
         let [x, y, z] = budget.momentum;
-        if of_gas { budget.gas_books } else { [x, y, z, budget.energy] }
+        if of_gas { budget.gas_budget } else { [x, y, z, budget.energy] }
     };
     let (start, end) = (all(ending.start), all(ending.end));
     let change: [f64; 4] = std::array::from_fn(|k| end[k] - start[k]);
@@ -345,23 +345,23 @@ mod tests {
         warnings(&scene, &Ending { start: &start, end: &end, summary: &summary, snapshot: &snapshot })
     }
 
-    fn books(mass: f64, energy: f64, momentum: f64) -> Budget {
+    fn budgets(mass: f64, energy: f64, momentum: f64) -> Budget {
         Budget { gas_mass_with_crossed: mass, energy, momentum: [momentum, 0.0, 0.0], ..Budget::default() }
     }
 
     #[test]
     fn what_is_over_its_limit_is_told_with_number_place_and_reason() {
         let names = |told: &[Warning]| told.iter().map(|warning| warning.name.name()).collect::<Vec<_>>();
-        assert!(told(&[step(StepRecord::default())], books(1.0, 2.5, 0.0)).is_empty());
+        assert!(told(&[step(StepRecord::default())], budgets(1.0, 2.5, 0.0)).is_empty());
         assert_eq!(
-            names(&told(&[step(StepRecord::default())], books(1.1, 2.4, 0.01))),
+            names(&told(&[step(StepRecord::default())], budgets(1.1, 2.4, 0.01))),
             ["gas_mass", "momentum", "energy"]
         );
         // 0.15 of the gas is owed in one of two steps; a cell loses 0.3 of the entropy and is floored, as 1 of 20
         let owed = Total { mass: -0.15, ..Total::default() };
         let cold = StepRecord { owed, floored: 1, ..StepRecord::default() };
         let steps = [StepRecord { min_entropy: 0.7, ..step(cold) }, step(StepRecord::default())];
-        let found = told(&steps, books(1.0, 2.5, 0.0));
+        let found = told(&steps, budgets(1.0, 2.5, 0.0));
         assert_eq!(names(&found), ["owed_gas", "entropy", "floored_cells"]);
         assert!(
             (found[1].measured - 0.3).abs() < 1e-6 && found[1].place == "in cell [3, 0, 0] at t = 0.5 s",
@@ -371,14 +371,14 @@ mod tests {
         assert!((found[2].measured - 0.05).abs() < 1e-12, "{}", found[2]);
         assert_eq!([&found[0], &found[2]].map(|warning| warning.expected.as_deref()), [Some("a leak"), None]);
         // what is no number is told
-        assert_eq!(names(&told(&[step(StepRecord::default())], books(1.0, f64::NAN, 0.0))), ["energy"]);
+        assert_eq!(names(&told(&[step(StepRecord::default())], budgets(1.0, f64::NAN, 0.0))), ["energy"]);
     }
 
     #[test]
     fn an_expected_warning_that_does_not_come_is_known() {
         let scene = Scene::parse(SCENE, "t.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
         let cold = StepRecord { min_entropy: 0.7, ..step(StepRecord::default()) };
-        let found = told(&[cold], books(1.0, 2.5, 0.0));
+        let found = told(&[cold], budgets(1.0, 2.5, 0.0));
         assert_eq!(absent(&scene, &found), [Warned::OwedGas]);
     }
 }

@@ -168,13 +168,13 @@ fn stored(mut contents: Contents) -> std::result::Result<Stored, String> {
     Ok(Stored { time: contents.head.time, step: contents.head.step, conserved, energy, owed, maps, kind, particles })
 }
 
-/// The mass owed, of a full state; nothing where only the ring has books.
+/// The mass owed, of a full state; nothing where only the ring has a ledger.
 fn owed_of(contents: &mut Contents, slots: usize) -> std::result::Result<Vec<f32>, String> {
     if !has(contents, "owed_flow") {
         return Ok(Vec::new());
     }
-    let books: Vec<[f32; 4]> = take(contents, "owed_flow")?;
-    Ok(if books.len() == slots { books.iter().map(|book| book[0]).collect() } else { Vec::new() })
+    let ledger: Vec<[f32; 4]> = take(contents, "owed_flow")?;
+    Ok(if ledger.len() == slots { ledger.iter().map(|entry| entry[0]).collect() } else { Vec::new() })
 }
 
 fn has(contents: &Contents, name: &str) -> bool {

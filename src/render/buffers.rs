@@ -11,7 +11,7 @@ pub struct SceneBuffers<'a> {
     pub conserved: &'a wgpu::Buffer,
     /// Total energy per volume, one f32 per slot.
     pub energy: &'a wgpu::Buffer,
-    /// Mass and momentum owed, one vec4 per slot; nothing where only the ring has books.
+    /// Mass and momentum owed, one vec4 per slot; nothing where only the ring has a ledger.
     pub owed: Option<&'a wgpu::Buffer>,
     /// Largest values so far, one vec4 per slot, see [`State::maps`]; nothing where no maps are kept.
     pub maps: Option<&'a wgpu::Buffer>,

@@ -20,7 +20,7 @@ pub struct Stored {
     pub conserved: Vec<[f32; 4]>,
     /// Total energy per volume.
     pub energy: Vec<f32>,
-    /// Mass owed \[kg\]; empty where only the ring has books.
+    /// Mass owed \[kg\]; empty where only the ring has a ledger.
     pub owed: Vec<f32>,
     /// Largest values so far, see [`crate::state::State::maps`]; empty where no maps are kept.
     pub maps: Vec<[f32; 4]>,
@@ -140,15 +140,15 @@ impl Stored {
     pub fn wrong_length(&self, grid: &Grid) -> Option<&'static str> {
         let slots = grid.slots();
         let cells = [("conserved", self.conserved.len()), ("energy", self.energy.len()), ("kind", self.kind.len())];
-        let books = [("owed", self.owed.len()), ("maps", self.maps.len())];
+        let optional = [("owed", self.owed.len()), ("maps", self.maps.len())];
         let particles = self.particles.as_ref().and_then(|own| {
             let count = own.position.len();
             let mut arrays = own.arrays().into_iter().zip(ROWS);
             arrays.find(|((_, array), rows)| array.len() != rows * count).map(|((name, _), _)| name)
         });
         let cells = cells.iter().find(|(_, len)| *len != slots);
-        let books = books.iter().find(|(_, len)| ![0, slots].contains(len));
-        cells.or(books).map(|(name, _)| *name).or(particles)
+        let optional = optional.iter().find(|(_, len)| ![0, slots].contains(len));
+        cells.or(optional).map(|(name, _)| *name).or(particles)
     }
 
     /// The array that holds something else than finite numbers where it has meaning: in gas, at particles.

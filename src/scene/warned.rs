@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Warned {
-    /// The book of the mass of the gas.
+    /// The budget of the mass of the gas.
     GasMass,
-    /// The book of momentum.
+    /// The budget of momentum.
     Momentum,
-    /// The book of energy.
+    /// The budget of energy.
     Energy,
     /// Gas that covered cells owe.
     OwedGas,

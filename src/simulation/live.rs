@@ -61,7 +61,7 @@ impl Simulation {
         self.gpu.check()
     }
 
-    /// Sets energy free in the gas of a ball, evenly over its volume: pressure rises, density and velocity stay. The books count it among
+    /// Sets energy free in the gas of a ball, evenly over its volume: pressure rises, density and velocity stay. The budgets count it among
     /// what was given from outside. Returns the energy \[J\], rounded to what the device can add.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::snapshot;
 
 impl Simulation {
-    /// Momentum and energy that the energy floor has taken from gas cells without books of their own, since the start
+    /// Momentum and energy that the energy floor has taken from gas cells without a ledger entry, since the start
     /// \[kg m s^-1\], \[J\].
     ///
     /// # Errors

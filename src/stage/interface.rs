@@ -87,7 +87,7 @@ impl InterfaceStage {
         pass.dispatch(&self.list, &state.extent(Phase::Begin, Over::Slots));
     }
 
-    /// Marks all slots and settles the gas books. Without bodies nothing changes.
+    /// Marks all slots and settles the ledger of covered gas. Without bodies nothing changes.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         let Some(solids) = &self.solids else { return };
         pass.stage(Stage::Interface.name());

@@ -73,7 +73,7 @@ structure! {
         longest_round: u32,
         /// r . D^-1 r at the start of this round.
         imbalance: f32,
-        /// Momentum and energy that the energy floor has taken from gas cells that have no books of their own, since the start: each a number
+        /// Momentum and energy that the energy floor has taken from gas cells that have no ledger entry, since the start: each a number
         /// of 64 bits, the low half first, in 2^-32 of a unit.
         borrowed: [atomic_u32; 8],
     }

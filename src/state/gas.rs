@@ -28,20 +28,20 @@ impl GasState {
     /// If the device has no room.
     pub fn new(gpu: &Gpu, scene: &Scene, grid: &Grid, particles: usize) -> Result<Self> {
         let slots = grid.slots();
-        let books = if ring_books(scene, particles > 0) { slots - grid.cell_count() } else { slots };
+        let ledger = if ring_ledger(scene, particles > 0) { slots - grid.cell_count() } else { slots };
         let parts = |array: &str| arrays::parts(array, scene.solves() == 2) * slots;
         Ok(Self {
             conserved: Buffer::new(gpu, "conserved", slots)?,
             energy: Buffer::new(gpu, "energy", parts("energy"))?,
             work: Buffer::new(gpu, "work", parts("work"))?,
-            owed_flow: Buffer::new(gpu, "owed_flow", books)?,
-            owed_energy: Buffer::new(gpu, "owed_energy", books)?,
+            owed_flow: Buffer::new(gpu, "owed_flow", ledger)?,
+            owed_energy: Buffer::new(gpu, "owed_energy", ledger)?,
         })
     }
 }
 
-/// Whether only the ring has books: without bodies and obstacles nothing else collects gas.
-pub(super) fn ring_books(scene: &Scene, solids: bool) -> bool {
+/// Whether only the ring has a ledger: without bodies and obstacles nothing else collects gas.
+pub(super) fn ring_ledger(scene: &Scene, solids: bool) -> bool {
     !solids && scene.obstacles.is_empty()
 }
 

@@ -63,8 +63,8 @@ impl MemoryPlan {
         };
         plan.add("gas", &[("conserved", slots, 16), ("work", parts("work"), 16)]);
         plan.add("gas", &[("energy", parts("energy"), 4)]);
-        let books = if super::gas::ring_books(scene, particles > 0) { slots - plan.cells } else { slots };
-        plan.add("gas", &[("owed_flow", books, 16), ("owed_energy", books, 4)]);
+        let ledger = if super::gas::ring_ledger(scene, particles > 0) { slots - plan.cells } else { slots };
+        plan.add("gas", &[("owed_flow", ledger, 16), ("owed_energy", ledger, 4)]);
         plan.add("interface", &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4)]);
         plan.add("interface", &[("extra", places.end + table, 4)]);
         plan.add_pressure(slots as usize, extra_capacity(slots as usize, particles, dimension), dimension as usize);

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::constants::SCAN_DISPATCHES;
-use super::gas::ring_books;
+use super::gas::ring_ledger;
 use super::{Grid, constants, surface};
 use crate::gpu::WORKGROUP;
 use crate::numerics::Scan;
@@ -222,7 +222,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("CONSISTENT", flag(scene.consistent())),
         ("ARS", flag(scene.solves() == 2)),
         ("FOURTH", flag(scene.sound_of_fourth_order())),
-        ("RING_BOOKS", flag(ring_books(scene, solids))),
+        ("RING_LEDGER", flag(ring_ledger(scene, solids))),
         ("LATE_FLUX", flag(scene.late_flux())),
         ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
         ("SHARED_VOLUME", flag(numerics.paper.ghost == Ghost::SharedVolume)),

@@ -154,7 +154,7 @@ pub(super) struct Recorded {
     pub(super) scene: Scene,
     /// Its checkpoints, and the states of its frames between them.
     pub(super) kept: Vec<Kept>,
-    /// Its books before the first step; none where it left no checkpoint to go on from.
+    /// Its budgets before the first step; none where it left no checkpoint to go on from.
     pub(super) start: Option<Budget>,
     /// Whether its form is that of this program: else its states are looked at alone.
     pub(super) goes_on: bool,

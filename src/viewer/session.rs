@@ -292,7 +292,7 @@ impl Session {
         self.summary.add(records);
     }
 
-    /// What is to be warned of: the books are closed at the end of the run, the rest follows from every step.
+    /// What is to be warned of: the budgets are closed at the end of the run, the rest follows from every step.
     fn judge(&mut self) -> Result<()> {
         if !self.finished {
             self.warnings = expect::marks(&self.scene, &self.start, &self.summary);

@@ -157,7 +157,7 @@ fn what_a_cell_gives_up_the_next_one_takes_to_the_last_bit() {
 }
 
 #[test]
-fn books_of_a_steady_inlet_do_not_wear() {
+fn budgets_of_a_steady_inlet_do_not_wear() {
     let Some(gpu) = gpu_or_skip() else { return };
     // Every step brings the same, so that float32 would cut the same off each time.
     let stream = "density = 1.3, velocity = [2.7, 0.1], pressure = 1.1";

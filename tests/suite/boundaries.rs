@@ -1,4 +1,4 @@
-//! The sides of the domain: uniform flow, sound that leaves, books, tables of times, patches, periodic axes.
+//! The sides of the domain: uniform flow, sound that leaves, budgets, tables of times, patches, periodic axes.
 
 use brisance::diagnostics::StepRecord;
 use brisance::gpu::Gpu;
@@ -202,7 +202,7 @@ fn what_crosses_the_sides_is_booked() {
         let time = format!("{}{more}", time(0.4, 0.01));
         let scene = scene(&[24, 12], "density = 1.0, pressure = 1.0", &sides, &time);
         let (_, records) = run(&gpu, &scene);
-        let books = |record: &StepRecord| {
+        let budgets = |record: &StepRecord| {
             let add = |a: f32, b: f32| f64::from(a) + f64::from(b);
             let (gas, crossed) = (record.gas, record.crossed);
             [
@@ -214,8 +214,8 @@ fn what_crosses_the_sides_is_booked() {
         };
         let last = records.last().unwrap();
         let error: Vec<f64> =
-            books(last).iter().zip([0.5, 0.0, 0.0, 1.25]).map(|(now, start)| (now - start).abs()).collect();
-        eprintln!("{rule}: crossed {:.4}, books {error:?}", last.crossed.mass);
+            budgets(last).iter().zip([0.5, 0.0, 0.0, 1.25]).map(|(now, start)| (now - start).abs()).collect();
+        eprintln!("{rule}: crossed {:.4}, budgets {error:?}", last.crossed.mass);
         assert!(last.crossed.mass.abs() > 1e-4, "{rule}: nothing crossed");
         assert!(error.iter().all(|e| *e < 3e-6), "{rule}: {error:?}");
     }

@@ -1,4 +1,4 @@
-//! Gauges on walls, obstacles, bodies and points of bodies: against the books of the gas, of the bodies, and the state itself.
+//! Gauges on walls, obstacles, bodies and points of bodies: against the budgets of the gas, of the bodies, and the state itself.
 
 use brisance::diagnostics::StepRecord;
 use brisance::scene::Scene;

@@ -45,7 +45,7 @@ fn energy(simulation: &Simulation, scene: &Scene) -> f64 {
 }
 
 #[test]
-fn a_blast_gives_what_was_asked_for_and_the_books_close() {
+fn a_blast_gives_what_was_asked_for_and_the_budgets_close() {
     let Some(gpu) = gpu_or_skip() else { return };
     for dimension in 1..=3 {
         // the budget knows whole cells only
@@ -60,18 +60,18 @@ fn a_blast_gives_what_was_asked_for_and_the_books_close() {
             simulation.set_target(scene.time.until).unwrap();
             advance(&mut simulation, &mut records, 3);
             let (asked, before) = (3.0e4, energy(&simulation, &scene));
-            let books = Budget::read(&simulation, &scene, 0.0).unwrap().energy;
+            let budgets = Budget::read(&simulation, &scene, 0.0).unwrap().energy;
             let blast = Blast { center: [0.5; 3], radius: 0.3, energy: asked };
             let given = simulation.detonate(&blast, &mut records).unwrap();
             let added = energy(&simulation, &scene) - before;
             assert!((added - asked).abs() < 1e-5 * asked, "{dimension}D {more}: {added} J instead of {asked}");
             assert!((given - asked).abs() < 1e-6 * asked, "{given}");
-            let drift = Budget::read(&simulation, &scene, 0.0).unwrap().energy - books;
-            assert!(drift.abs() < 1e-5 * asked, "{dimension}D {more}: the books lose {drift} J at once");
+            let drift = Budget::read(&simulation, &scene, 0.0).unwrap().energy - budgets;
+            assert!(drift.abs() < 1e-5 * asked, "{dimension}D {more}: the budgets lose {drift} J at once");
             advance(&mut simulation, &mut records, 12);
             let last = records.last().unwrap();
             let stored = f64::from(last.elastic_energy) + f64::from(last.plastic_heat);
-            let drift = Budget::read(&simulation, &scene, stored).unwrap().energy - books;
+            let drift = Budget::read(&simulation, &scene, stored).unwrap().energy - budgets;
             // bodies that strain leave the error of explicit elastic steps
             let allowed = if scene.bodies.is_empty() { 1e-4 } else { 2e-3 };
             assert!(drift.abs() < allowed * asked, "{dimension}D {more}: {drift} J are missing later");

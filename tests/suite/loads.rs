@@ -1,4 +1,4 @@
-//! Loads of the gas on what is held, driven or fixed: against pressure integrals, and books that close with them.
+//! Loads of the gas on what is held, driven or fixed: against pressure integrals, and budgets that close with them.
 
 use brisance::diagnostics::StepRecord;
 use brisance::expect::{Budget, Summary};
@@ -72,7 +72,7 @@ fn the_momentum_of_the_gas_closes_with_what_it_gave() {
         let Some((simulation, [start, end], records)) = run(&text, 0.6) else { return };
         let (bodies, obstacles) = simulation.borne();
         let borne = bodies.iter().chain(obstacles).next().unwrap();
-        let gap = (0..2).map(|k| (end.gas_books[k] - start.gas_books[k]).abs()).fold(0.0, f64::max);
+        let gap = (0..2).map(|k| (end.gas_budget[k] - start.gas_budget[k]).abs()).fold(0.0, f64::max);
         eprintln!("{name}: borne {borne:?}, gap {gap:e}, {} steps", records.len());
         assert!(borne[0] > 0.02, "{name}: {borne:?}");
         assert!(gap < 1e-4 * borne[0], "{name}: {gap:e} of {}", borne[0]);
@@ -86,7 +86,7 @@ fn the_energy_of_the_gas_closes_with_the_work_of_a_piston() {
         density = 5.0\nmotion = { velocity = [0.4] }\nshape = { box = { center = [0.3], size = [0.2] } }\n";
     let Some((simulation, [start, end], _)) = run(tube, 0.5) else { return };
     let borne = simulation.borne().0[0];
-    let change: Vec<f64> = (0..4).map(|k| end.gas_books[k] - start.gas_books[k]).collect();
+    let change: Vec<f64> = (0..4).map(|k| end.gas_budget[k] - start.gas_budget[k]).collect();
     eprintln!("borne {borne:?}, change {change:?}");
     assert!(borne[3] < -0.05, "the piston loses: {borne:?}");
     assert!(change[3].abs() < 1e-3 * borne[3].abs(), "energy {change:?} of {borne:?}");

@@ -114,7 +114,7 @@ fn logarithmic(f: DMat3) -> (DVec3, DMat3) {
     (DVec3::new(squares.x.ln(), squares.y.ln(), squares.z.ln()) * 0.5, axes)
 }
 
-/// Energies per reference volume as the books have them, in double precision.
+/// Energies per reference volume as the budgets have them, in double precision.
 fn energy(material: &Material, f: DMat3) -> f64 {
     let (mu, lambda) = (material.mu(), material.lambda());
     let (strain, _) = logarithmic(f);

@@ -356,7 +356,7 @@ fn no_gas_is_colder_than_any_that_was_there() {
     assert!(entropies.map(|s| (s / 0.1 - 1.0).abs()).fold(0.0, f32::max) < 1e-3);
     let last = records.last().unwrap();
     assert_eq!(last.floored, 40);
-    // and the heat is in the books
+    // and the heat is in the budgets
     let [gas, owed] = [last.gas.energy, last.owed.energy].map(f64::from);
     eprintln!("{gas:e} J of gas, {owed:e} J owed");
     assert!(owed < -0.1 * gas && (gas + owed - 1e-6 / 0.4).abs() < 1e-6 * gas, "{gas:e} and {owed:e}");

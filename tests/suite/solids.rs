@@ -228,7 +228,7 @@ fn gas_slows_a_fragment_of_one_particle_and_never_drives_it() {
 }
 
 #[test]
-fn the_books_of_covered_gas_drain_no_cell_under_a_heap() {
+fn the_ledger_of_covered_gas_drains_no_cell_under_a_heap() {
     let Some(gpu) = gpu_or_skip() else { return };
     // Sand that a blast shakes covers and uncovers cells all the time, many of them in pockets under it.
     let text = "title = \"t\"\ngravity = [0.0, -1.0]\n[time]\nuntil = 0.42\n[domain]\ndimension = 2\ncells = [64, 32]\nsize = [0.8, 0.4]\n\

@@ -263,7 +263,7 @@ impl Twins {
             let debt = |slot: &usize| conserved(&owed, &owed_energy, *slot)[k] / volume;
             let twin = |slot: &usize| self.state.ledger[*slot][k] / volume;
             let (found, expected): (Vec<f64>, Vec<f64>) = if owed.len() < flow.len() {
-                // gas cells have no books of their own: what floors took is one sum
+                // gas cells have no budgets of their own: what floors took is one sum
                 (vec![all[k] / volume], vec![slots.iter().map(twin).sum()])
             } else {
                 let found = covered.iter().map(held).chain(slots.iter().map(debt)).collect();

@@ -217,7 +217,7 @@ fn the_worker_opens_steps_detonates_changes_and_saves() {
     worker.send(Command::Steps(1));
     wait(&worker, &mut seen, "blast", |seen| seen.records.len() == 4);
     let given = seen.records[3].given.energy - before;
-    assert!((given - 0.75).abs() < 0.05, "the books have {given} J");
+    assert!((given - 0.75).abs() < 0.05, "the budgets have {given} J");
     assert!(seen.notes.iter().any(|note| note.weight == Weight::Fine), "{:?}", seen.notes);
     worker.send(Command::Detonate(Strike { at: [0.001, 0.001], source: Source::Energy(0.75, 0.2) }));
     wait(&worker, &mut seen, "word about a miss", |seen| {

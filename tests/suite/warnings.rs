@@ -1,4 +1,4 @@
-//! The program's own verdict: what it warns of, and that the books behind it close.
+//! The program's own verdict: what it warns of, and that the budgets behind it close.
 
 use brisance::expect::{self, Budget, Summary};
 use brisance::render::{Renderer, SceneBuffers};
@@ -23,7 +23,7 @@ const LEAVING: &str = "title = \"leaving\"\n[domain]\ndimension = 2\ncells = [16
     shape = { box = { center = [1.2, 0.4], size = [0.3, 0.3] } }\n[time]\nuntil = 0.6\nframes = 1\n";
 
 #[test]
-fn a_body_that_leaves_is_told_and_the_books_keep_what_it_took() {
+fn a_body_that_leaves_is_told_and_the_budgets_keep_what_it_took() {
     let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
@@ -53,9 +53,9 @@ fn a_body_that_leaves_is_told_and_the_books_keep_what_it_took() {
     assert_eq!(told["absent_warnings"][0], "owed_gas");
 }
 
-/// Gas that gravity sets going in a closed box: the books know what gravity gave.
+/// Gas that gravity sets going in a closed box: the budgets know what gravity gave.
 #[test]
-fn what_gravity_gives_to_the_gas_is_in_the_books() {
+fn what_gravity_gives_to_the_gas_is_in_the_budget() {
     let Some(gpu) = gpu_or_skip() else { return };
     let text = "title = \"sloshing\"\ngravity = [0.3, -0.5]\n[domain]\ndimension = 2\ncells = [16, 16]\nsize = [1.0, 1.0]\n\
         [gas]\natmosphere = \"uniform\"\nambient = { density = 1.0, pressure = 1.0 }\n[time]\nuntil = 0.5\n";
@@ -74,7 +74,7 @@ fn what_gravity_gives_to_the_gas_is_in_the_books() {
     }
 }
 
-/// Pictures of owed gas and entropy show the numbers of the snapshot, and these are those of the books.
+/// Pictures of owed gas and entropy show the numbers of the snapshot, and these are those of the budgets.
 #[test]
 fn owed_gas_and_entropy_are_fields() {
     let Some(gpu) = gpu_or_skip() else { return };

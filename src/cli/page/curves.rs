@@ -45,17 +45,17 @@ impl Tables {
     }
 
     /// Mass, momentum and energy: parts, and what they come to.
-    pub(super) fn books(&self, axes: usize) -> Vec<Plot> {
+    pub(super) fn budgets(&self, axes: usize) -> Vec<Plot> {
         let Some(steps) = &self.steps else { return Vec::new() };
         let owed =
             [("gas_", "gas"), ("owed_", "gas under bodies"), ("crossed_", "crossed the sides"), ("solid_", "solids")];
         let named = |of: &str| owed.map(|(column, name)| (format!("{column}{of}"), name.to_owned(), 1.0));
-        let mut plots = vec![book(steps, "Mass", "mass [kg]", named("mass").to_vec())];
+        let mut plots = vec![budget(steps, "Mass", "mass [kg]", named("mass").to_vec())];
         for axis in &["x", "y", "z"][..axes] {
             let column = format!("momentum_{axis}");
             let given = (format!("given_{column}"), "given from outside".to_owned(), -1.0);
             let parts = named(&column).into_iter().chain([given]).collect();
-            plots.push(book(steps, &format!("Momentum along {axis}"), "momentum [kg m/s]", parts));
+            plots.push(budget(steps, &format!("Momentum along {axis}"), "momentum [kg m/s]", parts));
         }
         let energies = [
             ("gas_energy", "gas", 1.0),
@@ -69,7 +69,7 @@ impl Tables {
             ("given_energy", "given from outside", -1.0),
         ];
         let parts = energies.map(|(column, name, sign)| (column.to_owned(), name.to_owned(), sign)).to_vec();
-        plots.push(book(steps, "Energy", "energy [J]", parts));
+        plots.push(budget(steps, "Energy", "energy [J]", parts));
         plots
     }
 
@@ -187,7 +187,7 @@ fn spreads(values: &[f64]) -> bool {
 }
 
 /// A plot of parts and their sum.
-fn book(steps: &Sheet, title: &str, label: &str, parts: Vec<(String, String, f64)>) -> Plot {
+fn budget(steps: &Sheet, title: &str, label: &str, parts: Vec<(String, String, f64)>) -> Plot {
     let times = steps.numbers("time").unwrap_or_default();
     let mut plot = Plot::new(title, TIME, label);
     let mut sum = vec![0.0; times.len()];

@@ -66,12 +66,12 @@ fn html(folder: &Path, report: &Value, scene: &str) -> String {
         page += &pieces::table(sheet);
         plots(&mut page, [pieces::speeds(sheet)]);
     }
-    heading(&mut page, "Books");
+    heading(&mut page, "Budgets");
     let drift = report["drift"].as_object().into_iter().flatten();
     let drift: Vec<_> =
         drift.map(|(key, value)| (format!("change of {}", key.replace('_', " ")), number(value))).collect();
     table(&mut page, "relative change since the start, with what crossed the sides", &drift);
-    plots(&mut page, tables.books(axes));
+    plots(&mut page, tables.budgets(axes));
     heading(&mut page, "Largest values over time");
     plots(&mut page, tables.extremes());
     heading(&mut page, "Scene and changes");

@@ -108,7 +108,7 @@ impl ElasticSolve {
         pass.dispatch(&self.add, &state.extent(Phase::Round, Over::Slots));
     }
 
-    /// Walls and the books, once the velocities are found; and what is missing from the momentum of bodies.
+    /// Walls and what they give, once the velocities are found; and what is missing from the momentum of bodies.
     pub fn record_finish(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::ElasticSolve.name());
         let [missing, bodies, _] = &self.balance;

@@ -44,7 +44,7 @@ fn held_disc(session: &mut Session<'_>) -> Result<()> {
     row.source("minimum entropy principle").pass(Limit::AtLeast(0.89));
     let row = session.check(run, "largest Mach number, all looks", fastest);
     row.source("half of what it was where the thin cell paid for all").pass(Limit::AtMost(12.0));
-    let drift = journey.books[1].drift_since(&journey.books[0])["energy"].abs();
+    let drift = journey.budgets[1].drift_since(&journey.budgets[0])["energy"].abs();
     session.check(run, "energy, change over its start", drift).source("conservation law").pass(Limit::AtMost(3e-5));
     let floored = run.summary.floored as f64;
     session.check(run, "cells where the energy floor acted, all steps", floored).source("method");

@@ -5,7 +5,7 @@ use crate::render::{Plot, Style};
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Journey, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
-use crate::verify::measure::books;
+use crate::verify::measure::budgets;
 
 /// Where the paths come from.
 const CUT_CELLS: &str = "conservative cut-cell solver";
@@ -90,7 +90,7 @@ fn report_lift(session: &mut Session<'_>, journey: &Journey, [x, y]: [f64; 2], h
     let (_, body) = &journey.path(0)[PATH.len()];
     session.check(run, "velocity along x at 0.3", body.velocity[0]).reference(2.2672, CUT_CELLS);
     session.check(run, "velocity along y at 0.3", body.velocity[1]).reference(0.5937, CUT_CELLS);
-    books::report(session, journey, None);
+    budgets::report(session, journey, None);
     let row = session.check(run, "PCG iterations per step, mean, goal", run.solver.mean_iterations);
     row.source("default rules").pass(Limit::AtMost(12.0));
 }
@@ -116,7 +116,7 @@ fn free(session: &mut Session<'_>) -> Result<()> {
         }
         let row = session.check(run, "y at 1.5", body.centroid[1]);
         row.reference(0.0, "symmetry").pass(Limit::Between(-1e-3, 1e-3));
-        books::report(session, &journey, None);
+        budgets::report(session, &journey, None);
     }
     Ok(())
 }

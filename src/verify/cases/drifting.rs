@@ -77,16 +77,16 @@ fn still_to(session: &mut Session<'_>, path: &str, until: f64, tolerance: Option
     if full {
         row.pass(Limit::AtMost(RANDOM_WALK));
     }
-    books_at_rest(session, &journey, false);
+    budgets_at_rest(session, &journey, false);
     Ok(())
 }
 
 /// Where energy goes while a body moves.
 const DAMPED: &str = "each transfer between particles and grid damps what varies within a cell";
 
-/// Books where nothing is exchanged: the gap of the momentum has nothing to be compared with but mass times speed of sound.
-fn books_at_rest(session: &mut Session<'_>, journey: &Journey, moves: bool) {
-    let [start, end] = &journey.books;
+/// Budgets where nothing is exchanged: the gap of the momentum has nothing to be compared with but mass times speed of sound.
+fn budgets_at_rest(session: &mut Session<'_>, journey: &Journey, moves: bool) {
+    let [start, end] = &journey.budgets;
     let drift = end.drift_since(start);
     let run = &journey.run;
     for (name, most) in [("gas_mass", 1e-6), ("energy", 3e-5)] {
@@ -119,7 +119,7 @@ fn translation(session: &mut Session<'_>) -> Result<()> {
         let (_, body) = journey.path(0).swap_remove(2);
         let off = (body.centroid[0] - 1.45).hypot(body.centroid[1] - 0.5) / run.scene.domain.spacing();
         session.check(run, "centre, cells off its place", off).source("exact").pass(Limit::AtMost(0.1));
-        books_at_rest(session, &journey, true);
+        budgets_at_rest(session, &journey, true);
     }
     Ok(())
 }

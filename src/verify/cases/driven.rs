@@ -126,7 +126,7 @@ fn report_piston(session: &mut Session<'_>, journey: &Journey, speed: f64, time:
     row.reference(0.0, "nothing leaks")
         .pass(Limit::Between(-1e-3, 1e-3))
         .known(Limit::Between(-5e-3 * coarse, 5e-3 * coarse), LEDGER);
-    let drift = journey.books[1].drift_since(&journey.books[0])["gas_mass"];
+    let drift = journey.budgets[1].drift_since(&journey.budgets[0])["gas_mass"];
     session
         .check(run, "gas mass of both sides and the ledger, drift", drift)
         .source("conservation law")

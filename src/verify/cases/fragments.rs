@@ -4,7 +4,7 @@ use crate::Result;
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Session, Setting};
 use crate::verify::harness::{Case, group};
-use crate::verify::measure::books;
+use crate::verify::measure::budgets;
 
 /// The cases of this module.
 pub(super) const CASES: &[Case] = &[
@@ -46,7 +46,7 @@ fn fragments(session: &mut Session<'_>) -> Result<()> {
         row.reference(if density > 100.0 { 0.3 } else { 2.222 }, "drag").pass(limit);
         session.check(run, "cells where the energy floor acted", run.summary.floored as f64).source("method");
         session.check(run, "largest speed of the gas", run.summary.max_speed).source("method").pass(Limit::AtMost(8.0));
-        books::report(session, &journey, None);
+        budgets::report(session, &journey, None);
     }
     Ok(())
 }
@@ -112,6 +112,6 @@ fn in_flow(session: &mut Session<'_>, (figure, modulus, poisson, yield_stress): 
     session.check(run, "cells where the energy floor acted", run.summary.floored as f64).source("method");
     let clamped: u64 = run.records.iter().map(|record| u64::from(record.clamped)).sum();
     session.check(run, "particles clamped", clamped as f64).source("method");
-    books::report(session, &journey, None);
+    budgets::report(session, &journey, None);
     Ok(())
 }

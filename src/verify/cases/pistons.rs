@@ -7,7 +7,7 @@ use crate::verify::exact::profile::{PRESSURE, Profile};
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Journey, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
-use crate::verify::measure::books::{self, Gates, LAGRANGIAN, Station, motion_plot, report_motion};
+use crate::verify::measure::budgets::{self, Gates, LAGRANGIAN, Station, motion_plot, report_motion};
 use crate::verify::measure::solids::{front, mean_velocity};
 
 /// The cases of this module.
@@ -110,7 +110,7 @@ fn slab(session: &mut Session<'_>) -> Result<()> {
             row.source(LAGRANGIAN).pass(Limit::AtMost(*share));
             report_motion(session, &journey, LAGRANGIAN, table, None);
             let known = (6e-4, VIBRATES);
-            books::report_energy(session, &journey, if *modulus > 1e3 { 3e-4 } else { 1e-3 }, known);
+            budgets::report_energy(session, &journey, if *modulus > 1e3 { 3e-4 } else { 1e-3 }, known);
             if cells == cells.min(200) {
                 session.plot(motion_plot(&journey, LAGRANGIAN, table));
             }
@@ -138,7 +138,7 @@ fn gun(session: &mut Session<'_>) -> Result<()> {
         let coarse = 1040.0 / f64::from(cells.min(1040));
         let gates = Gates { place: 0.01 * coarse, velocity: 0.015 * coarse };
         report_motion(session, &journey, LAGRANGIAN, &GUN, Some(gates));
-        books::report(session, &journey, None);
+        budgets::report(session, &journey, None);
         if cells == cells.min(1040) {
             session.plot(motion_plot(&journey, LAGRANGIAN, &GUN));
         }
@@ -162,7 +162,7 @@ fn vacuum(session: &mut Session<'_>) -> Result<()> {
         let coarse = 660.0 / f64::from(cells.min(660));
         let gates = Gates { place: 0.01 * coarse, velocity: 0.01 * coarse };
         report_motion(session, &journey, "simple wave", &PISTON, Some(gates));
-        books::report(session, &journey, None);
+        budgets::report(session, &journey, None);
         if cells <= 660 {
             session.plot(motion_plot(&journey, "simple wave", &PISTON));
         }
@@ -227,7 +227,7 @@ fn report_surface(session: &mut Session<'_>, journey: &Journey, density: f64, sp
     let seen = [-0.4 * (late.time - 0.1), -2.0 * run.scene.domain.spacing()];
     let gas = Profile::of(&run.scene, late).mean(PRESSURE, seen);
     session.check(run, "pressure at the surface", gas).reference(exact[1], HUGONIOT).within(0.01);
-    books::report(session, journey, None);
+    budgets::report(session, journey, None);
     let run_to = exact_front(late.time, speed);
     let line = vec![[0.0, exact[0]], [run_to, exact[0]], [run_to, 0.0], [0.9, 0.0]];
     let plot = Plot::new(format!("Stress wave in the half space, {}", run.label), "depth", "velocity");

@@ -5,7 +5,7 @@ use crate::render::{Plot, Style};
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
-use crate::verify::measure::books::{self, Gates, LAGRANGIAN, Station, motion_plot, report_motion};
+use crate::verify::measure::budgets::{self, Gates, LAGRANGIAN, Station, motion_plot, report_motion};
 
 /// The cases of this module.
 pub(super) const CASES: &[Case] = &[
@@ -90,7 +90,7 @@ fn free_plate(session: &mut Session<'_>) -> Result<()> {
             let row = session.check(&journey.run, "displacement at 0.6", early).reference(place, LAGRANGIAN);
             row.within(share).known(Limit::Between(place, place + 0.1 * journey.run.scene.domain.spacing()), FOOT);
             report_motion(session, &journey, LAGRANGIAN, &table[1..], Some(Gates { place: share, velocity }));
-            books::report(session, &journey, Some(5e-3));
+            budgets::report(session, &journey, Some(5e-3));
             if cells == 410 {
                 session.plot(motion_plot(&journey, LAGRANGIAN, table));
             }
@@ -118,7 +118,7 @@ fn plate_in_tube(session: &mut Session<'_>) -> Result<()> {
                 }
             }
         }
-        books::report(session, &journey, Some(5e-3));
+        budgets::report(session, &journey, Some(5e-3));
         if cells <= 310 {
             session.plot(motion_plot(&journey, LAGRANGIAN, &TUBE));
         }
@@ -144,7 +144,7 @@ fn acoustic_plate(session: &mut Session<'_>) -> Result<()> {
             row.reference(response(*time), "Taylor 1941").within(0.02);
         }
         // a thousand times less than the impulse of each wall, to which single precision adds its round-off
-        books::report_against(session, &journey, None, 1.5);
+        budgets::report_against(session, &journey, None, 1.5);
         let exact = (0..=150).map(|k| f64::from(k) * 0.01).map(|time| [time, response(time)]).collect();
         let ours = path.iter().map(|(time, body)| [*time, body.velocity[0]]).collect();
         let plot = Plot::new("Weak step on a free plate: velocity", "time", "velocity");

@@ -95,7 +95,7 @@ fn closed_box(session: &mut Session<'_>) -> Result<()> {
             [(Pair::B1b0, Integrator::Predictor), (Pair::B2b1, Integrator::Predictor), (Pair::B1b0, Integrator::Ars222)]
         {
             let journey = session.follow(path, Setting { pair, integrator, cells }, &overrides, [until])?;
-            let (run, drift) = (&journey.run, journey.books[1].drift_since(&journey.books[0]));
+            let (run, drift) = (&journey.run, journey.budgets[1].drift_since(&journey.budgets[0]));
             session.check(run, "steps", run.summary.steps as f64).pass(Limit::AtLeast(1e4));
             let row = session.check(run, "gas mass, change over its start", drift["gas_mass"].abs());
             row.source("conservation law").pass(Limit::AtMost(1e-6));

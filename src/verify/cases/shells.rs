@@ -1,4 +1,4 @@
-//! Exploding shells: the hardest case for the books of energy.
+//! Exploding shells: the hardest case for the budgets of energy.
 
 use crate::Result;
 use crate::render::{Plot, Style};
@@ -6,7 +6,7 @@ use crate::scene::Changes;
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Journey, Run, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
-use crate::verify::measure::books;
+use crate::verify::measure::budgets;
 
 /// The cases of this module.
 pub(super) const CASES: &[Case] = &[Case {
@@ -78,7 +78,7 @@ fn shells(session: &mut Session<'_>) -> Result<()> {
 }
 
 fn report(session: &mut Session<'_>, journey: &Journey, shell: &Shell) {
-    books::report(session, journey, None);
+    budgets::report(session, journey, None);
     let row = session.check(&journey.run, "energy, drift, goal", journey.energy_drift());
     row.source("conservation law").pass(Limit::Between(-shell.energy, shell.energy));
     if shell.name == "hot torn" {

@@ -38,7 +38,7 @@ fn soft_bodies(session: &mut Session<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Energy of gas, debts and bodies \[J\]; the walls of the box do no work.
+/// Energy of gas, ledger and bodies \[J\]; the walls of the box do no work.
 fn energy(record: &StepRecord) -> f64 {
     let bodies = record.elastic_energy + record.ghost_energy + record.plastic_heat;
     f64::from(record.gas.energy) + f64::from(record.owed.energy) + f64::from(record.solid.energy + bodies)

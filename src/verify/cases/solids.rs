@@ -180,7 +180,7 @@ fn disc(session: &mut Session<'_>) -> Result<()> {
     // the affine motion of particles counts in both
     let rigid = 0.5 * start * 10.0;
     session.check(&journey.run, "kinetic energy at the end", kinetic).reference(rigid, "rigid").within(0.02);
-    let drift = Budget::drift_since(&journey.books[1], &journey.books[0])["energy"];
+    let drift = Budget::drift_since(&journey.budgets[1], &journey.budgets[0])["energy"];
     session.check(&journey.run, "energy, drift", drift).source("conservation law");
     Ok(())
 }

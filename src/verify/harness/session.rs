@@ -112,13 +112,13 @@ pub struct Run {
     pub solver_load: f64,
 }
 
-/// A run that was stopped to look at, and its books.
+/// A run that was stopped to look at, and its budgets.
 #[derive(Clone, Debug)]
 pub struct Journey {
     /// The run.
     pub run: Run,
     /// Mass, momentum and energy before the first step and after the last.
-    pub books: [Budget; 2],
+    pub budgets: [Budget; 2],
     /// The start and each stop; the last is the end.
     pub stops: Vec<Snapshot>,
 }
@@ -237,7 +237,7 @@ impl<'a> Session<'a> {
         }
         let run = Run::new(scene, simulation.snapshot()?, records, label);
         let end = Budget::read(&simulation, &run.scene, run.summary.stored_energy())?;
-        Ok(Journey { run: self.finish(run), books: [start, end], stops })
+        Ok(Journey { run: self.finish(run), budgets: [start, end], stops })
     }
 
     /// The scene with its changes, and the name of the run.

@@ -1,6 +1,6 @@
 //! What several cases measure in their runs.
 
-pub(super) mod books;
+pub(super) mod budgets;
 pub(super) mod plane;
 pub(super) mod solids;
 pub(super) mod sweep;

@@ -46,7 +46,10 @@ pub(crate) fn two_solves(
 ) -> (Report, Solution) {
     let a = 1.0 - 0.5_f64.sqrt();
     let first = state.gas.clone();
-    let solve = |[advected, carrying]: [&Gas; 2], booked: f64, open: &mut boundary::Memory, ledger: &mut [[f64; 5]]| {
+    let solve = |[advected, carrying]: [&Gas; 2],
+                 counted: f64,
+                 open: &mut boundary::Memory,
+                 ledger: &mut [[f64; 5]]| {
         let cold = without_central_heat(problem, faces, [advected, carrying, &first], a * dt);
         let [star, kept] = [advected, &cold].map(|gas| gas_advection::with_gravity(problem, &faces.cells, gas, a * dt));
         let intermediate =
@@ -59,7 +62,7 @@ pub(crate) fn two_solves(
         let mut floored = vec![[0.0; 5]; ledger.len()];
         let count = fluid_update::energy_floor(problem, &faces.cells, &star, &mut gas, &mut floored);
         for (held, taken) in ledger.iter_mut().flatten().zip(floored.iter().flatten()) {
-            *held += booked * taken;
+            *held += counted * taken;
         }
         gas_advection::fill_ghosts(problem, &faces.cells, &mut gas);
         (gas, cold, solution, count)

@@ -31,7 +31,7 @@ pub(super) struct Surface {
     _buffers: Buffers,
 }
 
-/// What the kernels hold, for the books of memory.
+/// What the kernels hold, for the plan of memory.
 #[derive(Debug)]
 struct Buffers {
     rows: Buffer<f32>,

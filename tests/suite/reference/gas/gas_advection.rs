@@ -319,7 +319,7 @@ pub(crate) fn limited(
     (weno, touched)
 }
 
-/// One forward Euler stage: adds what `gas` carries to `start`, but for a share `implicit` of the central heat; books what enters solid
+/// One forward Euler stage: adds what `gas` carries to `start`, but for a share `implicit` of the central heat; budgets what enters solid
 /// cells on the ledger with `share` of the step.
 pub(crate) fn stage(
     problem: &Problem,

@@ -6,7 +6,7 @@ use crate::snapshot::{ParticleSample, Snapshot};
 use crate::verify::harness::row::Limit;
 use crate::verify::harness::session::{Journey, Session};
 
-/// Who demands closed books.
+/// Who demands closed budgets.
 const LAW: &str = "conservation law";
 
 /// Where trajectories come from.
@@ -38,13 +38,13 @@ impl Journey {
 
     /// What is missing from the momentum of gas, solids and walls \[kg m/s\].
     fn momentum_gap(&self) -> f64 {
-        let [start, end] = &self.books;
+        let [start, end] = &self.budgets;
         (0..3).map(|axis| (end.momentum[axis] - start.momentum[axis]).powi(2)).sum::<f64>().sqrt()
     }
 
     /// Relative change of energy, with what has crossed the sides.
     pub(in crate::verify) fn energy_drift(&self) -> f64 {
-        self.books[1].drift_since(&self.books[0])["energy"]
+        self.budgets[1].drift_since(&self.budgets[0])["energy"]
     }
 }
 
@@ -73,7 +73,7 @@ pub(in crate::verify) fn report_against(
     impulse: f64,
 ) {
     let run = &journey.run;
-    let drift = journey.books[1].drift_since(&journey.books[0]);
+    let drift = journey.budgets[1].drift_since(&journey.budgets[0]);
     session.check(run, "gas mass, drift", drift["gas_mass"].abs()).source(LAW).pass(Limit::AtMost(1e-6));
     let row = session.check(run, "momentum missing, over that exchanged", journey.momentum_gap() / impulse);
     row.source(LAW).pass(Limit::AtMost(1e-4));

@@ -1,4 +1,4 @@
-//! What the books say was given to bodies, against mechanics.
+//! What the budgets say was given to bodies, against mechanics.
 
 use brisance::diagnostics::StepRecord;
 use brisance::gpu::Gpu;
@@ -8,13 +8,13 @@ use brisance::simulation::Simulation;
 use crate::common::gpu_or_skip;
 
 /// Next to no gas, and gravity.
-const HEAD: &str = "title = \"books\"\ngravity = [0.0, -1.0]\n[gas]\nambient = { density = 1e-3, pressure = 1e-3 }\n\
+const HEAD: &str = "title = \"budgets\"\ngravity = [0.0, -1.0]\n[gas]\nambient = { density = 1e-3, pressure = 1e-3 }\n\
     [materials.rigid]\nneo_hookean = { young_modulus = 200.0, poisson_ratio = 0.3, ghost_modulus = 0.1 }\n";
 
 /// The end, and the record of the last step.
 fn run(gpu: &Gpu, rest: &str, until: f64) -> (Simulation, StepRecord) {
     let text = format!("{HEAD}{rest}[time]\nuntil = {until}\nmax_courant = 0.3\n");
-    let scene = Scene::parse(&text, "books.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let scene = Scene::parse(&text, "budgets.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
     let mut simulation = Simulation::new(gpu, &scene).unwrap_or_else(|error| panic!("{error}"));
     let records = simulation.advance_to(until).unwrap_or_else(|error| panic!("{error}"));
     let last = records.last().expect("steps").clone();
@@ -41,7 +41,7 @@ fn what_gravity_and_floor_give_is_what_the_body_has() {
     assert!((landed.given()[1] - momentum).abs() < 0.01 * mass, "{:?} and {momentum}", landed.given());
 }
 
-/// A block of metal that a driven wall presses flat. Where it flows the stress does work on the plastic strain, which the books call heat:
+/// A block of metal that a driven wall presses flat. Where it flows the stress does work on the plastic strain, which the budgets call heat:
 /// sqrt(3/2) (Y a + H a^2 / 2) per volume at the equivalent plastic strain a, as the deviator has norm Y + H a. And the ghost pressure of the
 /// wall, which does not give way, stays bounded where the block's nodes reach into it (it grew threefold in each step).
 #[test]
