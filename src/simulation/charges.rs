@@ -21,8 +21,10 @@ const MOST_STEPS: usize = 2_000_000;
 const WIDEST: f64 = 0.125;
 /// How far the gas of a near field reaches beyond its front.
 const BEYOND: f64 = 1.2;
-/// Points per axis of a cell.
-const SAMPLES: usize = 4;
+/// Points per axis of a cell, in 1D, 2D and 3D.
+const SAMPLES: [usize; 3] = [64, 8, 4];
+/// Distances at the edge between two shells belong to the outer one, on all sides: a part of a shell.
+const EDGE: f64 = 1e-9;
 
 /// What charges have given to the gas since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -103,15 +105,16 @@ impl Due {
         let (axes, spacing) = (scene.domain.axes(), scene.domain.spacing());
         let middle = scene.domain.cell_center(cell);
         let (mut sum, mut inside) = ([0.0; 5], 0.0);
-        let count = SAMPLES.pow(axes as u32);
+        let samples = SAMPLES[axes - 1];
+        let count = samples.pow(axes as u32);
         for point in 0..count {
-            let at = |d: usize| (point / SAMPLES.pow(d as u32) % SAMPLES) as f64;
+            let at = |d: usize| (point / samples.pow(d as u32) % samples) as f64;
             let arm: [f64; 3] = std::array::from_fn(|d| {
-                let offset = (at(d) + 0.5) / SAMPLES as f64 - 0.5;
+                let offset = (at(d) + 0.5) / samples as f64 - 0.5;
                 if d < axes { middle[d] + offset * spacing - self.charge.center[d] } else { 0.0 }
             });
             let away = arm.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let shell = (away / self.profile.radius * self.profile.shells.len() as f64) as usize;
+            let shell = (away / self.profile.radius * self.profile.shells.len() as f64 + EDGE) as usize;
             let Some(&[density, outward, internal]) = self.profile.shells.get(shell) else { continue };
             inside += 1.0;
             sum[0] += density;
