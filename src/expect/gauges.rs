@@ -4,6 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::probes::FRONT;
 
+/// Part of the first pressure that a wave must add to be one.
+const WEAKEST: f64 = 0.02;
+/// A wave too weak for [`FRONT`] arrives with this part of its peak.
+const FOOT: f64 = 0.2;
+
 /// Overpressure over time, from the pressure after the first step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Gauge {
@@ -15,7 +20,7 @@ pub struct Gauge {
     pub peak_time: f64,
     /// Largest pressure less the first \[Pa\].
     pub peak_overpressure: f64,
-    /// When the pressure was first a twentieth above the first \[s\].
+    /// When the pressure was first a twentieth above the first, or a fifth of a weak peak \[s\].
     pub arrival: Option<f64>,
     /// From arrival until the first pressure comes back after the peak \[s\]; none where it has not come back.
     pub positive_phase: Option<f64>,
@@ -32,7 +37,11 @@ impl Gauge {
         let first = all.first()?.1;
         let (top, (peak_time, peak)) = all.iter().copied().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
         let mut gauge = Self { first, peak, peak_time, peak_overpressure: peak - first, ..Self::default() };
-        let Some(start) = all.iter().position(|(_, p)| p - first > FRONT * first.abs()) else { return Some(gauge) };
+        if gauge.peak_overpressure < WEAKEST * first.abs() {
+            return Some(gauge);
+        }
+        let front = (FRONT * first.abs()).min(FOOT * gauge.peak_overpressure);
+        let Some(start) = all.iter().position(|(_, p)| p - first > front) else { return Some(gauge) };
         gauge.arrival = Some(all[start].0);
         let mut over: Vec<(f64, f64)> = all[start..].iter().map(|(t, p)| (*t, p - first)).collect();
         let end = over.iter().enumerate().position(|(k, (_, p))| k + start > top && *p <= 0.0);
@@ -71,6 +80,8 @@ mod tests {
         let times = [0.1, 0.2, 0.3, 0.4];
         let still = Gauge::of(&times, &[1.0, 1.01, f64::NAN, 1.0]).unwrap();
         assert_eq!((still.arrival, still.positive_phase, still.impulse), (None, None, 0.0));
+        let weak = Gauge::of(&times, &[1.0, 1.03, 1.02, 0.99]).unwrap();
+        assert!(weak.arrival == Some(times[1]) && weak.impulse > 0.0, "{weak:?}");
         let rising = Gauge::of(&times, &[1.0, 1.0, 2.0, 3.0]).unwrap();
         assert_eq!((rising.arrival, rising.positive_phase), (Some(0.3), None));
         assert!((rising.impulse - 0.15).abs() < 1e-12, "{rising:?}");
