@@ -30,6 +30,14 @@ pub(super) const CASES: &[Case] = &[
         source: "C. N. Kingery, G. Bulmash, ARBRL-TR-02555, 1984: spherical air burst.",
         run: octant,
     },
+    Case {
+        id: "closed_room",
+        title: "TNT in a closed room",
+        group: group::EXPLOSIONS,
+        quick: true,
+        source: "Balance of energy: what is left when the waves have died down is the energy of the charge as pressure.",
+        run: room,
+    },
 ];
 
 /// Why peaks on the grid are too low.
@@ -118,5 +126,22 @@ fn octant(session: &mut Session<'_>) -> Result<()> {
         let place = format!("{}, {}", probe.name, run.label);
         judge(session, &place, &gauge, &measured, if fine { Gated::WithPeak(0.25) } else { Gated::Impulse });
     }
+    Ok(())
+}
+
+/// Time in which the waves of the room die down \[s\].
+const QUIET: f64 = 0.05;
+
+fn room(session: &mut Session<'_>) -> Result<()> {
+    let mut changes: Vec<String> = ["x_max", "y_max", "z_max"].map(|side| format!("boundary.{side}=wall")).into();
+    changes.extend([format!("time.until={QUIET}"), "charges[0].afterburn=false".to_owned(), "probes=[]".to_owned()]);
+    let run = session.run("validation/air_burst.toml", Setting::standard(24), &changes)?;
+    let (scene, gamma) = (&run.scene, run.scene.gas.gamma);
+    let energy: f64 = scene.charges.iter().filter_map(|own| Some(own.mass * own.made_of()?.specific_energy())).sum();
+    let volume = scene.domain.cell_volume() * scene.domain.cell_count() as f64;
+    let mean = run.snapshot.pressure.iter().map(|p| f64::from(*p)).sum::<f64>() / run.snapshot.pressure.len() as f64;
+    let rise = mean - scene.gas.ambient.pressure;
+    let row = session.check(&run, "rise of the mean pressure", rise);
+    row.reference((gamma - 1.0) * energy / volume, "balance of energy").within(0.05);
     Ok(())
 }
