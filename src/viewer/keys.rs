@@ -72,7 +72,7 @@ pub const MOUSE: [(&str, &str); 7] = [
     ("Right or middle drag", "shift"),
     ("Wheel", "nearer or farther, towards the pointer"),
     ("Double click", "fit everything into the picture"),
-    ("Ctrl+click", "detonate: energy and radius stand in the panel"),
+    ("Ctrl+click", "detonate: energy and radius, or kilograms of TNT, stand in the panel"),
     ("Drag on the time line", "back to a state that is kept; from there the scene goes on"),
     ("File dropped on the window", "opens it"),
 ];
