@@ -7,8 +7,9 @@ use crate::scene::{Body, Charge, Placed, Probe, Scene};
 
 /// Part of a ball that counts as half of one.
 const HALF: [f64; 2] = [0.4, 0.6];
-/// Cells between a charge and a place from which on the peak there is within a fifth of that of a fine grid.
-const CELLS_TO_PLACE: f64 = 80.0;
+/// Cells between a charge and a place with which the peak there is low by less than a fifth: 16 % along an axis of the grid, 5 % along a
+/// diagonal [docs/notes/charges.md].
+const CELLS_TO_PLACE: f64 = 60.0;
 
 /// A charge on the grid.
 #[derive(Clone, Debug, PartialEq, Serialize)]

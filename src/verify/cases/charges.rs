@@ -124,7 +124,7 @@ fn octant(session: &mut Session<'_>) -> Result<()> {
             continue;
         };
         let place = format!("{}, {}", probe.name, run.label);
-        judge(session, &place, &gauge, &measured, if fine { Gated::WithPeak(0.25) } else { Gated::Impulse });
+        judge(session, &place, &gauge, &measured, if fine { Gated::WithPeak(0.2) } else { Gated::Impulse });
     }
     Ok(())
 }
