@@ -189,20 +189,12 @@ mod tests {
 
     fn snapshot(particles: &[(u32, [f32; 3])]) -> Snapshot {
         let sample = |&(body, position): &(u32, [f32; 3])| ParticleSample {
-            index: 0,
             position,
             velocity: [1.0, 0.0, 0.0],
             vorticity: [0.0, 0.0, 4.0],
             mass: 2.0,
-            stress: [0.0; 6],
-            kinetic_energy: 0.0,
-            volume0: 1.0,
-            ghost_pressure: 0.0,
-            plastic_strain: 0.0,
-            damage: 0.0,
-            deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             body,
-            material: 0,
+            ..ParticleSample::default()
         };
         let grid = Grid { dimension: 3, cells: [8; 3], origin: [0.0; 3], spacing: 1.0 };
         Snapshot::of_particles((0.0, 0), grid, particles.iter().map(sample).collect())

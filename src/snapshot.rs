@@ -86,6 +86,28 @@ pub struct ParticleSample {
     pub material: u32,
 }
 
+impl Default for ParticleSample {
+    /// At rest in the origin, of volume and mass 1, undeformed.
+    fn default() -> Self {
+        Self {
+            index: 0,
+            position: [0.0; 3],
+            velocity: [0.0; 3],
+            vorticity: [0.0; 3],
+            mass: 1.0,
+            kinetic_energy: 0.0,
+            volume0: 1.0,
+            ghost_pressure: 0.0,
+            plastic_strain: 0.0,
+            damage: 0.0,
+            deformation: glam::Mat3::IDENTITY.to_cols_array_2d(),
+            stress: [0.0; 6],
+            body: 0,
+            material: 0,
+        }
+    }
+}
+
 impl ParticleSample {
     /// Determinant of the deformation gradient: current volume over volume at rest.
     #[must_use]

@@ -139,15 +139,10 @@ mod tests {
                 velocity: speed.as_vec3().into(),
                 vorticity: [0.0, 0.0, if bar == 1 { 4.0 } else { 0.0 }],
                 mass: 2.0,
-                stress: [0.0; 6],
-                kinetic_energy: 0.0,
                 volume0: 0.125,
-                ghost_pressure: 0.0,
-                plastic_strain: 0.0,
                 damage: if k == 23 { 1.0 } else { 0.0 },
-                deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
                 body: bar,
-                material: 0,
+                ..ParticleSample::default()
             });
         }
         let grid = Grid { dimension: 3, cells: [32; 3], origin: [0.0; 3], spacing: 1.0 };

@@ -113,17 +113,8 @@ mod tests {
             index: k,
             position: [0.5 + k as f32 + if k < 2 { 0.0 } else { gap }, 0.5, 0.5],
             velocity: [1.0, 0.0, 0.0],
-            vorticity: [0.0; 3],
             mass: 2.0,
-            stress: [0.0; 6],
-            kinetic_energy: 0.0,
-            volume0: 1.0,
-            ghost_pressure: 0.0,
-            plastic_strain: 0.0,
-            damage: 0.0,
-            deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            body: 0,
-            material: 0,
+            ..ParticleSample::default()
         };
         let grid = Grid { dimension: 1, cells: [16, 1, 1], origin: [0.0; 3], spacing: 1.0 };
         Snapshot::of_particles((0.0, 0), grid, (0..4).map(particle).collect())

@@ -179,18 +179,11 @@ order = [{ quantity = "moved_x", bodies = ["near", "far"] }, { quantity = "moved
         let sample = |(index, seed): (usize, Seed)| ParticleSample {
             index: index as u32,
             position: [(seed.position[0] + [0.1, -0.2][seed.body as usize]) as f32, seed.position[1] as f32, 0.0],
-            velocity: [0.0; 3],
-            vorticity: [0.0; 3],
-            stress: [0.0; 6],
             mass: (seed.volume * seed.density) as f32,
-            kinetic_energy: 0.0,
             volume0: seed.volume as f32,
-            ghost_pressure: 0.0,
             plastic_strain: 0.3,
-            damage: 0.0,
-            deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             body: seed.body,
-            material: 0,
+            ..ParticleSample::default()
         };
         let particles = scene.seed_particles().into_iter().enumerate().map(sample);
         let grid = Grid { dimension: 2, cells: [20, 10, 1], origin: [0.0; 3], spacing: 0.1 };

@@ -50,22 +50,7 @@ mod tests {
     const GRID: Grid = Grid { dimension: 3, cells: [10, 10, 10], origin: [0.0; 3], spacing: 0.1 };
 
     fn particle(position: [f32; 3]) -> ParticleSample {
-        ParticleSample {
-            index: 0,
-            position,
-            velocity: [0.0; 3],
-            vorticity: [0.0; 3],
-            stress: [0.0; 6],
-            mass: 1.0,
-            kinetic_energy: 0.0,
-            volume0: 1e-3,
-            ghost_pressure: 0.0,
-            plastic_strain: 0.0,
-            damage: 0.0,
-            deformation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            body: 0,
-            material: 0,
-        }
+        ParticleSample { position, volume0: 1e-3, ..ParticleSample::default() }
     }
 
     #[test]

@@ -20,17 +20,14 @@ fn snapshot(dimension: u32) -> Snapshot {
         index: index as u32,
         position: [number(index), 0.5, 0.25],
         velocity: [1.0, number(index), 3.0],
-        vorticity: [0.0; 3],
-        stress: [0.0; 6],
-        kinetic_energy: 0.0,
         mass: 2.0,
         volume0: 0.5,
         ghost_pressure: -4.0,
         plastic_strain: 0.125,
-        damage: 0.0,
         deformation: [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.5]],
         body: index as u32,
         material: 1,
+        ..ParticleSample::default()
     };
     Snapshot {
         time: 0.1,
