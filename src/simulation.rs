@@ -70,9 +70,9 @@ pub struct Simulation {
     gas_before: [f64; 3],
     /// Impulse and work of the gas on each body, if that is told, on each obstacle, and on walls with gauges, since the start.
     borne: Vec<[f64; 4]>,
-    /// Energy of blasts and charges.
+    /// Energy of blasts and charges so far \[J\].
     blasts: f64,
-    /// Charges that have not gone off come after those that have.
+    /// Charges in the order in which they go off; `released` counts those that have.
     due: Vec<charges::Due>,
     released: Released,
     /// The time asked for \[s\].
@@ -81,10 +81,13 @@ pub struct Simulation {
     solves: u32,
     time: f64,
     step: u64,
+    /// Iterations, sub-steps and rounds that a step is recorded with.
     recorded: Recorded,
     /// All buffers, in the order in which they were made.
     buffers: Vec<Allocation>,
+    /// How many steps a submission holds.
     pace: Pace,
+    /// What ends a run whose steps become too short.
     least_step: LeastStep,
 }
 
@@ -161,9 +164,10 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// One step of the method, in the order of [Cao et al. 2022, section 2.2]. Nothing is read back: the device chooses dt, ends
-    /// the iteration, counts the sub-steps, and turns what is not due into dispatches of no groups. If the recorded iterations
-    /// or sub-steps do not suffice, the step goes on in the next call.
+    /// Records one step of the method, in the order of [Cao et al. 2022, section 2.2]: `record` of each stage appends its dispatches
+    /// to the pass, which runs them when it is submitted. Nothing is read back: the device chooses dt, ends the iteration, counts the
+    /// sub-steps, and turns what is not due, by its [`Phase`], into dispatches of no groups. If the recorded iterations or sub-steps do
+    /// not suffice, the step goes on in the next call.
     pub fn record_step(&self, pass: &mut Pass) {
         let state = &self.state;
         self.time_step.record(pass, state); // dt from gas, solids and the time asked for

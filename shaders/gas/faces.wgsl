@@ -13,8 +13,8 @@ fn image(n: u32, gas: Gas) -> Gas {
     return out;
 }
 
-// A cell of a row, or what it is the image of: word, and state of the gas there; beyond other sides of the nearest cell of the ring,
-// and of the gas beyond.
+// What stands at a place of a row: word and gas of the cell there; beyond a plane of symmetry, of the cell that it is the image of; beyond
+// any other side, the word of the ring's slot and the gas of the last cell, which row_around replaces by that beyond the side.
 struct Seen { word: u32, gas: Gas }
 
 fn seen(slot: u32, c: vec3i, n: u32, offset: i32) -> Seen {
@@ -53,7 +53,7 @@ fn beyond_side(n: u32, outward: f32, word: u32, here: Gas) -> Gas {
     return gas_beyond(opening_of(word), n, outward, here);
 }
 
-// The row as the face below the slot sees it, or the one above: a to f, the face between c and d.
+// The row as the face below the slot sees it, or the one above: a to f, the face between c and d; g counts no more.
 fn row_at_face(row: Row, up: bool) -> Row {
     return Row(nearer(row.a, row.b, up), nearer(row.b, row.c, up), nearer(row.c, row.d, up), nearer(row.d, row.e, up),
         nearer(row.e, row.f, up), nearer(row.f, row.g, up), row.g);
@@ -166,10 +166,12 @@ fn stencil_inside(n: u32, all_gas: bool, low_image: bool, high_image: bool, a: G
 // A cell must keep this share of what the first-order update leaves of density and internal energy.
 const KEPT = 0.1;
 
-// dt L(U) of both orders, and the worst that the high-order parts of the faces can do to a GAS cell: density and internal energy that
-// they take, and momentum that they bring, relative to `velocity`. heat: see Fluxes.
+// dt L(U) of both orders, of the high order with each face's share of it, and the worst that the high-order parts of the faces can do to a
+// GAS cell: density and internal energy that they take, and momentum that they bring, relative to `velocity`. heat: that of Fluxes, over the
+// span of one solve.
 struct Change { high_order: Gas, first_order: Gas, velocity: vec3f, lost_density: f32, lost_energy: f32, slip: vec3f, heat: f32 }
 
+// Adds the high-order part of a face, its flux less that of first order, to the worst.
 fn add_excess(change: ptr<function, Change>, flow: vec4f, energy: f32) {
     let velocity = (*change).velocity;
     let slip = flow.yzw - flow.x * velocity;
@@ -193,6 +195,7 @@ fn scaled(c: Change, share: f32) -> Change {
         share * c.lost_density, share * c.lost_energy, share * c.slip, share * c.heat);
 }
 
+// -1 + the largest share, by halves, of the first-order change that leaves KEPT of what is there.
 fn drained_share(before: Gas, change: Change) -> f32 {
     let least = KEPT * internal_energy(before);
     var share = 0.5;
@@ -217,12 +220,12 @@ fn allowed_share(before: Gas, change: Change) -> f32 {
     let slip = low.flow.yzw - low.flow.x * change.velocity;
     // rho e = E - v m + rho v^2 / 2 - |m - rho v|^2 / (2 rho) for every v; with v fixed only the last part is not linear.
     let least = KEPT * internal_energy(low);
-    let heat = internal_energy(low) + 0.5 * dot(slip, slip) / low.flow.x;
+    let available = internal_energy(low) + 0.5 * dot(slip, slip) / low.flow.x;
     var share = min(1.0, (1.0 - KEPT) * low.flow.x / max(change.lost_density, 1e-30));
     for (var k = 0; k < 12; k++) {
         let slips = abs(slip) + share * change.slip;
         let density = low.flow.x - share * change.lost_density;
-        if heat - share * change.lost_energy - 0.5 * dot(slips, slips) / density >= least { return share; }
+        if available - share * change.lost_energy - 0.5 * dot(slips, slips) / density >= least { return share; }
         share *= 0.5;
     }
     return 0.0;

@@ -10,14 +10,16 @@
 const WENO_EPSILON = 7e-4;
 // The same elsewhere: 0.1 %.
 const EVEN_EPSILON = 1e-6;
-// The first form takes over up to where the velocity falls from one cell to the next by this part of the speed of sound.
+// The third-order form takes over up to where the velocity falls from one cell to the next by this part of the speed of sound.
 const STEEP = 0.1;
 // Least speed of the dissipation in a shock, over that of sound. The solve captures shocks without dissipation of its own, and a shock
 // that the gas does not cross along this axis would get none: waves would trail it. B2B1 with one velocity for the faces needs more [docs/notes/reconstruction.md].
 fn shock_spread() -> f32 { return select(0.6, 1.2, QUADRATIC && CONSISTENT); }
 
-// Cells a to f along an axis, the face between c and d, the share of the second form there, how even the velocity is (0 to 1), and the
-// least speed of the dissipation.
+// Cells a to f along an axis, the face between c and d, and what that face takes from them:
+//   even     share of the fifth-order form, 1 without compression
+//   level    share of density, velocity and internal energy among what is reconstructed, 1 where the velocity neither falls nor rises
+//   spread   least speed of the dissipation
 struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32, level: f32, spread: f32 }
 
 // Of four cells, where others beyond them are no gas.
@@ -114,7 +116,8 @@ fn weno_from_both(even: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f, f
 // Euler flux is the solve's, so sound needs no dissipation here; shocks do, see shock_spread(). [Cao et al. 2022, section 2.3; Shu & Osher 1988]
 // Without a z axis the energy travels in the place of the z momentum, which is zero.
 
-// heat: the part of the energy's that two solves per step take from the solve instead [shared/state.wgsl].
+// heat: of the energy flux, the part that the solve carries where there are two per step [shared/state.wgsl]; internal energy at the start of
+// the step times the velocity of the face.
 // unit: density that passes in a stage is a multiple of it, see whole().
 struct Fluxes { high_order: Gas, first_order: Gas, heat: f32, unit: f32 }
 
@@ -140,11 +143,12 @@ fn unpacked(flux: vec4f, energy: f32) -> Gas {
     return Gas(flux, energy);
 }
 
-// Density, velocity and internal energy, and back.
-fn parts_of(gas: Gas) -> Gas { return Gas(vec4f(gas.flow.x, velocity_of(gas.flow)), internal_energy(gas)); }
-fn whole_of(parts: Gas) -> Gas {
-    let velocity = parts.flow.yzw;
-    return Gas(vec4f(parts.flow.x, parts.flow.x * velocity), parts.energy + 0.5 * parts.flow.x * dot(velocity, velocity));
+// Density, velocity and internal energy in the places of a state, and back.
+fn primitive_of(gas: Gas) -> Gas { return Gas(vec4f(gas.flow.x, velocity_of(gas.flow)), internal_energy(gas)); }
+fn conserved_of(primitive: Gas) -> Gas {
+    let density = primitive.flow.x;
+    let velocity = primitive.flow.yzw;
+    return Gas(vec4f(density, density * velocity), primitive.energy + 0.5 * density * dot(velocity, velocity));
 }
 
 // Both values of a state at a face.
@@ -171,8 +175,8 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     let up = 0.5 * (carried + spread);
     let down = 0.5 * (carried - spread);
     var out: Fluxes;
-    let parts = values_at(s.even, parts_of(s.a), parts_of(s.b), parts_of(s.c), parts_of(s.d), parts_of(s.e), parts_of(s.f));
-    out.high_order = sum_of(up, whole_of(parts.low), down, whole_of(parts.high));
+    let primitive = values_at(s.even, primitive_of(s.a), primitive_of(s.b), primitive_of(s.c), primitive_of(s.d), primitive_of(s.e), primitive_of(s.f));
+    out.high_order = sum_of(up, conserved_of(primitive.low), down, conserved_of(primitive.high));
     if s.level < 1.0 {
         let values = values_at(s.even, s.a, s.b, s.c, s.d, s.e, s.f);
         let steep = sum_of(up, values.low, down, values.high);
@@ -184,6 +188,7 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     return out;
 }
 
+// With the velocities of the cells, split by local Lax-Friedrichs [above].
 fn face_fluxes_of(n: u32, s: Stencil, held: f32) -> Fluxes {
     let behind = vec3f(velocity_along(n, s.a), velocity_along(n, s.b), velocity_along(n, s.c));
     let ahead = vec3f(velocity_along(n, s.d), velocity_along(n, s.e), velocity_along(n, s.f));

@@ -24,22 +24,23 @@ override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
 @group(0) @binding(4) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(5) var<storage, read_write> energy: array<f32>;
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
-@group(0) @binding(8) var<storage, read> extra: array<u32>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
+@group(0) @binding(8) var<storage, read> extra: array<u32>;
 
+// State of a slot that this stage carries, see the table above.
 fn source(slot: u32) -> Gas {
     if RUNGE_KUTTA == select(1u, 2u, ARS) { return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)]); }
     return Gas(in_space(conserved[slot]), energy[slot]);
 }
 
-// `share`: of the high-order flux that the cells of the face allow; below 0 no high-order part, and 1 + share of the first-order flux.
-// `sign`: 1 into the cell, -1 out of it; times the open share of the face.
+// Adds what a face passes. `share`: of the high-order part, that the cells of the face allow; below 0 there is none of it, and 1 + share of
+// the first-order flux. `sign`: 1 where the flux along +axis enters the cell, -1 where it leaves, times the open share of the face.
 fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
     let scale = sign * stage_span() / params.spacing;
-    let blend = max(share, 0.0);
-    let drain = 1.0 + min(share, 0.0);
-    let flow = select(drain * (f.first_order.flow + blend * (f.high_order.flow - f.first_order.flow)), f.high_order.flow, share == 1.0);
-    let heat = select(drain * (f.first_order.energy + blend * (f.high_order.energy - f.first_order.energy)), f.high_order.energy, share == 1.0);
+    let high = max(share, 0.0);
+    let first = 1.0 + min(share, 0.0);
+    let flow = select(first * (f.first_order.flow + high * (f.high_order.flow - f.first_order.flow)), f.high_order.flow, share == 1.0);
+    let total = select(first * (f.first_order.energy + high * (f.high_order.energy - f.first_order.energy)), f.high_order.energy, share == 1.0);
     var implicit = 0.0;
     if ARS {
         // The solve carries this part, over its own share of the step.
@@ -49,7 +50,7 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
     }
     let through = scale * flow;
     (*change).high_order.flow += vec4f(whole(through.x, f.unit), through.yzw);
-    (*change).high_order.energy += scale * (heat - implicit);
+    (*change).high_order.energy += scale * (total - implicit);
     (*change).first_order.flow += scale * f.first_order.flow;
     (*change).first_order.energy += scale * (f.first_order.energy - implicit);
     add_excess(change, scale * (f.high_order.flow - f.first_order.flow), scale * (f.high_order.energy - f.first_order.energy));
@@ -63,7 +64,8 @@ fn change_of(slot: u32, limited: bool) -> Change {
     return change;
 }
 
-// What passes the faces of a slot if it is GAS, else those it shares with GAS cells. `gives`: to slots of the ring what passes towards them.
+// Adds what passes the faces of a slot if it is GAS, else those that it shares with GAS cells. `gives`: and gives slots of the ring what passes
+// towards them.
 fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool, gives: bool) {
     let c = cell_of(slot);
     let is_gas = kind_of(cells[slot]) == GAS;
@@ -79,21 +81,21 @@ fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool, gives: boo
             let other = select(c - axis(n), c + axis(n), up);
             let r = row_at_face(row, up);
             if !is_gas && !(inside(other) && kind_of(select(r.c.word, r.d.word, up)) == GAS) { continue; }
-            var part = 1.0;
-            if limited { part = min(theta[slot], theta[slot_of(other)]); }
+            var share = 1.0;
+            if limited { share = min(theta[slot], theta[slot_of(other)]); }
             let f = face_fluxes(slot, c, n, up, r);
-            let open = select(1.0, -1.0, up) * aperture(select(slot_of(other), slot, is_gas), n, up == is_gas);
-            add_face(&along, f, part, open);
-            if is_gas && gives && !inside(other) { give(slot_of(other), f, part, -open); }
+            let sign = select(1.0, -1.0, up) * aperture(select(slot_of(other), slot, is_gas), n, up == is_gas);
+            add_face(&along, f, share, sign);
+            if is_gas && gives && !inside(other) { give(slot_of(other), f, share, -sign); }
         }
         *change = plus(*change, along);
     }
 }
 
-// What passes through the side to a slot of the ring, which has no other face.
-fn give(slot: u32, f: Fluxes, part: f32, sign: f32) {
+// Gives a slot of the ring what passes through the side; it has no other face.
+fn give(slot: u32, f: Fluxes, share: f32, sign: f32) {
     var change: Change;
-    add_face(&change, f, part, sign);
+    add_face(&change, f, share, sign);
     write_result(slot, start_of(slot, source(slot)), change);
 }
 
@@ -107,7 +109,7 @@ fn interior_fluxes(n: u32, low: u32, stencil: Stencil) -> Fluxes {
     return carried_fluxes(stencil, carried, carrier_spread(below[n], above[n]), held);
 }
 
-// The same through both faces across one axis, far from walls, bodies and open sides.
+// What passes both faces of a slot across one axis, deep inside the gas.
 fn axis_change(velocity: vec3f, slot: u32, word: u32, n: u32, here: Gas) -> Change {
     var change: Change;
     change.velocity = velocity;
@@ -157,6 +159,7 @@ fn write_result(slot: u32, before: Gas, all: Change) {
     }
 }
 
+// Ends the stage for a slot: limits the change and writes what follows.
 fn finish(slot: u32, here: Gas, change: Change) {
     let before = start_of(slot, here);
     var share = 1.0;
@@ -170,6 +173,7 @@ fn finish(slot: u32, here: Gas, change: Change) {
 // further, and the second of two solves starts from what the first has moved.
 fn stays(slot: u32) -> bool { return !CUT && !(ARS && RUNGE_KUTTA > 0u) && is_still(slot); }
 
+// Ends the stage for a slot that nothing passes.
 fn stay(slot: u32) {
     theta[slot] = 1.0;
     write_result(slot, Gas(in_space(conserved[slot]), energy[slot]), Change());

@@ -1,4 +1,4 @@
-// Which slot has a thread, and what is special there: gas that rests, obstacles that cut cells, open sides, the ledger of what is owed.
+// Which slot a thread has, and what is special there: gas that rests, obstacles that cut cells, open sides, entries of the ledger.
 // Needs the bindings cells and extra.
 #include "shared/index.wgsl"
 
@@ -28,6 +28,7 @@ fn swept_slot(thread: u32) -> u32 {
     }
     if thread >= swept_threads() { return params.slots; }
     if SWEEP == OVER_LISTED { return extra[part(LISTED_SLOTS, thread)]; }
+    // The frontier fills the list of slots from its end, which is where the lengths begin.
     if SWEEP == OVER_FRONTIER { return extra[part(LENGTHS, 0u) - 1u - thread]; }
     if SWEEP == OVER_INTERIOR && !has(cells[thread], INTERIOR) { return params.slots; }
     return thread;
@@ -105,7 +106,7 @@ fn aperture(slot: u32, n: u32, up: bool) -> f32 {
     return cut_value(entry, CUT_APERTURE + 2u * n + u32(up));
 }
 
-// What a corner of a face has to say, in the mean over the open part of this face.
+// Mean of the linear shape function of a corner of a face over the face's open part.
 fn face_shape(slot: u32, n: u32, up: bool, corner: vec3i) -> f32 {
     let entry = cut_entry(slot);
     if entry == 0u { return 1.0 / f32(1u << (DIM - 1u)); }

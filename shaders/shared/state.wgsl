@@ -1,5 +1,7 @@
 // What every kernel knows of a run: switches, parameters and control, what lies beyond sides and how bodies are held, the parts of arrays,
 // and the state of the gas. Mirror of src/state.
+// Two things are declared in no file of this folder: constants such as GAS or NO_EXTRA are written by src/state/constants.rs, and
+// thread_index() and when() stand in src/gpu/head.wgsl. Both go before every shader.
 
 // -- Switches and parameters --
 
@@ -183,6 +185,7 @@ const LENGTH_LISTED = 0u;
 const LENGTH_FRONTIER = 1u;
 // End of what is generated.
 
+// Place of a slot in part k of an array. Part 0 of energy is the total energy per volume: energy[slot].
 fn part(k: u32, slot: u32) -> u32 { return k * params.slots + slot; }
 
 // In vectors of unknowns, behind P of every vertex: h, then Q, of the vertices that carry them apart.

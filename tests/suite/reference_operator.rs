@@ -204,7 +204,7 @@ fn the_limiter_holds_for_every_mix_of_shares() {
             let u = [0, 1, 2, 3, 4].map(|k| first[k] + (0..4).map(|f| shares[f] * excess[f][k]).sum::<f64>());
             if u[0] > 0.0 { internal_energy(u) } else { -1.0 }
         };
-        let share = gas_advection::admissible(first, &excess, velocity);
+        let share = gas_advection::allowed_share(first, &excess, velocity);
         limited += usize::from(share < 1.0);
         if internal([1.0; 4]) >= 0.1 * internal([0.0; 4]) {
             worst_of_sum = worst_of_sum.min(internal([1.0, 0.0, 1.0, 0.0]));

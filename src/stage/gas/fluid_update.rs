@@ -43,7 +43,7 @@ impl FluidUpdate {
     }
 
     /// Gas that follows bodies, momentum; who pays where velocities part; energy; floor.
-    pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, control: &TimeStep) {
+    pub fn record(&self, pass: &mut Pass, state: &State, carrier: &CarrierVelocity, time_step: &TimeStep) {
         pass.stage(Stage::FluidUpdate.name());
         if let Some(late_flux) = &self.late_flux {
             late_flux.record(pass, state, Phase::Update);
@@ -58,7 +58,7 @@ impl FluidUpdate {
         if let Some(loads) = &self.loads {
             loads.record(pass, state, Phase::Update);
         }
-        control.record_cold(pass);
+        time_step.record_cold(pass);
         self.floor.plain.record(pass, state, Phase::Floor);
         self.floor.listed.record(pass, state, Phase::Update);
     }

@@ -1,5 +1,5 @@
 //! `gas_advection`: where does the gas carry itself? WENO with local Lax-Friedrichs splitting, TVD-RK2 or, with two solves, three stages; conservative limiter.
-//! [Cao et al. 2022, eqs. 10-12] Marches come first: what they write into listed slots is overwritten.
+//! [Cao et al. 2022, eqs. 10-12] The form over marches runs first: the form over the list overwrites what it writes into listed slots.
 
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
@@ -41,14 +41,14 @@ impl GasAdvection {
         Ok(Self { stages: (0..=solves).map(|stage| RungeKuttaStage::new(state, stage)).collect::<Result<_>>()? })
     }
 
-    /// One of the stages, from 0, in a phase: two belong to one advection, or with two solves one to the first and two to the second.
-    pub fn record(&self, pass: &mut Pass, state: &State, control: &TimeStep, runge_kutta: usize, phase: Phase) {
+    /// One Runge-Kutta stage, from 0, in a phase, and its correction, which `time_step` opens where the limiter has acted.
+    pub fn record(&self, pass: &mut Pass, state: &State, time_step: &TimeStep, runge_kutta: usize, phase: Phase) {
         pass.stage(Stage::GasAdvection.name());
         let kernels = &self.stages[runge_kutta];
         for form in &kernels.forms {
             form.record(pass, state, phase);
         }
-        control.record_limiter(pass);
+        time_step.record_limiter(pass);
         pass.dispatch(&kernels.limited, &state.extent(Phase::Limit, Over::Slots));
     }
 }

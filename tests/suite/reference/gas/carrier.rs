@@ -119,12 +119,12 @@ impl Carrier {
 }
 
 /// Density, velocity and internal energy of a state.
-pub(crate) fn parts_of(u: [f64; 5]) -> [f64; 5] {
+pub(crate) fn primitive_of(u: [f64; 5]) -> [f64; 5] {
     [u[0], u[1] / u[0], u[2] / u[0], u[3] / u[0], internal_energy(u)]
 }
 
-/// The state of such parts.
-pub(crate) fn whole_of(p: [f64; 5]) -> [f64; 5] {
+/// And back.
+pub(crate) fn conserved_of(p: [f64; 5]) -> [f64; 5] {
     let kinetic = 0.5 * p[0] * (p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
     [p[0], p[0] * p[1], p[0] * p[2], p[0] * p[3], p[4] + kinetic]
 }

@@ -2,7 +2,7 @@
 //! TVD-RK2, positivity limiter.
 
 pub(crate) use crate::reference::boundary::fill_ghosts;
-use crate::reference::gas::carrier::{Carrier, parts_of, whole_of};
+use crate::reference::gas::carrier::{Carrier, conserved_of, primitive_of};
 use crate::reference::grid::shift;
 use crate::reference::interface::Interface;
 use crate::reference::{GAS, GHOST, Gas, Pair, Problem, SOLID, Weno, internal_energy};
@@ -16,8 +16,8 @@ const STEEP: f64 = 0.1;
 /// The six cells across a face, which lies between the third and fourth.
 type Stencil = [[f64; 5]; 6];
 
-/// What a face takes from its six cells: the share of the fifth-order form where they are not compressed, how even their velocity is, and
-/// the least speed of the dissipation.
+/// What a face takes from its six cells, as `Stencil` of `flux.wgsl` has it: the share of the fifth-order form, that of density, velocity and
+/// internal energy among what is reconstructed, and the least speed of the dissipation.
 #[derive(Clone, Copy)]
 pub(crate) struct Shock {
     even: f64,
@@ -100,7 +100,7 @@ fn carried_flux(weno: Weno, shock: Shock, stencil: &Stencil, carried: f64, alpha
         reversed.reverse();
         [*stencil, reversed].map(|cells| [0, 1, 2, 3, 4].map(|k| reconstruct(weno, shock.even, cells.map(|u| u[k]))))
     };
-    let [low, far] = sides(&stencil.map(parts_of)).map(whole_of);
+    let [low, far] = sides(&stencil.map(primitive_of)).map(conserved_of);
     let [steep_low, steep_far] = sides(stencil);
     for k in 0..5 {
         let smooth = up * low[k] + down * far[k];
@@ -221,7 +221,7 @@ fn updated(problem: &Problem, gas: &Gas, fluxes: &Fluxes, c: [i32; 3], dt: f64) 
 }
 
 /// What the high-order fluxes add to those of first order through every face of a cell.
-fn parts(problem: &Problem, (weno, first): (&Fluxes, &Fluxes), c: [i32; 3], dt: f64) -> Vec<[f64; 5]> {
+fn excess_of(problem: &Problem, (weno, first): (&Fluxes, &Fluxes), c: [i32; 3], dt: f64) -> Vec<[f64; 5]> {
     let grid = &problem.grid;
     let faces = (0..grid.dimension).flat_map(|axis| [(axis, shift(c, axis, -1), 1.0), (axis, c, -1.0)]);
     let part = |(axis, low, sign): (usize, [i32; 3], f64)| {
@@ -233,7 +233,7 @@ fn parts(problem: &Problem, (weno, first): (&Fluxes, &Fluxes), c: [i32; 3], dt: 
 
 /// Largest share of the high-order parts of a cell's faces, `excess`, each of which may come with any smaller share, that keeps density
 /// and internal energy above a tenth of those of the first-order update.
-pub(crate) fn admissible(first: [f64; 5], excess: &[[f64; 5]], velocity: [f64; 3]) -> f64 {
+pub(crate) fn allowed_share(first: [f64; 5], excess: &[[f64; 5]], velocity: [f64; 3]) -> f64 {
     let slip_of = |u: &[f64; 5]| [0, 1, 2].map(|k| u[1 + k] - u[0] * velocity[k]);
     let (mut density, mut energy, mut slip) = (0.0, 0.0, [0.0; 3]);
     for part in excess {
@@ -248,8 +248,8 @@ pub(crate) fn admissible(first: [f64; 5], excess: &[[f64; 5]], velocity: [f64; 3
     let internal = internal_energy(first);
     let mut theta = f64::min(1.0, 0.9 * first[0] / density.max(1e-300));
     for _ in 0..12 {
-        let heat = internal + 0.5 * square(0.0) / first[0] - theta * energy;
-        if heat - 0.5 * square(theta) / (first[0] - theta * density) >= 0.1 * internal {
+        let available = internal + 0.5 * square(0.0) / first[0] - theta * energy;
+        if available - 0.5 * square(theta) / (first[0] - theta * density) >= 0.1 * internal {
             return theta;
         }
         theta *= 0.5;
@@ -279,7 +279,7 @@ pub(crate) fn central_heat(problem: &Problem, interface: &Interface, [gas, held]
 }
 
 /// Fluxes of `gas` after the limiter, which looks at their change of `start`, and how many cells it touched. A share `implicit` of
-/// the central heat that was `held` is left to the solve.
+/// [`central_heat`] with the internal energy of `held` is left to the solve.
 pub(crate) fn limited(
     problem: &Problem,
     interface: &Interface,
@@ -301,8 +301,8 @@ pub(crate) fn limited(
     for c in grid.interior() {
         let slot = grid.slot(c);
         if interface.cells[slot] == GAS {
-            let excess = parts(problem, (&weno, &first), c, dt);
-            theta[slot] = admissible(updated(problem, start, &first, c, dt), &excess, gas.velocity(slot));
+            let excess = excess_of(problem, (&weno, &first), c, dt);
+            theta[slot] = allowed_share(updated(problem, start, &first, c, dt), &excess, gas.velocity(slot));
             touched += usize::from(theta[slot] < 1.0);
         }
     }
@@ -319,8 +319,8 @@ pub(crate) fn limited(
     (weno, touched)
 }
 
-/// One forward Euler stage: adds what `gas` carries to `start`, but for a share `implicit` of the central heat; budgets what enters solid
-/// cells on the ledger with `share` of the step.
+/// One Euler stage of `dt`: adds what `gas` carries to `start`, with `implicit` as [`limited`] takes it. The ledger gets what enters solid
+/// cells in `share` of `dt`.
 pub(crate) fn stage(
     problem: &Problem,
     interface: &Interface,
