@@ -36,7 +36,6 @@ pub struct BodyState {
 
 impl Snapshot {
     /// The first `count` bodies of the scene.
-    #[must_use]
     pub fn bodies(&self, count: usize) -> Vec<BodyState> {
         let empty = BodyState { extent: [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], ..BodyState::default() };
         let mut bodies = vec![empty; count];
@@ -75,7 +74,6 @@ impl Snapshot {
 
     /// The piece that each particle belongs to, by the smallest [`ParticleSample::index`] in it: a piece keeps its number while it is
     /// one, and of those that it splits into one keeps it. Broken particles away from all pieces have their own.
-    #[must_use]
     pub fn piece_of_each(&self) -> Vec<u32> {
         let (places, roots) = self.groups();
         let root = |particle: &ParticleSample| places.binary_search(&self.place(particle)).ok().map(|at| roots[at]);

@@ -36,7 +36,6 @@ pub struct Load {
 
 impl Load {
     /// From the vec4 entries of its history ring, see `load_record` in `shaders/step/loads.wgsl`; moments there are about `corner`.
-    #[must_use]
     pub(crate) fn from_raw(raw: &[[f32; 4]], corner: [f32; 3]) -> Vec<Self> {
         let load = |raw: &[[f32; 4]]| {
             let [[x, y, z, power], [a, b, c, pressed], [area, ..]] = [raw[0], raw[1], raw[2]];
@@ -142,7 +141,6 @@ pub struct StepRecord {
 
 impl StepRecord {
     /// From the vec4 entries of the history ring (`given` of this step alone), see `totals_record` in `shaders/step/diagnostics.wgsl`.
-    #[must_use]
     pub(crate) fn from_raw(raw: &[[f32; 4]]) -> Self {
         let total =
             |flow: [f32; 4], energy: f32| Total { mass: flow[0], momentum: [flow[1], flow[2], flow[3]], energy };
@@ -198,7 +196,6 @@ impl StepRecord {
     }
 
     /// From two vec4 entries per probe.
-    #[must_use]
     pub(crate) fn probes_from_raw(raw: &[[f32; 4]]) -> Vec<ProbeRecord> {
         let probe = |pair: &[[f32; 4]]| ProbeRecord {
             density: pair[0][0],

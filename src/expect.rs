@@ -171,7 +171,6 @@ impl Budget {
     }
 
     /// Relative change since `start`.
-    #[must_use]
     pub fn drift_since(&self, start: &Self) -> BTreeMap<String, f64> {
         let relative = |now: f64, then: f64| if then == 0.0 { 0.0 } else { (now - then) / then };
         BTreeMap::from([
@@ -253,7 +252,6 @@ impl Summary {
 
     /// Elastic energy after the last step, without that of the ghost pressure, the heat of plastic flow, what cracks took, and what of these
     /// has left the domain \[J\].
-    #[must_use]
     pub fn stored_energy(&self) -> f64 {
         let stored = |last: &StepRecord| {
             let all = [last.elastic_energy, last.plastic_heat, last.fracture_energy, last.gone_energy];
@@ -297,7 +295,6 @@ pub struct Ending<'a> {
 }
 
 /// Compares a run with the `[expect]` table of its scene; one line per key that is given.
-#[must_use]
 pub fn evaluate(scene: &Scene, ending: &Ending<'_>) -> Vec<Check> {
     let (expect, summary) = (&scene.expect, ending.summary);
     let drift = ending.end.drift_since(ending.start);
@@ -369,7 +366,6 @@ impl Checks {
 }
 
 /// L1 error of the density against the exact solution \[kg m^-2\], if the scene is a shock tube.
-#[must_use]
 pub fn density_error(scene: &Scene, snapshot: &Snapshot) -> Option<f64> {
     let (exact, jump) = scene.riemann()?;
     let spacing = scene.domain.spacing();

@@ -1,7 +1,6 @@
 //! glam re-exports and small pure helpers.
 
 /// A number as people write it, with about five digits: 4, 0.81, 12345, 1.5e-7.
-#[must_use]
 pub fn plain(number: f64) -> String {
     let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
     match rounded.abs() {

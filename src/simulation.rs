@@ -19,9 +19,9 @@ use crate::gpu::{Allocation, Detail, Gpu, Pass, Settings, Times, readback, watch
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, Detonate, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate, G2p,
-    GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven, P2g, ParticleSort,
-    Still, Supports, TimeStep, Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, Decision, Detonate, ElasticFirst, ElasticReaction, ElasticSolve,
+    FluidUpdate, G2p, GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven,
+    P2g, ParticleSort, Still, Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::NO_FAULT;
 use crate::state::{Control, Phase, State};
@@ -154,12 +154,12 @@ impl Simulation {
         };
         gpu.finish_kernels()?;
         let mut pass = Pass::new(gpu, "start");
-        simulation.time_step.record_start(&mut pass);
+        simulation.time_step.decide(&mut pass, Decision::Start);
         if let Some(particle_sort) = &simulation.particle_sort {
             particle_sort.record(&mut pass, &simulation.state);
         }
         simulation.interface.record_start(&mut pass, &simulation.state);
-        simulation.time_step.record_listed(&mut pass);
+        simulation.time_step.decide(&mut pass, Decision::Listed);
         pass.submit()?;
         Ok(simulation)
     }
@@ -184,7 +184,7 @@ impl Simulation {
         }
         self.record_held(pass, Phase::Begin);
         self.record_force(pass);
-        self.time_step.record_listed(pass);
+        self.time_step.decide(pass, Decision::Listed);
         self.still.record(pass, state);
         self.record_advection(pass, 0, Carried::Start, Phase::Begin); // (3) eqs. 10-12
         if self.solves == 1 {
@@ -192,7 +192,7 @@ impl Simulation {
             self.record_pressure(pass, Phase::Begin);
         } else {
             self.record_pressure(pass, Phase::Begin);
-            self.time_step.record_second(pass); // [Ascher, Ruuth & Spiteri 1997; Wicker & Skamarock 2002]
+            self.time_step.decide(pass, Decision::Second); // [Ascher, Ruuth & Spiteri 1997; Wicker & Skamarock 2002]
             self.gas_advection.record(pass, state, &self.time_step, 1, Phase::Second); // with the carrier that `fluid_update` left of the solved state
             self.record_advection(pass, 2, Carried::SecondHalfway, Phase::Second);
             self.record_pressure(pass, Phase::Second);
@@ -202,7 +202,7 @@ impl Simulation {
             elastic_reaction.record_after(pass, state);
         }
         self.record_elastic(pass); // (6) elasticity, walls; (7) grid to particles
-        self.time_step.record_finish(pass);
+        self.time_step.decide(pass, Decision::Finish);
         if let Some(odd_even) = &self.odd_even {
             odd_even.record(pass, state);
         }
@@ -230,7 +230,7 @@ impl Simulation {
         }
         self.coupled_solve.record_setup(pass, state, phase);
         self.coupled_solve.record_iterations(pass, self.recorded.iterations); // (5) eq. 37
-        self.time_step.record_solved(pass);
+        self.time_step.decide(pass, Decision::Solved);
         self.coupled_solve.record_solution(pass, state);
         if let Some(elastic_reaction) = &self.elastic_reaction {
             elastic_reaction.record_aside(pass, state);

@@ -29,7 +29,6 @@ pub fn closest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<
 }
 
 /// `; did you mean `a`, `b`?`, or nothing.
-#[must_use]
 pub fn did_you_mean<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     let found: Vec<String> = closest(word, names).iter().map(|name| format!("`{name}`")).collect();
     if found.is_empty() { String::new() } else { format!("; did you mean {}?", found.join(" or ")) }

@@ -46,7 +46,6 @@ macro_rules! structure {
 
         impl $name {
             /// The structure in both languages.
-            #[must_use]
             $vis fn shared() -> $crate::structure::Shared {
                 let members = [$((stringify!($member), stringify!($kind), concat!($($doc),+))),+];
                 $crate::structure::Shared {
@@ -77,7 +76,6 @@ macro_rules! numbers {
             pub const NAMES: &'static [&'static str] = &[$(stringify!($variant)),+];
 
             /// The numbers as WGSL, behind a prefix.
-            #[must_use]
             pub fn wgsl(prefix: &str) -> String {
                 $crate::structure::wgsl_numbers(prefix, Self::NAMES)
             }

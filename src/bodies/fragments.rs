@@ -37,7 +37,6 @@ pub struct Fragment {
 impl Snapshot {
     /// The pieces of all bodies by their numbers; `piece_of_each` is [`Snapshot::piece_of_each`]. Broken particles away from all pieces
     /// are none.
-    #[must_use]
     pub fn fragments(&self, piece_of_each: &[u32]) -> Vec<Fragment> {
         let mut all: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for (index, piece) in piece_of_each.iter().enumerate() {
@@ -49,7 +48,6 @@ impl Snapshot {
     }
 
     /// Largest speed of any particle \[m s^-1\].
-    #[must_use]
     pub fn fastest(&self) -> f64 {
         let speed = |particle: &ParticleSample| f64::from(glam::Vec3::from(particle.velocity).length());
         self.particles.iter().map(speed).fold(0.0, f64::max)

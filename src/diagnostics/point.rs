@@ -25,7 +25,6 @@ pub struct PointRecord {
 
 impl PointRecord {
     /// From the entries of the history ring, see `shaders/step/gauges.wgsl`, and where the points were at the start.
-    #[must_use]
     pub(crate) fn from_raw(raw: &[[f32; 4]], start: &[[f32; 3]], grid: &Grid) -> Vec<Self> {
         raw.chunks_exact(GAUGE_WIDTH as usize).zip(start).map(|(raw, start)| Self::of(raw, *start, grid)).collect()
     }

@@ -30,7 +30,6 @@ pub struct Gauge {
 
 impl Gauge {
     /// Of pressures \[Pa\] at rising times \[s\]; entries that are no numbers are left out. None without a number.
-    #[must_use]
     pub fn of(times: &[f64], pressures: &[f64]) -> Option<Self> {
         let finite = |(t, p): &(f64, f64)| t.is_finite() && p.is_finite();
         let all: Vec<(f64, f64)> = times.iter().copied().zip(pressures.iter().copied()).filter(finite).collect();

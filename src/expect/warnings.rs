@@ -102,7 +102,6 @@ pub const RULES: [Rule; 10] = [
 ];
 
 /// The rules as a table in Markdown.
-#[must_use]
 pub fn table() -> String {
     let mut text = "| Name | What is watched | Limit | Reason | Advice |\n|---|---|---|---|---|\n".to_owned();
     for Rule { name, quantity, limit, reason, advice } in RULES {
@@ -208,13 +207,11 @@ impl Watched {
 }
 
 /// What a run is warned of, in the order of the rules; those that the scene expects, too.
-#[must_use]
 pub fn warnings(scene: &Scene, ending: &Ending<'_>) -> Vec<Warning> {
     over_limit(scene, |name| measure(name, scene, ending))
 }
 
 /// The same from the steps alone, while a run goes on. `start` is its budget before the first step.
-#[must_use]
 pub fn marks(scene: &Scene, start: &Budget, summary: &Summary) -> Vec<Warning> {
     over_limit(scene, |name| of_steps(name, scene, start, summary))
 }
@@ -237,13 +234,11 @@ fn over_limit(scene: &Scene, measure: impl Fn(Warned) -> Option<(f64, String)>) 
 }
 
 /// All watched numbers that the scene has.
-#[must_use]
 pub fn watched(scene: &Scene, ending: &Ending<'_>) -> BTreeMap<Warned, f64> {
     RULES.iter().filter_map(|rule| Some((rule.name, measure(rule.name, scene, ending)?.0))).collect()
 }
 
 /// Warnings that the scene expects and that did not come.
-#[must_use]
 pub fn absent(scene: &Scene, warnings: &[Warning]) -> Vec<Warned> {
     let came = |name: &Warned| warnings.iter().any(|warning| warning.name == *name);
     scene.expect.warnings.keys().copied().filter(|name| !came(name)).collect()

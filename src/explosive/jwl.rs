@@ -32,20 +32,17 @@ pub struct ChapmanJouguet {
 
 impl Jwl {
     /// The part of the pressure that does not depend on E \[Pa\].
-    #[must_use]
     pub fn cold(&self, volume: f64) -> f64 {
         let term = |factor: f64, rate: f64| factor * (1.0 - self.omega / (rate * volume)) * (-rate * volume).exp();
         term(self.a, self.r1) + term(self.b, self.r2)
     }
 
     /// Pressure \[Pa\] at a volume and an energy \[J m^-3\].
-    #[must_use]
     pub fn pressure(&self, volume: f64, energy: f64) -> f64 {
         self.cold(volume) + self.omega * energy / volume
     }
 
     /// Speed of sound squared times the density of the solid explosive \[Pa\]: -V^2 dp/dV at constant entropy.
-    #[must_use]
     pub fn stiffness(&self, volume: f64, energy: f64) -> f64 {
         let term = |factor: f64, rate: f64| {
             let x = rate * volume;
@@ -57,7 +54,6 @@ impl Jwl {
 
     /// The Chapman-Jouguet state: of all ends of Rayleigh lines on the Hugoniot curve E = E0 + p (1 - V) / 2 the one of the slowest
     /// detonation.
-    #[must_use]
     pub fn chapman_jouguet(&self, density: f64) -> ChapmanJouguet {
         let pressure = |volume: f64| {
             (self.cold(volume) + self.omega * self.energy / volume)

@@ -38,7 +38,6 @@ struct Curve {
 }
 
 /// The blast of a mass of TNT \[kg\] at a distance \[m\]; none outside of [`RANGE`].
-#[must_use]
 pub fn blast(burst: Burst, mass: f64, distance: f64) -> Option<Blast> {
     let scale = mass.cbrt();
     let scaled = distance / scale;

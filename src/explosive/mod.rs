@@ -31,7 +31,6 @@ pub struct Explosive {
 
 impl Explosive {
     /// Energy of detonation \[J kg^-1\].
-    #[must_use]
     pub fn specific_energy(&self) -> f64 {
         self.products.energy / self.density
     }
@@ -78,7 +77,6 @@ pub const EXPLOSIVES: [Explosive; 4] = [
 ];
 
 /// The explosive of a name.
-#[must_use]
 pub fn explosive(name: &str) -> Option<&'static Explosive> {
     EXPLOSIVES.iter().find(|explosive| explosive.name == name)
 }

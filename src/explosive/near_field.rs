@@ -51,14 +51,12 @@ impl NearField {
     }
 
     /// Radius of the charge \[m\].
-    #[must_use]
     pub fn radius(&self) -> f64 {
         let axes = self.axes as f64;
         (axes * self.mass / (self.surface() * self.explosive.density)).powf(1.0 / axes)
     }
 
     /// Heat that burning on has given to the products up to a time \[J kg^-1\].
-    #[must_use]
     pub fn afterburnt(&self, time: f64) -> f64 {
         let heat = AFTERBURN * self.explosive.tnt_equivalent;
         if self.afterburn { heat * (time / self.afterburn_time()).min(1.0) } else { 0.0 }
@@ -70,13 +68,11 @@ impl NearField {
     }
 
     /// Cube root of the mass of the ball that has the radius of the charge \[kg^(1/3)\]: lengths and times grow with it.
-    #[must_use]
     pub fn scale(&self) -> f64 {
         (4.0 / 3.0 * std::f64::consts::PI * self.explosive.density).cbrt() * self.radius()
     }
 
     /// The start: gas reaches to `reach` \[m\], in zones of at most `width` \[m\].
-    #[must_use]
     pub fn start(&self, reach: f64, width: f64) -> Expansion {
         let radius = self.radius();
         let first = radius / CHARGE_ZONES as f64;
@@ -238,7 +234,6 @@ impl Expansion {
     }
 
     /// Radius of the front \[m\]: the outer edge of the outermost zone whose pressure has risen.
-    #[must_use]
     pub fn front(&self) -> f64 {
         let risen = |zone: &Zone| zone.pressure > (1.0 + FRONT) * self.field.pressure;
         let last = self.zones.iter().rposition(risen).unwrap_or(CHARGE_ZONES - 1);
@@ -246,13 +241,11 @@ impl Expansion {
     }
 
     /// Radius of the products \[m\].
-    #[must_use]
     pub fn contact(&self) -> f64 {
         self.nodes[CHARGE_ZONES]
     }
 
     /// Pressure at a radius \[Pa\].
-    #[must_use]
     pub fn pressure_at(&self, radius: f64) -> f64 {
         let zone = self.nodes.partition_point(|&node| node <= radius);
         let middle = |zone: usize| 0.5 * (self.nodes[zone] + self.nodes[zone + 1]);
@@ -266,7 +259,6 @@ impl Expansion {
     }
 
     /// Mass \[kg\] and energy \[J\] of the whole.
-    #[must_use]
     pub fn totals(&self) -> [f64; 2] {
         let mass: f64 = self.zones.iter().map(|zone| zone.mass).sum();
         let heat: f64 = self.zones.iter().map(|zone| zone.mass * zone.energy).sum();
@@ -289,7 +281,6 @@ impl Expansion {
     }
 
     /// Means over `count` shells out to a radius \[m\].
-    #[must_use]
     pub fn profile(&self, radius: f64, count: usize) -> Profile {
         let power = self.field.axes as i32;
         let mut shells = vec![[0.0; 3]; count];

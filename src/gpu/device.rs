@@ -282,11 +282,6 @@ impl Gpu {
         *lock(&self.at_work) = what;
     }
 
-    /// Forgets compiled shaders, so that the next [`super::Kernel`] reads the sources again (live editing).
-    pub fn forget_shaders(&self) {
-        lock(&self.shaders).clear();
-    }
-
     /// The counter behind [`Gpu::allocated_bytes`].
     pub(super) fn ledger(&self) -> &Arc<AtomicU64> {
         &self.allocated

@@ -214,9 +214,6 @@ impl Pcg {
     }
 
     /// Prepares a system.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(
         gpu: &Gpu,
         vectors: &PcgVectors,
@@ -329,7 +326,6 @@ impl Pcg {
 }
 
 /// WGSL constants that other shaders need to read the outcome of a solve.
-#[must_use]
 pub fn source() -> String {
     let mut text = wgsl_numbers("PCG", &OUTCOMES) + &Groups::wgsl("PCG");
     text.push_str(&format!("const PCG_LEVELS = {LEVELS}u;\n"));

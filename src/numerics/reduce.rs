@@ -58,7 +58,6 @@ impl Reduce {
     }
 
     /// Where the number arrives: one element.
-    #[must_use]
     pub fn result(&self) -> &Buffer<f32> {
         &self.result
     }

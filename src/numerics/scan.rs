@@ -71,7 +71,6 @@ impl Scan {
     }
 
     /// Workgroups of each dispatch of a scan with this many outputs, known before it is built.
-    #[must_use]
     pub fn plan(outputs: u32) -> Vec<[u32; 3]> {
         let blocks = level_lengths(outputs).into_iter().map(|length| length.div_ceil(BLOCK).max(1));
         let up: Vec<_> = blocks.map(|blocks| group_counts(u64::from(blocks))).collect();
@@ -80,22 +79,14 @@ impl Scan {
     }
 
     /// Bytes that a scan with this many outputs allocates, known before it is built.
-    #[must_use]
     pub fn planned_bytes(outputs: u32) -> u64 {
         let blocks = level_lengths(outputs).into_iter().map(|length| u64::from(length.div_ceil(BLOCK).max(1)));
         blocks.map(|blocks| 2 * blocks * size_of::<u32>() as u64).sum()
     }
 
     /// Workgroups of each dispatch: what [`Scan::record_with`] runs when nothing is to be skipped.
-    #[must_use]
     pub fn group_counts(&self) -> Vec<[u32; 3]> {
         self.dispatches.iter().map(|(_, groups)| *groups).collect()
-    }
-
-    /// Bytes of scratch memory.
-    #[must_use]
-    pub fn scratch_bytes(&self) -> u64 {
-        self.scratch.iter().map(Buffer::size_bytes).sum()
     }
 
     /// Records the scan.

@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use crate::gpu::Pass;
+use crate::stage::Decision;
 use crate::state::Phase;
 
 impl Simulation {
@@ -23,7 +24,7 @@ impl Simulation {
             for _ in 0..self.recorded.rounds {
                 elastic_solve.record_round(pass, &self.state, self.recorded.round_iterations);
             }
-            self.time_step.record_substep(pass);
+            self.time_step.decide(pass, Decision::Substep);
             elastic_solve.record_finish(pass, &self.state);
             g2p.record(pass, &self.state);
             elastic_solve.record_balance(pass, &self.state);
@@ -37,7 +38,7 @@ impl Simulation {
     /// One elastic sub-step. The first recorded one may be the first of a step or the continuation of a long one.
     fn record_substep(&self, pass: &mut Pass, recorded: u32) {
         let state = &self.state;
-        self.time_step.record_substep(pass);
+        self.time_step.decide(pass, Decision::Substep);
         let stages = (&self.particle_sort, &self.p2g, &self.mpm_grid_update, &self.g2p);
         let (Some(particle_sort), Some(p2g), Some(mpm_grid_update), Some(g2p)) = stages else { return };
         if let Some(elastic_first) = &self.elastic_first {

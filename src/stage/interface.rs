@@ -32,9 +32,6 @@ struct Solids {
 
 impl InterfaceStage {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         let gpu = &state.gpu;
         let mark = |entry: &str| state.bind("interface/interface_mark.wgsl", entry, &[], &[]);

@@ -1,4 +1,5 @@
-//! The stages of a step, in order. Each owns its kernels with their buffers: `new` binds, `record` dispatches.
+//! The stages of a step, in order. Each owns its kernels with their buffers: `new` binds, with an error if a shader or a buffer is wrong;
+//! `record` appends the dispatches to a pass.
 //! [`crate::state::stages`] lists them with the questions that they answer.
 //!
 //! Stages do not know each other. They communicate through the buffers of [`crate::state::State`] only, in the order written
@@ -20,4 +21,4 @@ pub use solid::{
     Supports, Transfer,
 };
 pub use solve::CoupledSolve;
-pub use step::{Gauges, Loads, Maps, TimeStep, Totals};
+pub use step::{Decision, Gauges, Loads, Maps, TimeStep, Totals};

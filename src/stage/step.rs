@@ -9,5 +9,5 @@ mod totals;
 pub use gauges::Gauges;
 pub use loads::Loads;
 pub use maps::Maps;
-pub use time_step::TimeStep;
+pub use time_step::{Decision, TimeStep};
 pub use totals::Totals;

@@ -9,7 +9,6 @@ use crate::state::{Control, Knot, MotionAt, Opening, Params, Support};
 use crate::structure::Shared;
 
 /// For each file below `shaders/` that shows some: a kernel that takes it, and the structures.
-#[must_use]
 pub fn all() -> Vec<(&'static str, &'static str, Vec<Shared>)> {
     vec![
         ("shared/state.wgsl", "step/time_step.wgsl", vec![Params::shared()]),

@@ -99,7 +99,6 @@ pub struct Load {
 }
 
 /// Bytes that a stage has moved in a run, by its name.
-#[must_use]
 pub fn bytes(stage: &str, load: &Load) -> u64 {
     let solids = u64::from(load.particles > 0);
     let of_row = |row: &Traffic| {

@@ -32,7 +32,6 @@ const STEP: u32 = 1000;
 
 impl When {
     /// Place in the order of two steps.
-    #[must_use]
     pub fn order(self) -> u32 {
         match self {
             At(stage) if stage <= FluidUpdate => stage as u32,
@@ -92,7 +91,6 @@ pub enum Scenes {
 
 impl Scenes {
     /// Whether some scene has both.
-    #[must_use]
     pub fn meet(self, other: Scenes) -> bool {
         use Scenes::{All, Bodies, ElasticFirst, Explicit, Gas, Implicit, SolveFirst, TwoSolves};
         let bodies = |scenes| matches!(scenes, Bodies | SolveFirst | Explicit | Implicit | ElasticFirst);
@@ -161,7 +159,6 @@ impl Use {
     }
 
     /// Number of the part.
-    #[must_use]
     pub const fn part(&self) -> u32 {
         match self.name {
             Name::Part(part, _) => part,
@@ -170,7 +167,6 @@ impl Use {
     }
 
     /// Whether a use that begins when this one does, or later, would stand in its words while they are needed.
-    #[must_use]
     pub fn meets(&self, later: &Use) -> bool {
         let place = |own: &Use| match own.name {
             Name::Place(member) => Err(member),
@@ -331,7 +327,6 @@ pub const USES: &[Use] = &[
 ];
 
 /// Parts of an array in a scene with one solve per step or `two`.
-#[must_use]
 pub fn parts(array: &str, two: bool) -> usize {
     let own = USES.iter().filter(|own| own.array == array && (two || own.scenes != Scenes::TwoSolves));
     own.map(|own| own.part() as usize + 1).max().unwrap_or(0)

@@ -42,7 +42,6 @@ pub const COLUMN_BLOCK: u32 = 8;
 ///
 /// # Panics
 /// If the name is not among them: a bug of the caller.
-#[must_use]
 pub fn number(names: &[&str], name: &str) -> u32 {
     names.iter().position(|known| *known == name).expect("names are literals of this crate") as u32
 }
@@ -94,7 +93,6 @@ const NUMBERS: [(&str, u32); 22] = [
 ];
 
 /// The constants as WGSL.
-#[must_use]
 pub fn source() -> String {
     let mut text = String::new();
     let mut put = |name: &str, value: u32| {
@@ -126,7 +124,6 @@ pub fn source() -> String {
 }
 
 /// The constants for one shader file; those that ask materials something also get the switch over the registered laws.
-#[must_use]
 pub fn source_for(shader: &str) -> String {
     let mut text = source();
     if MATERIAL_SHADERS.contains(&shader) {

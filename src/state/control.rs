@@ -81,7 +81,6 @@ structure! {
 
 impl Control {
     /// [`Control::borrowed`] in its units: momentum, energy.
-    #[must_use]
     pub fn borrowed(&self) -> [f64; 4] {
         std::array::from_fn(|k| {
             let [low, high] = [self.borrowed[2 * k], self.borrowed[2 * k + 1]].map(u64::from);

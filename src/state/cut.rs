@@ -26,7 +26,6 @@ fn slots(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
 }
 
 /// For every slot the number of its entry, counted from 1; 0 for plain cells.
-#[must_use]
 pub fn entries(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
     let mut entries = vec![0; grid.slots()];
     for (place, slot) in slots(grid, geometry).into_iter().enumerate() {
@@ -36,7 +35,6 @@ pub fn entries(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
 }
 
 /// The gas that fits into each slot, in cells: less than one where an obstacle cuts it.
-#[must_use]
 pub fn gas_shares(grid: &Grid, geometry: &CutGeometry) -> Vec<f64> {
     let mut shares = vec![1.0; grid.slots()];
     for (cut, slot) in geometry.cells.iter().zip(slots(grid, geometry)) {
@@ -46,7 +44,6 @@ pub fn gas_shares(grid: &Grid, geometry: &CutGeometry) -> Vec<f64> {
 }
 
 /// Momentum of the gas of the start `[density, momentum, energy]` \[kg m s^-1\].
-#[must_use]
 pub fn momentum(scene: &Scene, geometry: &CutGeometry, gas: &[[f64; 5]]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     let cells = gas.iter().zip(&geometry.walls).filter(|(_, wall)| !**wall);
@@ -66,7 +63,6 @@ pub fn momentum(scene: &Scene, geometry: &CutGeometry, gas: &[[f64; 5]]) -> [f64
 }
 
 /// The entries, one after the other.
-#[must_use]
 pub fn table(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
     let slots = slots(grid, geometry);
     let mut table = Vec::with_capacity(WIDTH * slots.len());
@@ -86,7 +82,6 @@ pub fn table(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
 }
 
 /// The gas at the start; what shares one state gets the mean.
-#[must_use]
 pub fn initial_gas(scene: &Scene, geometry: &CutGeometry) -> Vec<[f64; 5]> {
     let mut gas = scene.initial_gas();
     let [nx, ny, _] = scene.domain.cells.map(|n| n as usize);

@@ -73,7 +73,6 @@ pub(super) fn least_entropy(scene: &Scene, start: f64) -> f32 {
 }
 
 /// Maps of the start: the pressure of the gas.
-#[must_use]
 pub(super) fn first_maps(conserved: &[[f32; 4]], energy: &[f32], gamma: f32) -> Vec<[f32; 4]> {
     let pressure = |([density, x, y, z], energy): (&[f32; 4], &f32)| {
         if *density > 0.0 { (gamma - 1.0) * (energy - 0.5 * (x * x + y * y + z * z) / density) } else { 0.0 }

@@ -26,7 +26,6 @@ fn points(scene: &Scene) -> Vec<(usize, [f64; 3])> {
 }
 
 /// How many points have gauges.
-#[must_use]
 pub fn count(scene: &Scene) -> usize {
     points(scene).len()
 }

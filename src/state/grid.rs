@@ -24,7 +24,6 @@ pub struct Grid {
 
 impl Grid {
     /// The grid of a scene's domain.
-    #[must_use]
     pub fn of(domain: &Domain) -> Self {
         Self {
             dimension: domain.dimension,
@@ -35,26 +34,22 @@ impl Grid {
     }
 
     /// Cells of the ring on each side: 1 on active axes, 0 elsewhere.
-    #[must_use]
     pub fn padding(&self) -> [u32; 3] {
         std::array::from_fn(|axis| u32::from((axis as u32) < self.dimension))
     }
 
     /// Stored cells per axis, ring included.
-    #[must_use]
     pub fn strides(&self) -> [u32; 3] {
         let padding = self.padding();
         std::array::from_fn(|axis| self.cells[axis] + 2 * padding[axis])
     }
 
     /// Length of every array over cells, nodes or vertices.
-    #[must_use]
     pub fn slots(&self) -> usize {
         self.strides().iter().map(|&n| n as usize).product()
     }
 
     /// Position of cell `cell` in such an array; -1 and `cells[d]` name the ring on active axes.
-    #[must_use]
     pub fn slot(&self, cell: [i32; 3]) -> usize {
         let (stride, padding) = (self.strides(), self.padding());
         let at = |axis: usize| (cell[axis] + padding[axis] as i32) as usize;
@@ -62,7 +57,6 @@ impl Grid {
     }
 
     /// The cell of a slot.
-    #[must_use]
     pub fn cell(&self, slot: u32) -> [i32; 3] {
         let (stride, padding) = (self.strides(), self.padding());
         let at = [slot % stride[0], slot / stride[0] % stride[1], slot / (stride[0] * stride[1])];
@@ -70,25 +64,21 @@ impl Grid {
     }
 
     /// Cells without the ring.
-    #[must_use]
     pub fn cell_count(&self) -> usize {
         self.cells.iter().map(|&n| n as usize).product()
     }
 
     /// Centre of a cell \[m\].
-    #[must_use]
     pub fn centre(&self, cell: [i32; 3]) -> [f32; 3] {
         std::array::from_fn(|axis| self.origin[axis] + (cell[axis] as f32 + 0.5) * self.spacing)
     }
 
     /// Edge lengths of the domain \[m\].
-    #[must_use]
     pub fn extent(&self) -> [f32; 3] {
         std::array::from_fn(|axis| self.cells[axis] as f32 * self.spacing)
     }
 
     /// The unpadded part of a padded array, x fastest.
-    #[must_use]
     pub fn unpadded<T: Copy + Send + Sync>(&self, padded: &[T]) -> Vec<T> {
         self.unpadded_by(|slot| padded[slot])
     }

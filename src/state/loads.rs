@@ -12,7 +12,6 @@ const MOST: usize = 0xfffe;
 
 /// How many loads a scene has: its bodies, if some body is held or driven or has a gauge, for they touch each other; then its obstacles;
 /// then the sides whose walls have gauges.
-#[must_use]
 pub fn count(scene: &Scene) -> [usize; 3] {
     let held = scene.bodies.iter().any(crate::scene::Body::is_driven);
     let told = held || scene.gauge_places().iter().any(|place| matches!(place, GaugePlace::Body(_)));
@@ -22,14 +21,12 @@ pub fn count(scene: &Scene) -> [usize; 3] {
 }
 
 /// The sides whose walls have gauges, in order.
-#[must_use]
 pub fn sides(scene: &Scene) -> Vec<usize> {
     let places = scene.gauge_places();
     (0..6).filter(|side| places.contains(&GaugePlace::Side(*side))).collect()
 }
 
 /// The load that a gauge shows; none where it shows a point.
-#[must_use]
 pub fn of_gauge(scene: &Scene, place: GaugePlace) -> Option<usize> {
     let [bodies, obstacles, _] = count(scene);
     match place {
@@ -41,20 +38,17 @@ pub fn of_gauge(scene: &Scene, place: GaugePlace) -> Option<usize> {
 }
 
 /// vec4 entries of the history ring of so many loads.
-#[must_use]
 pub fn history_length(count: [usize; 3]) -> usize {
     HISTORY as usize * LOAD_WIDTH * count.iter().sum::<usize>()
 }
 
 /// Words of the sums and owners.
-#[must_use]
 pub fn length(scene: &Scene, slots: usize) -> usize {
     let loads: usize = count(scene).iter().sum();
     if loads == 0 { 0 } else { 2 * LOAD_NUMBERS as usize * loads + slots }
 }
 
 /// What the kernels are told of them.
-#[must_use]
 pub(super) fn overrides(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> [(&'static str, f64); 2] {
     [("LOADS", count(scene).iter().sum::<usize>() as f64), ("LOAD_UNIT", unit(scene, start, openings))]
 }
@@ -70,7 +64,6 @@ fn unit(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> f64 {
 }
 
 /// Sums of nothing, and for each slot the load of the obstacle or side that has it, one more, in its upper half.
-#[must_use]
 pub(super) fn start(scene: &Scene, grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
     let [bodies, obstacles, _] = count(scene);
     let mut words = vec![0; length(scene, grid.slots())];

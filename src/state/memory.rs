@@ -40,7 +40,6 @@ pub struct MemoryPlan {
 
 impl MemoryPlan {
     /// The plan for a scene with so many particles ([`Scene::particle_count`]).
-    #[must_use]
     pub fn new(scene: &Scene, particles: usize) -> Self {
         Self::with_cut_cells(scene, particles, cut_cells(scene))
     }
@@ -160,14 +159,12 @@ impl MemoryPlan {
     }
 
     /// Bytes of a group, or of all.
-    #[must_use]
     pub fn bytes(&self, group: Option<&str>) -> u64 {
         let chosen = self.buffers.iter().filter(|buffer| group.is_none_or(|group| group == buffer.group));
         chosen.map(|buffer| buffer.bytes).sum()
     }
 
     /// Groups in order, with their bytes.
-    #[must_use]
     pub fn groups(&self) -> Vec<(&'static str, u64)> {
         let mut groups: Vec<(&'static str, u64)> = Vec::new();
         for buffer in &self.buffers {
@@ -180,19 +177,16 @@ impl MemoryPlan {
     }
 
     /// Bytes per cell of everything that grows with the number of cells.
-    #[must_use]
     pub fn per_cell(&self) -> f64 {
         (self.bytes(None) - self.bytes(Some("particles")) - self.bytes(Some("fixed"))) as f64 / self.cells as f64
     }
 
     /// Bytes per particle of everything that grows with the number of particles.
-    #[must_use]
     pub fn per_particle(&self) -> f64 {
         if self.particles == 0 { 0.0 } else { self.bytes(Some("particles")) as f64 / self.particles as f64 }
     }
 
     /// The largest buffer.
-    #[must_use]
     pub fn largest(&self) -> Option<&Planned> {
         self.buffers.iter().max_by_key(|buffer| buffer.bytes)
     }
@@ -262,7 +256,6 @@ impl MemoryPlan {
 }
 
 /// Bytes that a device has for all buffers together, where that is known: a software device takes main memory.
-#[must_use]
 pub fn memory_together(gpu: &Gpu) -> Option<u64> {
     if gpu.is_software() { free_memory() } else { None }
 }

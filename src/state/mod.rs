@@ -243,7 +243,6 @@ impl State {
     }
 
     /// Whether the scene has bodies.
-    #[must_use]
     pub fn has_solids(&self) -> bool {
         self.particles.count > 0
     }

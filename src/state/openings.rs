@@ -78,7 +78,6 @@ enum Place {
 
 impl Openings {
     /// The rules of a scene.
-    #[must_use]
     pub fn new(scene: &Scene) -> Openings {
         let mut openings = Openings::default();
         for (index, side) in scene.boundary.sides().into_iter().enumerate() {
@@ -95,13 +94,11 @@ impl Openings {
     }
 
     /// The part of the table that follows the rules of the scene. What outlets remember is of the start, and stays.
-    #[must_use]
     pub fn of_rules(&self) -> &[Opening] {
         &self.table[..self.named]
     }
 
     /// How many knots the tables of times of a scene have.
-    #[must_use]
     pub fn knots_of(scene: &Scene) -> u64 {
         let knots = |rule: &Boundary| if let Boundary::TimedInlet(inlet) = rule { inlet.table.len() } else { 0 };
         scene.boundary.sides().into_iter().flat_map(Boundary::rules).map(knots).sum::<usize>() as u64
@@ -153,7 +150,6 @@ impl Openings {
 
     /// Word of a slot outside of the domain: WALL behind any wall, else GHOST with the place of its rule. Behind two sides a
     /// prescribed state comes first. Slots beyond periodic sides are never read.
-    #[must_use]
     pub fn word(&self, scene: &Scene, grid: &Grid, cell: [i32; 3]) -> u32 {
         let inside: [u32; 3] = std::array::from_fn(|d| cell[d].clamp(0, grid.cells[d] as i32 - 1) as u32);
         let behind = (0..grid.dimension as usize).filter(|&d| cell[d] != inside[d] as i32);
@@ -177,19 +173,11 @@ impl Openings {
     }
 
     /// Rules in the table, as bits.
-    #[must_use]
     pub fn rules_used(&self) -> u32 {
         self.table.iter().fold(0, |used, opening| used | 1 << opening.rule)
     }
 
-    /// Whether any state changes in time.
-    #[must_use]
-    pub fn timed(&self) -> bool {
-        !self.knots.is_empty()
-    }
-
     /// The table with the length that the device expects.
-    #[must_use]
     pub fn padded(&self) -> Vec<Opening> {
         let mut table = self.table.clone();
         table.resize(MAX_OPENINGS, Opening::default());

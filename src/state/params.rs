@@ -120,7 +120,6 @@ pub struct DeviceLimits {
 
 impl DeviceLimits {
     /// Limits for a number of extra vertices. On a CPU every barrier of a reduction costs more than the work it shares out.
-    #[must_use]
     pub fn new(software: bool, extra_capacity: usize) -> Self {
         let extra_capacity = extra_capacity as u32;
         if software {
@@ -151,7 +150,6 @@ fn even_march(rows: u32, longest: u32) -> u32 {
 
 impl Params {
     /// Parameters of a scene on its grid.
-    #[must_use]
     pub fn new(scene: &Scene, grid: &Grid, solids: &SolidLimits, limits: &DeviceLimits) -> Params {
         let (time, numerics) = (&scene.time, &scene.numerics);
         let cell_volume = scene.domain.cell_volume();
@@ -205,7 +203,6 @@ impl Params {
 }
 
 /// Values of the pipeline overrides: dimension and the switches of the method.
-#[must_use]
 pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
     let numerics = &scene.numerics;
     let flag = |on: bool| f64::from(u8::from(on));

@@ -46,7 +46,6 @@ pub struct ParticleStart {
 
 impl ParticleStart {
     /// Seeds the bodies of a scene; the ghost pressure starts at the ambient pressure.
-    #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let mut start = Self::default();
         let bits = f32::from_bits;
@@ -90,13 +89,11 @@ impl ParticleStart {
     }
 
     /// Number of particles.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
     /// Whether the scene has no bodies.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }

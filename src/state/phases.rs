@@ -73,7 +73,6 @@ pub(super) const LENGTH: usize = 4 * WIDTH * Phase::NAMES.len();
 
 impl Phase {
     /// Its first entry.
-    #[must_use]
     pub fn first(self) -> u32 {
         self as u32 * WIDTH as u32
     }
@@ -89,13 +88,11 @@ pub(super) fn source() -> String {
 
 impl State {
     /// Group counts of what a kernel goes over in a phase, which the device opens and closes.
-    #[must_use]
     pub fn extent(&self, phase: Phase, over: Over) -> Extent<'_> {
         Extent::Indirect(&self.extents, 16 * u64::from(phase.first() + over as u32))
     }
 
     /// Group counts of a prefix sum over all slots, in a phase.
-    #[must_use]
     pub fn scan_extents(&self, phase: Phase) -> Vec<Extent<'_>> {
         let first = phase.first() + Over::Scan as u32;
         (0..SCAN_DISPATCHES as u32).map(|k| Extent::Indirect(&self.extents, 16 * u64::from(first + k))).collect()

@@ -18,13 +18,11 @@ macro_rules! stages {
             pub const ALL: &'static [Stage] = &[$(Stage::$stage),*];
 
             /// The name, as the stopwatch shows it.
-            #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Stage::$stage => $name),* }
             }
 
             /// The question that the stage answers.
-            #[must_use]
             pub fn question(self) -> &'static str {
                 match self { $(Stage::$stage => $question),* }
             }
@@ -65,7 +63,6 @@ stages! {
 }
 
 /// The stages as a table of the book.
-#[must_use]
 pub fn table() -> String {
     let mut text = "| Stage | Question it answers | Pages |\n|---|---|---|\n".to_owned();
     for stage in Stage::ALL {

@@ -62,7 +62,6 @@ pub struct Supports {
 
 impl Supports {
     /// Those of a scene.
-    #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let single = |v: [f64; 3]| v.map(|x| x as f32);
         let mut supports = Self { table: Vec::new(), motions: Vec::new(), driven: false, friction: false };
@@ -87,7 +86,6 @@ impl Supports {
     }
 
     /// The table with all the room it has on the device.
-    #[must_use]
     pub fn padded(&self) -> Vec<Support> {
         let mut table = self.table.clone();
         table.resize(MAX_BODIES, Support::default());

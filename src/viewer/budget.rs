@@ -69,25 +69,21 @@ impl Budget {
     }
 
     /// Time of one step, lately \[s\].
-    #[must_use]
     pub fn step_seconds(&self) -> f64 {
         self.step.unwrap_or(0.0)
     }
 
     /// Time of the last picture \[s\].
-    #[must_use]
     pub fn picture_seconds(&self) -> f64 {
         self.picture
     }
 
     /// Steps of the next submission. The first one is alone: it compiles kernels on some drivers.
-    #[must_use]
     pub fn steps(&self) -> u32 {
         self.step.map_or(1, |step| ((SUBMISSION / step) as u32).clamp(1, BATCH))
     }
 
     /// When the next picture of a running scene is due; `attentive` if the user waits for it.
-    #[must_use]
     pub fn picture_due(&self, attentive: bool) -> f64 {
         let share = if attentive { ATTENTIVE_SHARE } else { PICTURE_SHARE };
         let pause = (self.picture * (1.0 / share - 1.0)).clamp(PICTURE_PERIOD - self.picture, LONGEST_PAUSE);
@@ -95,7 +91,6 @@ impl Budget {
     }
 
     /// Pixels of a picture: all of them, or fewer along each axis in haste if a whole picture would take too long.
-    #[must_use]
     pub fn size(&self, whole: [u32; 2], haste: Haste) -> [u32; 2] {
         let pixels = f64::from(whole[0]) * f64::from(whole[1]);
         let expected = self.pixel.unwrap_or(0.0) * pixels;
@@ -122,7 +117,6 @@ pub struct Rate {
 
 impl Rate {
     /// Starts to count.
-    #[must_use]
     pub fn since(now: f64) -> Self {
         Self { since: now, ..Self::default() }
     }
@@ -137,14 +131,12 @@ impl Rate {
     }
 
     /// Steps per second; 0 until there is something to tell.
-    #[must_use]
     pub fn value(&self) -> f64 {
         self.value
     }
 }
 
 /// Steps that bring simulated time to where the pace allows it by now, at most `most`; 0 if it is ahead.
-#[must_use]
 pub fn paced_steps(ahead: f64, dt: f64, most: u32) -> u32 {
     if ahead >= 0.0 {
         return 0;

@@ -37,7 +37,6 @@ fn half_height(camera: &Camera, distance: f64) -> f64 {
 }
 
 /// Turns the camera about its target; `drag` in picture heights, to the right and down.
-#[must_use]
 pub fn orbit(camera: &Camera, drag: [f64; 2]) -> Camera {
     let Frame { right, forward, distance, .. } = frame(camera);
     let axis = DVec3::from(camera.up).normalize_or(DVec3::Z);
@@ -50,7 +49,6 @@ pub fn orbit(camera: &Camera, drag: [f64; 2]) -> Camera {
 }
 
 /// Shifts eye and target so that the point under the mouse stays there; `drag` in picture heights, to the right and down.
-#[must_use]
 pub fn pan(camera: &Camera, drag: [f64; 2]) -> Camera {
     let Frame { eye, right, up, distance, .. } = frame(camera);
     let unit = 2.0 * half_height(camera, distance);
@@ -60,7 +58,6 @@ pub fn pan(camera: &Camera, drag: [f64; 2]) -> Camera {
 
 /// Comes nearer by `notches` of the wheel, or goes away; what is shown at `at`, at the depth of the target, stays there. `at` is in
 /// picture heights from the middle, to the right and down.
-#[must_use]
 pub fn zoom(camera: &Camera, notches: f64, at: [f64; 2]) -> Camera {
     let Frame { right, up, forward, distance, .. } = frame(camera);
     let unit = 2.0 * half_height(camera, distance);
@@ -73,7 +70,6 @@ pub fn zoom(camera: &Camera, notches: f64, at: [f64; 2]) -> Camera {
 }
 
 /// The camera looking along another direction at the same target, from the same distance.
-#[must_use]
 pub fn from_side(camera: &Camera, towards: [f64; 3], up: [f64; 3]) -> Camera {
     let distance = frame(camera).distance;
     let forward = DVec3::from(towards).normalize_or(DVec3::Y);
@@ -81,7 +77,6 @@ pub fn from_side(camera: &Camera, towards: [f64; 3], up: [f64; 3]) -> Camera {
 }
 
 /// The same view of the target with parallel rays, or through a pinhole again.
-#[must_use]
 pub fn with_parallel_rays(camera: &Camera, parallel: bool) -> Camera {
     let Frame { forward, distance, .. } = frame(camera);
     let half = half_height(camera, distance);
@@ -93,7 +88,6 @@ pub fn with_parallel_rays(camera: &Camera, parallel: bool) -> Camera {
 }
 
 /// The camera straight above a plane domain of some origin and size \[m\] that shows all of it.
-#[must_use]
 pub fn above(origin: [f64; 3], size: [f64; 3]) -> Camera {
     let target = [origin[0] + 0.5 * size[0], origin[1] + 0.5 * size[1], 0.0];
     let height = 0.5 * size[1] / (0.5 * PLANE_OPENING).to_radians().tan();
@@ -107,7 +101,6 @@ pub fn above(origin: [f64; 3], size: [f64; 3]) -> Camera {
 }
 
 /// Keeps the view of a camera above a plane domain inside the domain, at most all of it.
-#[must_use]
 pub fn kept_inside(camera: &Camera, origin: [f64; 3], size: [f64; 3]) -> Camera {
     let whole = above(origin, size);
     let share = (2.0 * half_height(camera, frame(camera).distance) / size[1]).min(1.0);
@@ -122,7 +115,6 @@ pub fn kept_inside(camera: &Camera, origin: [f64; 3], size: [f64; 3]) -> Camera 
 }
 
 /// The camera as the lines that a scene file takes.
-#[must_use]
 pub fn as_scene_text(camera: &Camera) -> String {
     let vector = |v: [f64; 3]| format!("[{}]", v.map(short).join(", "));
     let mut text = format!("[render.camera]\neye = {}\ntarget = {}\n", vector(camera.eye), vector(camera.target));
@@ -145,7 +137,6 @@ fn short(value: f64) -> String {
 }
 
 /// Where a point appears, in picture heights from the middle, to the right and down; and its depth \[m\].
-#[must_use]
 pub fn project(camera: &Camera, point: [f64; 3]) -> (DVec2, f64) {
     let Frame { eye, right, up, forward, .. } = frame(camera);
     let relative = DVec3::from(point) - eye;

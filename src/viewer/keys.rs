@@ -81,7 +81,6 @@ pub const MOUSE: [(&str, &str); 7] = [
 const NUDGE: f64 = 0.05;
 
 /// What a key asks for; nothing for keys without meaning.
-#[must_use]
 pub fn action(key: Key, modifiers: Modifiers) -> Option<Action> {
     if modifiers.command {
         return match key {

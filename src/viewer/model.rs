@@ -22,7 +22,6 @@ pub struct Request {
 
 impl Request {
     /// A scene as it is.
-    #[must_use]
     pub fn of(name: &str) -> Self {
         Self { name: name.to_owned(), ..Self::default() }
     }
@@ -48,13 +47,11 @@ impl Request {
     }
 
     /// The folder of a run, if it is one.
-    #[must_use]
     pub fn run(&self) -> Option<&Path> {
         Some(Path::new(&self.name)).filter(|path| path.is_dir())
     }
 
     /// The file behind the request; none for a scene that the program carries.
-    #[must_use]
     pub fn file(&self) -> Option<PathBuf> {
         let below = Path::new("scenes").join(&self.name);
         [PathBuf::from(&self.name), below].into_iter().find(|path| path.is_file())

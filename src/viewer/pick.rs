@@ -8,7 +8,6 @@ use crate::state::Grid;
 
 /// The point that a line of sight means: in 2D where it meets the plane of the domain; in 3D the first particle that it hits, or else
 /// its point in the domain next to the plane through the middle that faces the viewer. None if it misses the domain.
-#[must_use]
 pub fn point(ray: &Ray, grid: &Grid, particles: &[ParticleSample]) -> Option<[f64; 3]> {
     let (origin, direction) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
     let low = DVec3::from(grid.origin.map(f64::from));

@@ -45,7 +45,6 @@ impl Recording {
     }
 
     /// Pictures taken so far.
-    #[must_use]
     pub fn count(&self) -> u32 {
         self.accepted
     }

@@ -99,50 +99,42 @@ impl Session {
     }
 
     /// The scene as it is now.
-    #[must_use]
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
 
     /// Number of particles at the start.
-    #[must_use]
     pub fn particles(&self) -> u64 {
         self.particles
     }
 
     /// Simulated time \[s\].
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.light.map_or(self.simulation.time(), |(time, _)| time)
     }
 
     /// Steps done.
-    #[must_use]
     pub fn step_count(&self) -> u64 {
         self.light.map_or(self.simulation.step_count(), |(_, step)| step)
     }
 
     /// Length of the last step \[s\]; 0 before the first.
-    #[must_use]
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
     /// Whether the end of the scene's run is reached.
-    #[must_use]
     pub fn finished(&self) -> bool {
         self.finished
     }
 
     /// The look that the scene file asks for.
-    #[must_use]
     pub fn look(&self) -> Look {
         let field = self.scene.output.fields.first().copied().unwrap_or(Field::Density);
         Look { field, settings: self.scene.own_look() }
     }
 
     /// The camera that shows all of a 3D scene in a picture of some size.
-    #[must_use]
     pub fn fitted_camera(&self, look: &Look) -> Option<Camera> {
         let settings = RenderSettings { camera: None, path: None, ..look.settings.clone() };
         (self.scene.domain.dimension == 3).then(|| self.renderer.camera(&settings, 0.0))
@@ -206,13 +198,11 @@ impl Session {
     }
 
     /// Time of the state that is kept behind this one \[s\].
-    #[must_use]
     pub fn next(&self) -> Option<f64> {
         self.past.after(self.time()).map(|kept| kept.time)
     }
 
     /// Whether it was opened by [`Session::open_run`].
-    #[must_use]
     pub fn is_of_a_run(&self) -> bool {
         self.of_a_run
     }
@@ -268,7 +258,6 @@ impl Session {
     }
 
     /// Times of the states to go back to \[s\].
-    #[must_use]
     pub fn kept(&self) -> Vec<f64> {
         self.past.times()
     }
@@ -306,13 +295,11 @@ impl Session {
     }
 
     /// Texts of the warnings that the scene does not expect.
-    #[must_use]
     pub fn unexpected(&self) -> Vec<String> {
         self.warnings.iter().filter(|warning| warning.expected.is_none()).map(ToString::to_string).collect()
     }
 
     /// What the run is warned of so far, see `docs/inside/warnings.md`.
-    #[must_use]
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
@@ -362,7 +349,6 @@ impl Session {
     }
 
     /// The simulation.
-    #[must_use]
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
     }

@@ -21,7 +21,6 @@ pub struct Worker {
 
 impl Worker {
     /// Starts the thread; it calls `wake` whenever there is something new in the outbox.
-    #[must_use]
     pub fn start(options: GpuOptions, wake: impl Fn() + Send + 'static) -> Self {
         let (commands, received) = channel();
         let outbox = Arc::new(Mutex::new(Outbox::default()));
@@ -39,7 +38,6 @@ impl Worker {
     }
 
     /// What has come since the last call.
-    #[must_use]
     pub fn take(&self) -> Outbox {
         let mut outbox = lock(&self.outbox);
         let status = outbox.status.clone();

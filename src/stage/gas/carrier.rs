@@ -29,9 +29,6 @@ pub struct CarrierVelocity {
 
 impl CarrierVelocity {
     /// Binds for the states that carry in a step of so many solves; if it is not `wanted`, its recordings are empty.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, wanted: bool, solves: u32) -> Result<Self> {
         let of = |carried: &Carried| {
             let (source, solved) = match *carried {

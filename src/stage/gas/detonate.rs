@@ -33,9 +33,6 @@ pub struct Detonate {
 
 impl Detonate {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         let gpu = &state.gpu;
         let ball = Buffer::uniform(gpu, "blast", 1)?;

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::gpu::Pass;
 use crate::scene::Scene;
 use crate::stage::sweep::{Form, Sweep};
-use crate::stage::{Carried, CarrierVelocity, TimeStep};
+use crate::stage::{Carried, CarrierVelocity, Decision, TimeStep};
 use crate::state::stages::Stage;
 use crate::state::{Phase, State};
 
@@ -24,9 +24,6 @@ pub struct FluidUpdate {
 
 impl FluidUpdate {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, scene: &Scene) -> Result<Self> {
         let follows = state.has_solids() && scene.late_flux();
         let late_flux = || Form::listed(state, "gas/late_flux.wgsl", "late_flux");
@@ -58,7 +55,7 @@ impl FluidUpdate {
         if let Some(loads) = &self.loads {
             loads.record(pass, state, Phase::Update);
         }
-        time_step.record_cold(pass);
+        time_step.decide(pass, Decision::Cold);
         self.floor.plain.record(pass, state, Phase::Floor);
         self.floor.listed.record(pass, state, Phase::Update);
     }

@@ -3,8 +3,8 @@
 
 use crate::error::Result;
 use crate::gpu::{Bound, Pass};
-use crate::stage::TimeStep;
 use crate::stage::sweep::Form;
+use crate::stage::{Decision, TimeStep};
 use crate::state::stages::Stage;
 use crate::state::{Over, Phase, State};
 
@@ -34,9 +34,6 @@ impl RungeKuttaStage {
 
 impl GasAdvection {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, solves: u32) -> Result<Self> {
         Ok(Self { stages: (0..=solves).map(|stage| RungeKuttaStage::new(state, stage)).collect::<Result<_>>()? })
     }
@@ -48,7 +45,7 @@ impl GasAdvection {
         for form in &kernels.forms {
             form.record(pass, state, phase);
         }
-        time_step.record_limiter(pass);
+        time_step.decide(pass, Decision::Limiter);
         pass.dispatch(&kernels.limited, &state.extent(Phase::Limit, Over::Slots));
     }
 }

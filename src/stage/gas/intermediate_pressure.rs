@@ -18,9 +18,6 @@ pub struct IntermediatePressure {
 
 impl IntermediatePressure {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         Ok(Self {
             cells: Sweep::new(state, "gas/intermediate_pressure.wgsl", "pressure_star")?,

@@ -13,9 +13,6 @@ pub struct OddEven {
 
 impl OddEven {
     /// Binds; `share` of the mode is removed per step.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, share: f64) -> Result<Self> {
         let bind = |entry: &str| state.bind("gas/odd_even.wgsl", entry, &[], &[("FILTER", share)]);
         Ok(Self { kernels: [bind("odd_even_find")?, bind("odd_even_remove")?] })

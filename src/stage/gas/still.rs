@@ -13,9 +13,6 @@ pub struct Still {
 
 impl Still {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         let bind = |entry: &str| state.bind("gas/still.wgsl", entry, &[], &[]);
         Ok(Self { mark: [bind("still_find")?, bind("still_along")?, bind("still_spread")?] })

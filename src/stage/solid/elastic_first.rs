@@ -17,9 +17,6 @@ pub struct ElasticFirst {
 
 impl ElasticFirst {
     /// Binds, if the scene wants it.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, scene: &Scene) -> Result<Option<Self>> {
         if !state.has_solids() || scene.numerics.paper.coupling != Coupling::Last {
             return Ok(None);

@@ -21,9 +21,6 @@ pub struct ElasticReaction {
 
 impl ElasticReaction {
     /// Binds, if the scene has bodies and the solve comes first.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, scene: &Scene) -> Result<Option<Self>> {
         if !state.has_solids() || scene.numerics.paper.coupling == Coupling::Last {
             return Ok(None);

@@ -35,9 +35,6 @@ pub struct ElasticSolve {
 
 impl ElasticSolve {
     /// Binds, if the scene wants it.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, scene: &Scene, transfer: Transfer) -> Result<Option<Self>> {
         let gpu = &state.gpu;
         let Some(own) = state.elastic_solve.as_ref().filter(|_| scene.numerics.elasticity == Elasticity::Implicit)

@@ -23,9 +23,6 @@ pub struct G2p {
 
 impl G2p {
     /// Binds the form that goes with the one of `p2g`: [`Transfer::Columns`] works cell by cell.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, transfer: Transfer) -> Result<Self> {
         let bind = |entry: &str| state.bind("solid/g2p.wgsl", entry, &[], &[]);
         let form = match transfer {

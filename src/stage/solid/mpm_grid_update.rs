@@ -13,9 +13,6 @@ pub struct MpmGridUpdate {
 
 impl MpmGridUpdate {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         Ok(Self { update: state.bind("solid/mpm_grid_update.wgsl", "mpm_grid_update", &[], &[])? })
     }

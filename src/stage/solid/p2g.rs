@@ -18,7 +18,6 @@ pub enum Transfer {
 
 impl Transfer {
     /// What a scene asks for, or what suits the device.
-    #[must_use]
     pub fn of(asked: scene::Transfer, settings: Settings) -> Self {
         match (asked, settings) {
             (scene::Transfer::Columns, _) | (scene::Transfer::Auto, Settings::Software) => Self::Columns,
@@ -61,9 +60,6 @@ pub(super) struct Force(Kernels);
 
 impl Force {
     /// Binds: the force of `stress`, six components times the volume at rest in two vec4 per particle.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub(super) fn new(state: &State, transfer: Transfer, stress: &wgpu::Buffer) -> Result<Self> {
         Ok(Self(match transfer {
             Transfer::Columns => Kernels::columns(state, true, stress)?,
@@ -135,9 +131,6 @@ const COLORS: u32 = 3;
 
 impl P2g {
     /// Binds one form.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, transfer: Transfer) -> Result<Self> {
         let stress = state.particles.stress.raw();
         let force = Force::new(state, transfer, stress)?;

@@ -18,9 +18,6 @@ pub struct ParticleSort {
 
 impl ParticleSort {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         let gpu = &state.gpu;
         let bind = |entry: &str| state.bind("solid/particle_sort.wgsl", entry, &[], &[]);

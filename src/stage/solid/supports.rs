@@ -15,9 +15,6 @@ pub struct Supports {
 
 impl Supports {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         let now = state.bind("solid/motions.wgsl", "motions_now", &[], &[])?;
         let bind = |entry: &str| state.bind("solid/supports.wgsl", entry, &[], &[]);

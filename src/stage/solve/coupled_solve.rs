@@ -76,9 +76,6 @@ impl Vertices {
 
 impl CoupledSolve {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, scene: &Scene) -> Result<Self> {
         let gpu = &state.gpu;
         let limits = (state.params.tolerance, state.params.max_iterations);

@@ -11,9 +11,6 @@ pub struct Gauges(Bound);
 
 impl Gauges {
     /// Binds, where some point has a gauge.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Option<Self>> {
         let points = state.gauges.start.len();
         if points == 0 || !state.has_solids() {

@@ -14,9 +14,6 @@ pub struct Loads {
 
 impl Loads {
     /// Binds, where something is held, driven or fixed.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Option<Self>> {
         if state.load_count == [0; 3] {
             return Ok(None);

@@ -14,9 +14,6 @@ pub struct Maps {
 
 impl Maps {
     /// Binds, where the scene asks for maps.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Option<Self>> {
         if state.maps.is_empty() {
             return Ok(None);

@@ -14,21 +14,46 @@ pub struct TimeStep {
     particles: Bound,
     choose: Bound,
     openings: Option<Bound>,
-    start: Bound,
-    listed: Bound,
-    limiter: Bound,
-    cold: Bound,
-    solved: Bound,
-    second: Bound,
-    substep: Bound,
-    finish: Bound,
+    decisions: Vec<Bound>,
+}
+
+/// What the device decides between stages, a kernel of one thread each.
+#[derive(Clone, Copy, Debug)]
+pub enum Decision {
+    /// Opens the marks of the start.
+    Start,
+    /// Takes the length of the list of slots that are not deep inside the gas.
+    Listed,
+    /// Opens the correction of the advection where the limiter acted.
+    Limiter,
+    /// Opens the energy floor deep inside the gas where it may have to act.
+    Cold,
+    /// Opens the updates if the solve has finished.
+    Solved,
+    /// Opens the second advection and solve if the first is done.
+    Second,
+    /// Opens one elastic sub-step if one is due.
+    Substep,
+    /// Closes the step if it is complete.
+    Finish,
+}
+
+impl Decision {
+    /// Entry points of `shaders/step/step_control.wgsl`, in the order of the variants.
+    const ENTRIES: [&str; 8] = [
+        "control_start",
+        "control_listed",
+        "control_limiter",
+        "control_cold",
+        "control_solved",
+        "control_second",
+        "control_substep",
+        "control_finish",
+    ];
 }
 
 impl TimeStep {
     /// Binds; `pcg` holds the outcome of the solve.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State, scene: &Scene, pcg: &wgpu::Buffer) -> Result<Self> {
         let maxima = [("maxima", state.partials.raw())];
         let time = |entry: &str| state.bind("step/time_step.wgsl", entry, &maxima, &[]);
@@ -43,14 +68,7 @@ impl TimeStep {
             } else {
                 Some(state.bind("gas/openings.wgsl", "openings_now", &[], &[])?)
             },
-            start: control("control_start")?,
-            listed: control("control_listed")?,
-            limiter: control("control_limiter")?,
-            cold: control("control_cold")?,
-            solved: control("control_solved")?,
-            second: control("control_second")?,
-            substep: control("control_substep")?,
-            finish: control("control_finish")?,
+            decisions: Decision::ENTRIES.into_iter().map(control).collect::<Result<_>>()?,
         })
     }
 
@@ -70,43 +88,8 @@ impl TimeStep {
         }
     }
 
-    /// Opens the marks of the start.
-    pub fn record_start(&self, pass: &mut Pass) {
-        pass.dispatch(&self.start, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Takes the length of the list of slots that are not deep inside the gas.
-    pub fn record_listed(&self, pass: &mut Pass) {
-        pass.dispatch(&self.listed, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Opens the correction of the advection where the limiter acted.
-    pub fn record_limiter(&self, pass: &mut Pass) {
-        pass.dispatch(&self.limiter, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Opens the energy floor deep inside the gas where it may have to act.
-    pub fn record_cold(&self, pass: &mut Pass) {
-        pass.dispatch(&self.cold, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Opens the updates if the solve has finished.
-    pub fn record_solved(&self, pass: &mut Pass) {
-        pass.dispatch(&self.solved, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Opens the second advection and solve if the first is done.
-    pub fn record_second(&self, pass: &mut Pass) {
-        pass.dispatch(&self.second, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Opens one elastic sub-step if one is due.
-    pub fn record_substep(&self, pass: &mut Pass) {
-        pass.dispatch(&self.substep, &Extent::Groups([1, 1, 1]));
-    }
-
-    /// Closes the step if it is complete.
-    pub fn record_finish(&self, pass: &mut Pass) {
-        pass.dispatch(&self.finish, &Extent::Groups([1, 1, 1]));
+    /// Lets the device decide.
+    pub fn decide(&self, pass: &mut Pass, decision: Decision) {
+        pass.dispatch(&self.decisions[decision as usize], &Extent::Groups([1, 1, 1]));
     }
 }

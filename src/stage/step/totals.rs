@@ -16,9 +16,6 @@ pub struct Totals {
 
 impl Totals {
     /// Binds.
-    ///
-    /// # Errors
-    /// If a shader or buffer is wrong.
     pub fn new(state: &State) -> Result<Self> {
         let bind = |entry: &str| state.bind("step/diagnostics.wgsl", entry, &[], &[]);
         Ok(Self {

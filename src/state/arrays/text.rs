@@ -8,7 +8,6 @@ use super::{Name, Scenes, Slots, USES};
 const WORDS: [(&str, u32); 2] = [("LENGTH_LISTED", 0), ("LENGTH_FRONTIER", 1)];
 
 /// The constants of `shaders/shared/state.wgsl`.
-#[must_use]
 pub fn constants() -> String {
     let mut text = String::new();
     let mut known = Vec::new();
@@ -30,7 +29,6 @@ pub fn constants() -> String {
 }
 
 /// The uses as a table of the book.
-#[must_use]
 pub fn table() -> String {
     let mut text = "| Array | Use | Holds | Unit | From | To |\n|---|---|---|---|---|---|\n".to_owned();
     let mut last = "";

@@ -73,7 +73,6 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
 }
 
 /// Cases of a suite whose identifier, title or group contains `filter`, capitals or not.
-#[must_use]
 pub fn select(suite: Suite, filter: &str) -> Vec<&'static Case> {
     let filter = filter.to_lowercase();
     let named =

@@ -23,7 +23,6 @@ pub struct ObliqueShock {
 
 impl ObliqueShock {
     /// The shock at an angle in a stream. [NACA 1135, eqs. 128, 129, 132, 138]
-    #[must_use]
     pub fn at_angle(gamma: f64, mach: f64, angle: f64) -> Self {
         let normal = (mach * angle.sin()).powi(2);
         let tangent = 2.0 / angle.tan() * (normal - 1.0) / (mach * mach * (gamma + (2.0 * angle).cos()) + 2.0);
@@ -39,7 +38,6 @@ impl ObliqueShock {
     }
 
     /// The weak shock that turns a stream by `deflection`; none if the shock cannot be attached.
-    #[must_use]
     pub fn weak(gamma: f64, mach: f64, deflection: f64) -> Option<Self> {
         let turn = |angle: f64| Self::at_angle(gamma, mach, angle).deflection;
         let steepest = strongest_turn(gamma, mach);
@@ -48,7 +46,6 @@ impl ObliqueShock {
     }
 
     /// The shock of a given ratio of pressures.
-    #[must_use]
     pub fn of_pressure(gamma: f64, mach: f64, pressure: f64) -> Self {
         let normal = (((gamma + 1.0) * pressure + gamma - 1.0) / (2.0 * gamma)).sqrt();
         Self::at_angle(gamma, mach, (normal / mach).asin())
@@ -73,19 +70,16 @@ fn bisect(mut low: f64, mut high: f64, below: impl Fn(f64) -> bool) -> f64 {
 }
 
 /// Ratio of the pressures across a normal shock. [NACA 1135, eq. 93]
-#[must_use]
 pub fn normal_shock_pressure(gamma: f64, mach: f64) -> f64 {
     1.0 + 2.0 * gamma / (gamma + 1.0) * (mach * mach - 1.0)
 }
 
 /// Total pressure over static pressure. [NACA 1135, eq. 44]
-#[must_use]
 pub fn total_pressure(gamma: f64, mach: f64) -> f64 {
     (1.0 + 0.5 * (gamma - 1.0) * mach * mach).powf(gamma / (gamma - 1.0))
 }
 
 /// Pressure at the nose of a blunt body over that of the supersonic stream: Rayleigh's pitot formula. [NACA 1135, eq. 100]
-#[must_use]
 pub fn pitot_pressure(gamma: f64, mach: f64) -> f64 {
     let square = mach * mach;
     let strength = 0.5 * (gamma + 1.0) * square;
@@ -94,7 +88,6 @@ pub fn pitot_pressure(gamma: f64, mach: f64) -> f64 {
 }
 
 /// Angle that a sonic stream turns by until it has a Mach number: the Prandtl-Meyer function. [NACA 1135, eq. 171c]
-#[must_use]
 pub fn prandtl_meyer(gamma: f64, mach: f64) -> f64 {
     let ratio = ((gamma + 1.0) / (gamma - 1.0)).sqrt();
     let excess = (mach * mach - 1.0).sqrt();
@@ -102,14 +95,12 @@ pub fn prandtl_meyer(gamma: f64, mach: f64) -> f64 {
 }
 
 /// Mach number of a stream that a fan has turned by `deflection`.
-#[must_use]
 pub fn expanded_mach(gamma: f64, mach: f64, deflection: f64) -> f64 {
     let goal = prandtl_meyer(gamma, mach) + deflection;
     bisect(mach, 100.0, |mach| prandtl_meyer(gamma, mach) < goal)
 }
 
 /// Area of a stream over its sonic area. [NACA 1135, eq. 80]
-#[must_use]
 pub fn area_ratio(gamma: f64, mach: f64) -> f64 {
     let exponent = (gamma + 1.0) / (2.0 * (gamma - 1.0));
     ((2.0 + (gamma - 1.0) * mach * mach) / (gamma + 1.0)).powf(exponent) / mach
@@ -118,7 +109,6 @@ pub fn area_ratio(gamma: f64, mach: f64) -> f64 {
 /// Length of the shock cells of a plane jet over the height of its nozzle, for weak waves. `pressure` is that of the nozzle over that
 /// around it. The jet that has come to the pressure around it, at constant entropy, has Mach number M and height h; standing waves in it
 /// are 2 h sqrt(M^2 - 1) long. [Prandtl, Phys. Z. 5 (1904) 599; Pack, Q. J. Mech. Appl. Math. 3 (1950) 173]
-#[must_use]
 pub fn jet_cell_length(gamma: f64, mach: f64, pressure: f64) -> f64 {
     let total = total_pressure(gamma, mach) * pressure;
     let jet = bisect(1.0, 100.0, |mach| total_pressure(gamma, mach) < total);

@@ -17,7 +17,6 @@ type Flow = [f64; 3];
 type Primitive = [f64; 3];
 
 /// The gas at the end of a 1D scene. Walls reflect; every other end lets through what reaches it.
-#[must_use]
 pub fn solve(scene: &Scene) -> Profile {
     let start = scene.initial_gas().into_iter().map(|cell| [cell[0], cell[1], cell[4]]);
     let walls = [&scene.boundary.x_min, &scene.boundary.x_max].map(|side| *side == Boundary::Wall);
@@ -29,7 +28,6 @@ pub fn solve(scene: &Scene) -> Profile {
 
 /// The gas at the end of a scene that starts round about the origin, over the radius: around a line in 2D, a point in 3D. It reaches to
 /// the end of the domain in x, where everything is let through.
-#[must_use]
 pub fn solve_radial(scene: &Scene, cells: u32) -> Profile {
     let domain = &scene.domain;
     let (gamma, spacing) = (scene.gas.gamma, (domain.origin[0] + domain.size[0]) / f64::from(cells));

@@ -12,7 +12,6 @@ type Cell = [f64; 4];
 type State = [f64; 4];
 
 /// Density at the end of a 2D scene, x fastest.
-#[must_use]
 pub fn solve(scene: &Scene) -> Vec<f64> {
     let start = scene.initial_gas().into_iter().map(|cell| [cell[0], cell[1], cell[2], cell[4]]);
     let plane = Plane {

@@ -24,7 +24,6 @@ pub(in crate::verify) const PRESSURE: usize = 2;
 
 impl Profile {
     /// The gas of a 1D run, or of the first row of cells in 2D and 3D.
-    #[must_use]
     pub fn of(scene: &Scene, snapshot: &Snapshot) -> Self {
         let cells = scene.domain.cells[0] as usize;
         let wide = |values: &[f32]| values[..cells].iter().map(|&value| f64::from(value)).collect::<Vec<_>>();
@@ -34,7 +33,6 @@ impl Profile {
     }
 
     /// Cell means of an exact solution on the grid of `scene`, for waves that left `start` a time `age` ago.
-    #[must_use]
     pub fn exact(scene: &Scene, exact: &ExactRiemann, start: f64, age: f64) -> Self {
         let (origin, spacing) = (scene.domain.origin[0], scene.domain.spacing());
         let mut state = [const { Vec::new() }; 3];
@@ -49,19 +47,16 @@ impl Profile {
     }
 
     /// Number of cells.
-    #[must_use]
     pub fn cells(&self) -> usize {
         self.state[DENSITY].len()
     }
 
     /// Centre of a cell \[m\].
-    #[must_use]
     pub fn center(&self, cell: usize) -> f64 {
         self.origin + (cell as f64 + 0.5) * self.spacing
     }
 
     /// Means over groups of cells, so that `cells` remain; `cells` must divide their number. Velocity and pressure are plain means.
-    #[must_use]
     pub fn coarsened(&self, cells: usize) -> Self {
         let group = (self.cells() / cells.max(1)).max(1);
         let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
@@ -70,14 +65,12 @@ impl Profile {
     }
 
     /// Sum of |q - reference| dx over the line.
-    #[must_use]
     pub fn l1(&self, reference: &Profile, quantity: usize) -> f64 {
         let pairs = self.state[quantity].iter().zip(&reference.state[quantity]);
         pairs.map(|(a, b)| (a - b).abs() * self.spacing).sum()
     }
 
     /// Normalised squared deviation of the density. [Cao et al. 2022, eq. 38]
-    #[must_use]
     pub fn density_deviation(&self, reference: &Profile) -> f64 {
         let pairs = self.state[DENSITY].iter().zip(&reference.state[DENSITY]);
         let squares: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
@@ -95,28 +88,24 @@ impl Profile {
     }
 
     /// The crossing of `level` next to `place`.
-    #[must_use]
     pub fn nearest_crossing(&self, quantity: usize, level: f64, place: f64) -> f64 {
         let crossings = self.crossings(quantity, level);
         crossings.min_by(|a, b| (a - place).abs().total_cmp(&(b - place).abs())).unwrap_or(f64::NAN)
     }
 
     /// Least and largest value among cells whose centre lies in an interval.
-    #[must_use]
     pub fn extremes(&self, quantity: usize, [low, high]: [f64; 2]) -> [f64; 2] {
         let inside = (0..self.cells()).filter(|k| (low..=high).contains(&self.center(*k)));
         inside.map(|k| self.state[quantity][k]).fold([f64::NAN; 2], |[a, b], value| [a.min(value), b.max(value)])
     }
 
     /// Largest |q - value| among cells whose centre lies in an interval; not a number if there is none.
-    #[must_use]
     pub fn largest_deviation(&self, quantity: usize, value: f64, [low, high]: [f64; 2]) -> f64 {
         let inside = (0..self.cells()).filter(|k| (low..=high).contains(&self.center(*k)));
         inside.map(|k| (self.state[quantity][k] - value).abs()).fold(f64::NAN, f64::max)
     }
 
     /// Largest value among cells whose centre lies in an interval, and that centre.
-    #[must_use]
     pub fn peak(&self, quantity: usize, [low, high]: [f64; 2]) -> (f64, f64) {
         let inside = (0..self.cells()).map(|k| (self.state[quantity][k], self.center(k)));
         let inside = inside.filter(|(_, place)| (low..=high).contains(place));
@@ -124,7 +113,6 @@ impl Profile {
     }
 
     /// Points (x, q) for a plot.
-    #[must_use]
     pub fn points(&self, quantity: usize) -> Vec<[f64; 2]> {
         self.state[quantity].iter().enumerate().map(|(cell, value)| [self.center(cell), *value]).collect()
     }

@@ -45,7 +45,6 @@ fn by_case<'a>(head: &'a Head, rows: &'a [Row]) -> impl Iterator<Item = (&'stati
 }
 
 /// The result as one HTML page without anything outside of it.
-#[must_use]
 pub fn html(head: &Head, rows: &[Row], plots: &[(&'static str, Plot)]) -> String {
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Brisance: verification</title>\n\
@@ -88,7 +87,6 @@ pub fn html(head: &Head, rows: &[Row], plots: &[(&'static str, Plot)]) -> String
 }
 
 /// The result as an object.
-#[must_use]
 pub fn json(head: &Head, rows: &[Row], seconds: &[(&str, f64)]) -> serde_json::Value {
     let row = |row: &Row| {
         let mut object = json!(row);
@@ -133,7 +131,6 @@ fn overview(head: &Head, rows: &[Row]) -> String {
 }
 
 /// The result as tables in Markdown: an overview with one line per case, then one table per case.
-#[must_use]
 pub fn markdown(head: &Head, rows: &[Row]) -> String {
     let mut text = format!("`{}` on {}, {:.0} s: {}.\n", head.command, head.device, head.seconds, summary(rows));
     text += &overview(head, rows);

@@ -20,7 +20,6 @@ pub enum Limit {
 
 impl Limit {
     /// Whether a value satisfies it.
-    #[must_use]
     pub fn holds(&self, value: f64) -> bool {
         match *self {
             Limit::AtMost(most) => value <= most,
@@ -43,7 +42,6 @@ impl fmt::Display for Limit {
 }
 
 /// Four significant digits, in the shorter of the two notations.
-#[must_use]
 pub fn short(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -164,7 +162,6 @@ impl Row {
     }
 
     /// How the value stands to its limits.
-    #[must_use]
     pub fn verdict(&self) -> Verdict {
         let Some(pass) = self.pass else { return Verdict::Reported };
         if !pass.holds(self.ours) {
@@ -177,7 +174,6 @@ impl Row {
     }
 
     /// The limits for people.
-    #[must_use]
     pub fn allowed(&self) -> String {
         let good = self.good.map(|good| format!(" (good {good})")).unwrap_or_default();
         let known = self.known.filter(|_| self.verdict() == Verdict::Known);

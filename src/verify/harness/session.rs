@@ -44,7 +44,6 @@ pub enum Integrator {
 
 impl Integrator {
     /// Name in tables.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Integrator::Paper => "paper",
@@ -66,7 +65,6 @@ impl Integrator {
 }
 
 /// Name of an element pair in tables and scene files.
-#[must_use]
 pub fn pair_name(pair: Pair) -> &'static str {
     match pair {
         Pair::B1b0 => "b1b0",
@@ -87,7 +85,6 @@ pub struct Setting {
 
 impl Setting {
     /// The defaults of the method at a resolution.
-    #[must_use]
     pub fn standard(cells: u32) -> Self {
         Setting { pair: Pair::default(), integrator: Integrator::Predictor, cells }
     }
@@ -135,7 +132,6 @@ pub struct Common<'a> {
 
 impl<'a> Common<'a> {
     /// Nothing computed yet.
-    #[must_use]
     pub fn new(suite: Suite, notify: &'a (dyn Fn(&str) + Sync)) -> Self {
         Common { suite, notify, references: Mutex::default() }
     }

@@ -36,7 +36,6 @@ pub(in crate::verify) fn entries(row: &Row) -> [String; 10] {
 }
 
 /// All rows as text, with a last line that counts the verdicts.
-#[must_use]
 pub fn table(rows: &[Row]) -> String {
     let lines: Vec<[String; 10]> = std::iter::once(HEADS.map(str::to_owned)).chain(rows.iter().map(entries)).collect();
     let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0);
@@ -51,7 +50,6 @@ pub fn table(rows: &[Row]) -> String {
 }
 
 /// How many rows stand how.
-#[must_use]
 pub(in crate::verify) fn summary(rows: &[Row]) -> String {
     let count = |verdict: Verdict| rows.iter().filter(|row| row.verdict() == verdict).count();
     let [good, pass, known, fail, reported] =

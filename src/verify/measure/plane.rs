@@ -8,7 +8,6 @@ impl Profile {
     /// The gas of a 2D run along a line of `axis`, linear between the two rows of cell centres beside it; not a number where one of
     /// them holds no gas. `at` is the other coordinate; outside the outermost centres they stand for it. The velocity is that along
     /// the line.
-    #[must_use]
     pub fn along(run: &Run, axis: usize, at: f64) -> Self {
         let (domain, gas) = (&run.scene.domain, &run.snapshot);
         let other = 1 - axis;
@@ -41,7 +40,6 @@ impl Profile {
     }
 
     /// Mean of a quantity over cells whose centre lies in an interval; not a number if there is none.
-    #[must_use]
     pub fn mean(&self, quantity: usize, [low, high]: [f64; 2]) -> f64 {
         let inside = (0..self.cells()).filter(|k| (low..=high).contains(&self.center(*k)));
         let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), k| (sum + self.state[quantity][k], count + 1.0));
@@ -49,7 +47,6 @@ impl Profile {
     }
 
     /// Where a quantity rises most from one cell to the next, in an interval.
-    #[must_use]
     pub fn steepest_rise(&self, quantity: usize, [low, high]: [f64; 2]) -> f64 {
         let values = &self.state[quantity];
         let inside = (0..values.len().saturating_sub(1)).filter(|k| (low..=high).contains(&self.center(*k)));
@@ -60,7 +57,6 @@ impl Profile {
 }
 
 /// Slope and offset of the straight line closest to points. [least squares]
-#[must_use]
 pub(in crate::verify) fn fitted_line(points: &[[f64; 2]]) -> [f64; 2] {
     let count = points.len() as f64;
     let mean = [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / count);
@@ -70,7 +66,6 @@ pub(in crate::verify) fn fitted_line(points: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// Centres of all columns between two x, and where a quantity crosses `level` there last from below.
-#[must_use]
 pub(in crate::verify) fn upper_crossings(
     run: &Run,
     quantity: usize,
@@ -87,7 +82,6 @@ pub(in crate::verify) fn upper_crossings(
 }
 
 /// Largest difference of the density between a cell and its mirror image about the diagonal.
-#[must_use]
 pub(in crate::verify) fn asymmetry(run: &Run) -> f64 {
     let n = run.scene.domain.cells[0] as usize;
     let density = |x: usize, y: usize| f64::from(run.snapshot.density[y * n + x]);
