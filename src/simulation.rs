@@ -30,6 +30,7 @@ use least_step::LeastStep;
 pub use live::Blast;
 use pace::Pace;
 use recorded::Recorded;
+#[doc(hidden)]
 pub use saved::{Host, Saved, SavedArray};
 
 /// A running simulation: buffers, stages, clock.
@@ -39,6 +40,7 @@ pub struct Simulation {
     /// What it started from.
     scene: Scene,
     /// Everything the step reads and writes.
+    #[doc(hidden)]
     pub state: State,
     time_step: TimeStep,
     particle_sort: Option<ParticleSort>,

@@ -9,9 +9,7 @@ fn stress_hencky(h: mat3x3f, m: MaterialParams) -> mat3x3f {
     return l.axes * diagonal(principal) * transpose(l.axes);
 }
 
-fn return_hencky(h: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn {
-    return plastic_flow(h, hardened, m);
-}
+fn return_hencky(h: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn { return plastic_flow(h, hardened, m); }
 
 // Energy per reference volume [J m^-3].
 fn energy_hencky(h: mat3x3f, m: MaterialParams) -> f32 {

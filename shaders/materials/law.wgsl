@@ -38,13 +38,9 @@ struct PlasticReturn {
 const IDENTITY = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
 
 // a b^T
-fn outer_product(a: vec3f, b: vec3f) -> mat3x3f {
-    return mat3x3f(a * b.x, a * b.y, a * b.z);
-}
+fn outer_product(a: vec3f, b: vec3f) -> mat3x3f { return mat3x3f(a * b.x, a * b.y, a * b.z); }
 
-fn trace(a: mat3x3f) -> f32 {
-    return a[0].x + a[1].y + a[2].z;
-}
+fn trace(a: mat3x3f) -> f32 { return a[0].x + a[1].y + a[2].z; }
 
 // Rows of the inverse are cross products of the columns over the determinant. The caller checks the determinant.
 fn inverse(a: mat3x3f) -> mat3x3f {
@@ -52,9 +48,7 @@ fn inverse(a: mat3x3f) -> mat3x3f {
     return transpose(mat3x3f(cross(a[1], a[2]) * scale, cross(a[2], a[0]) * scale, cross(a[0], a[1]) * scale));
 }
 
-fn diagonal(d: vec3f) -> mat3x3f {
-    return mat3x3f(d.x, 0.0, 0.0, 0.0, d.y, 0.0, 0.0, 0.0, d.z);
-}
+fn diagonal(d: vec3f) -> mat3x3f { return mat3x3f(d.x, 0.0, 0.0, 0.0, d.y, 0.0, 0.0, 0.0, d.z); }
 
 struct Eigen {
     values: vec3f,     // unsorted

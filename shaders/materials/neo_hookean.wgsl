@@ -4,9 +4,7 @@
 #include "materials/law.wgsl"
 
 // F F^T - I.
-fn strain_neo_hookean(h: mat3x3f) -> mat3x3f {
-    return h + transpose(h) + h * transpose(h);
-}
+fn strain_neo_hookean(h: mat3x3f) -> mat3x3f { return h + transpose(h) + h * transpose(h); }
 
 // What J - 1 has besides the trace of h: its second invariant and its determinant.
 fn nonlinear_volume(h: mat3x3f) -> f32 {
@@ -26,9 +24,7 @@ fn tail_of_logarithm(x: f32) -> f32 {
 
 // ln(1 + x) = 2 artanh(x / (2 + x)), accurate for small x.
 fn log_one_plus(x: f32) -> f32 {
-    if abs(x) < 0.25 {
-        return 2.0 * x / (2.0 + x) + tail_of_logarithm(x);
-    }
+    if abs(x) < 0.25 { return 2.0 * x / (2.0 + x) + tail_of_logarithm(x); }
     return log(1.0 + x);
 }
 
@@ -43,34 +39,26 @@ fn exp_minus_one(y: f32) -> f32 { return y + exponential_rest(y); }
 
 // x - ln(1 + x), accurate for small x.
 fn excess_over_logarithm(x: f32) -> f32 {
-    if abs(x) < 0.25 {
-        return x * x / (2.0 + x) - tail_of_logarithm(x);
-    }
+    if abs(x) < 0.25 { return x * x / (2.0 + x) - tail_of_logarithm(x); }
     return x - log(1.0 + x);
 }
 
 // Kirchhoff stress tau = mu (F F^T - I) + lambda ln J I. An inverted F (J <= 0) has none; the caller reports it.
 fn stress_neo_hookean(h: mat3x3f, m: MaterialParams) -> mat3x3f {
     let grown = swelling(h);
-    if grown <= -1.0 {
-        return mat3x3f();
-    }
+    if grown <= -1.0 { return mat3x3f(); }
     return m.mu * strain_neo_hookean(h) + m.lambda * log_one_plus(grown) * IDENTITY;
 }
 
 // Elastic: everything stays.
-fn return_neo_hookean(h: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn {
-    return PlasticReturn(h, 0.0);
-}
+fn return_neo_hookean(h: mat3x3f, hardened: f32, m: MaterialParams) -> PlasticReturn { return PlasticReturn(h, 0.0); }
 
 // Energy per reference volume [J m^-3]. The parts of tr(F F^T - I) / 2 and ln J that are linear in H cancel:
 // what is left is |H|^2 / 2 - (J - 1 - tr H) + (J - 1 - ln J).
 fn energy_neo_hookean(h: mat3x3f, m: MaterialParams) -> f32 {
     let nonlinear = nonlinear_volume(h);
     let grown = trace(h) + nonlinear;
-    if grown <= -1.0 {
-        return 0.0;
-    }
+    if grown <= -1.0 { return 0.0; }
     let square = dot(h[0], h[0]) + dot(h[1], h[1]) + dot(h[2], h[2]);
     let logarithm = log_one_plus(grown);
     let distortion = 0.5 * square - nonlinear + excess_over_logarithm(grown);

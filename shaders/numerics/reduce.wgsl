@@ -25,9 +25,7 @@ fn reduce_sum(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
         sum += values[i];
     }
     sum = workgroup_sum(local, sum);
-    if (local == 0u) {
-        result[workgroup.x] = sum;
-    }
+    if local == 0u { result[workgroup.x] = sum; }
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -37,9 +35,7 @@ fn reduce_min(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
         smallest = min(smallest, values[i]);
     }
     smallest = workgroup_min(local, smallest);
-    if (local == 0u) {
-        result[workgroup.x] = smallest;
-    }
+    if local == 0u { result[workgroup.x] = smallest; }
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -49,7 +45,5 @@ fn reduce_max(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
         largest = max(largest, values[i]);
     }
     largest = workgroup_max(local, largest);
-    if (local == 0u) {
-        result[workgroup.x] = largest;
-    }
+    if local == 0u { result[workgroup.x] = largest; }
 }

@@ -25,9 +25,7 @@ struct ScanParams {
 var<workgroup> scratch: array<u32, WORKGROUP>;
 
 fn input_at(i: u32) -> u32 {
-    if (i < params.inputs) {
-        return input[i];
-    }
+    if i < params.inputs { return input[i]; }
     return 0u;
 }
 
@@ -45,9 +43,7 @@ fn scan_blocks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     workgroupBarrier();
     for (var reach = 1u; reach < WORKGROUP; reach *= 2u) {
         var below = 0u;
-        if (local >= reach) {
-            below = scratch[local - reach];
-        }
+        if local >= reach { below = scratch[local - reach]; }
         workgroupBarrier();
         scratch[local] += below;
         workgroupBarrier();
@@ -55,27 +51,21 @@ fn scan_blocks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     var sum = scratch[local] - own;
     for (var k = 0u; k < SCAN_ITEMS; k++) {
         let i = first + k;
-        if (i < params.outputs) {
+        if i < params.outputs {
             output[i] = sum;
             sum += input_at(i);
         }
     }
-    if (local == WORKGROUP - 1u && block < params.blocks) {
-        totals[block] = scratch[local];
-    }
+    if local == WORKGROUP - 1u && block < params.blocks { totals[block] = scratch[local]; }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn scan_offsets(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let thread = thread_index(workgroup, local);
     let block = thread / WORKGROUP;
-    if (block >= params.blocks) {
-        return;
-    }
+    if block >= params.blocks { return; }
     for (var k = 0u; k < SCAN_ITEMS; k++) {
         let i = thread * SCAN_ITEMS + k;
-        if (i < params.outputs) {
-            output[i] += offsets[block];
-        }
+        if i < params.outputs { output[i] += offsets[block]; }
     }
 }

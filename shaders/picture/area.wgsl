@@ -60,9 +60,7 @@ fn depth_inside(place: vec2i, radius: f32) -> f32 {
 // Distance from a sample into the core of the particle that it shows, in samples; negative outside.
 fn depth_in_core(place: vec2i, radius: f32) -> f32 {
     let found = particle_at(place);
-    if (found == NOTHING) {
-        return -1e9;
-    }
+    if found == NOTHING { return -1e9; }
     let middle = project(balls[2u * (FARTHEST - found)].xyz).xy * f32(view.samples) - vec2f(0.0, f32(sample_top()));
     return CORE * radius - length(vec2f(place) + 0.5 - middle);
 }
@@ -70,9 +68,7 @@ fn depth_in_core(place: vec2i, radius: f32) -> f32 {
 // Colour of an area in a sample, and how much of the sample is covered.
 fn area_at(place: vec2i, widest: f32) -> vec4f {
     let found = particle_near(place, widest);
-    if (found == NOTHING) {
-        return vec4f(0.0);
-    }
+    if found == NOTHING { return vec4f(0.0); }
     let radius = disc_samples(found);
     let inside = max(depth_inside(place, radius), depth_in_core(place, radius));
     let line = min(view.outline * f32(view.samples), WIDEST_LINE * radius);

@@ -10,9 +10,7 @@
 @compute @workgroup_size(WORKGROUP)
 fn sample_arrows(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= view.arrows.x * view.arrows.y) {
-        return;
-    }
+    if i >= view.arrows.x * view.arrows.y { return; }
     let part = (vec2f(f32(i % view.arrows.x), f32(i / view.arrows.x)) + 0.5) / vec2f(view.arrows);
     let cell = vec2i(part * vec2f(view.cells.xy));
     let slot = slot_of(vec3i(cell, 0));

@@ -8,6 +8,4 @@ fn hash(input: u32) -> u32 {
 }
 
 // A number in [0, 1) from the same bits.
-fn hash_unit(input: u32) -> f32 {
-    return f32(hash(input) >> 8u) / 16777216.0;
-}
+fn hash_unit(input: u32) -> f32 { return f32(hash(input) >> 8u) / 16777216.0; }

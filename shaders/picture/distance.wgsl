@@ -18,8 +18,8 @@ fn distance_at(place: vec3f) -> f32 {
         let offset = vec3u(corner & 1u, (corner >> 1u) & 1u, corner >> 2u);
         let share = abs(vec3f(1.0) - vec3f(offset) - w);
         var weight = share.x;
-        if (view.dimension > 1u) { weight *= share.y; }
-        if (view.dimension > 2u) { weight *= share.z; }
+        if view.dimension > 1u { weight *= share.y; }
+        if view.dimension > 2u { weight *= share.z; }
         sum += weight * distance[base + dot(offset, stride)];
     }
     return sum;
@@ -31,9 +31,7 @@ fn hit_obstacle(ray: Ray, span: vec2f) -> f32 {
     var s = span.x;
     for (var i = 0u; i < 200u && s < span.y; i++) {
         let gap = distance_at(in_cells(ray.start + s * ray.direction));
-        if (gap < close) {
-            return s;
-        }
+        if gap < close { return s; }
         // Interpolation makes the distance too long near corners.
         s += max(0.8 * gap, close);
     }

@@ -25,9 +25,7 @@
 // Largest pressure, impulse, what rounding took, largest plastic strain so far; one entry alone where no maps are kept.
 @group(0) @binding(12) var<storage, read> maps: array<vec4f>;
 
-fn has_gas(slot: u32) -> bool {
-    return kind_of(cells[slot]) == KIND_GAS;
-}
+fn has_gas(slot: u32) -> bool { return kind_of(cells[slot]) == KIND_GAS; }
 
 // Density and velocity.
 fn motion(slot: u32) -> vec4f {
@@ -51,9 +49,7 @@ fn slope(cell: vec3i, axis: u32) -> vec4f {
     let low = select(here, below, has_gas(below));
     let high = select(here, above, has_gas(above));
     let distance = view.spacing * f32(u32(low != here) + u32(high != here));
-    if (distance == 0.0) {
-        return vec4f(0.0);
-    }
+    if distance == 0.0 { return vec4f(0.0); }
     return (motion(high) - motion(low)) / distance;
 }
 
@@ -78,15 +74,11 @@ fn vorticity(cell: vec3i) -> f32 {
 // Gas that a cell owes per volume, and of a covered cell all that it holds.
 fn owed_gas(slot: u32) -> f32 {
     var owed = 0.0;
-    if (slot < arrayLength(&owed_flow)) {
-        owed = owed_flow[slot].x / pow(view.spacing, f32(view.dimension));
-    }
+    if slot < arrayLength(&owed_flow) { owed = owed_flow[slot].x / pow(view.spacing, f32(view.dimension)); }
     return owed + select(0.0, conserved[slot].x, is_covered(slot));
 }
 
-fn is_covered(slot: u32) -> bool {
-    return kind_of(cells[slot]) == KIND_SOLID;
-}
+fn is_covered(slot: u32) -> bool { return kind_of(cells[slot]) == KIND_SOLID; }
 
 fn is_map() -> bool {
     return view.field == FIELD_PEAK_PRESSURE || view.field == FIELD_IMPULSE || view.field == FIELD_PEAK_PLASTIC_STRAIN;
@@ -94,13 +86,9 @@ fn is_map() -> bool {
 
 // What a place has seen so far, also where a body is now.
 fn mapped(slot: u32) -> f32 {
-    if (slot >= arrayLength(&maps) || kind_of(cells[slot]) == KIND_WALL) {
-        return NO_VALUE;
-    }
+    if slot >= arrayLength(&maps) || kind_of(cells[slot]) == KIND_WALL { return NO_VALUE; }
     let seen = maps[slot];
-    if (view.field == FIELD_IMPULSE) {
-        return seen.y;
-    }
+    if view.field == FIELD_IMPULSE { return seen.y; }
     return select(seen.x, seen.w, view.field == FIELD_PEAK_PLASTIC_STRAIN);
 }
 
@@ -123,27 +111,21 @@ fn value(cell: vec3i, slot: u32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= cell_count()) {
-        return;
-    }
+    if i >= cell_count() { return; }
     let cell = cell_of(i);
     let slot = slot_of(cell);
     var result = NO_VALUE;
     var hot = NO_VALUE;
-    if (has_gas(slot)) {
+    if has_gas(slot) {
         let computed = value(cell, slot);
         // By its bits: fast arithmetic may take every comparison with NaN for true.
-        if ((bitcast<u32>(computed) & 0x7f800000u) != 0x7f800000u && abs(computed) < -NO_VALUE) {
+        if (bitcast<u32>(computed) & 0x7f800000u) != 0x7f800000u && abs(computed) < -NO_VALUE {
             result = computed;
         }
         hot = max(pressure(slot) / conserved[slot].x, 0.0);
     }
-    if (view.field == FIELD_OWED && is_covered(slot)) {
-        result = owed_gas(slot);
-    }
-    if (is_map()) {
-        result = mapped(slot);
-    }
+    if view.field == FIELD_OWED && is_covered(slot) { result = owed_gas(slot); }
+    if is_map() { result = mapped(slot); }
     field[i] = result;
     heat[i] = hot;
 }
@@ -154,16 +136,14 @@ fn find_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
     var high = NO_VALUE;
     for (var i = thread_index(workgroup, local); i < cell_count(); i += RANGE_GROUPS * WORKGROUP) {
         let seen = field[i];
-        if (seen != NO_VALUE) {
+        if seen != NO_VALUE {
             low = min(low, seen);
             high = max(high, seen);
         }
     }
     low = workgroup_min(local, low);
     high = workgroup_max(local, high);
-    if (local == 0u) {
-        ranges[workgroup.x] = vec2f(low, high);
-    }
+    if local == 0u { ranges[workgroup.x] = vec2f(low, high); }
 }
 
 // Place of a cell in the arrays without ring; cells beyond the sides are those at the sides.
@@ -179,15 +159,13 @@ fn packed_corners(given: array<f32, 8>) -> vec2u {
     var sum = 0.0;
     var count = 0.0;
     for (var corner = 0u; corner < 8u; corner++) {
-        if (fractions[corner] >= 0.0) {
+        if fractions[corner] >= 0.0 {
             sum += fractions[corner];
             count += 1.0;
         }
     }
     for (var corner = 0u; corner < 8u; corner++) {
-        if (fractions[corner] < 0.0) {
-            fractions[corner] = sum / max(count, 1.0);
-        }
+        if fractions[corner] < 0.0 { fractions[corner] = sum / max(count, 1.0); }
     }
     let near = vec4f(fractions[0], fractions[1], fractions[2], fractions[3]);
     let far = vec4f(fractions[4], fractions[5], fractions[6], fractions[7]);
@@ -212,9 +190,7 @@ fn corner_cell(cube: vec3i, corner: u32) -> vec3i {
 @compute @workgroup_size(WORKGROUP)
 fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= cube_count()) {
-        return;
-    }
+    if i >= cube_count() { return; }
     let cube = cube_of(i);
     var fractions = array<f32, 8>();
     for (var corner = 0u; corner < 8u; corner++) {
@@ -228,9 +204,7 @@ fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
 @compute @workgroup_size(WORKGROUP)
 fn pack_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= cube_count()) {
-        return;
-    }
+    if i >= cube_count() { return; }
     let cube = cube_of(i);
     var fractions = array<f32, 8>();
     for (var corner = 0u; corner < 8u; corner++) {
@@ -262,9 +236,7 @@ fn widened(bounds: vec2f, packed: vec2u) -> vec2f {
 fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
     let grid = (view.cells + BRICK) / BRICK;
-    if (i >= grid.x * grid.y * grid.z) {
-        return;
-    }
+    if i >= grid.x * grid.y * grid.z { return; }
     let cubes = view.cells + 1u;
     let first = BRICK * vec3u(i % grid.x, (i / grid.x) % grid.y, i / (grid.x * grid.y));
     let end = min(first + BRICK, cubes);
@@ -275,9 +247,7 @@ fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
             for (var x = first.x; x < end.x; x++) {
                 let cube = x + cubes.x * (y + cubes.y * z);
                 bounds = widened(bounds, corners[cube]);
-                if (view.heat_opacity > 0.0) {
-                    hot = widened(hot, glow[cube]);
-                }
+                if view.heat_opacity > 0.0 { hot = widened(hot, glow[cube]); }
             }
         }
     }

@@ -25,7 +25,7 @@ fn aces(color: vec3f) -> vec3f {
 }
 
 fn toned(color: vec3f) -> vec3f {
-    if (view.tone == TONE_ACES) {
+    if view.tone == TONE_ACES {
         // The curve darkens; 1.6 brings middle grey back.
         return clamp(aces(1.6 * color), vec3f(0.0), vec3f(1.0));
     }
@@ -54,17 +54,13 @@ fn mean_light(i: u32) -> vec3f {
 @compute @workgroup_size(WORKGROUP)
 fn finish_deep(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i < band_pixels()) {
-        deep[i] = vec4f(mean_light(i), 1.0);
-    }
+    if i < band_pixels() { deep[i] = vec4f(mean_light(i), 1.0); }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn finish(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= band_pixels()) {
-        return;
-    }
+    if i >= band_pixels() { return; }
     let n = view.supersampling;
     let width = view.size.x / n;
     let place = vec2u(i % width, i / width);

@@ -24,14 +24,10 @@ fn interpolated(packed: vec2u, w: vec3f) -> f32 {
 }
 
 // Colour and opacity of a fraction of the range.
-fn table_color(fraction: f32) -> vec4f {
-    return colors[u32(fraction * f32(COLOR_COUNT - 1u) + 0.5)];
-}
+fn table_color(fraction: f32) -> vec4f { return colors[u32(fraction * f32(COLOR_COUNT - 1u) + 0.5)]; }
 
 // Light and opacity of hot gas.
-fn ramp_color(heat: f32) -> vec4f {
-    return colors[COLOR_COUNT + u32(heat * f32(COLOR_COUNT - 1u) + 0.5)];
-}
+fn ramp_color(heat: f32) -> vec4f { return colors[COLOR_COUNT + u32(heat * f32(COLOR_COUNT - 1u) + 0.5)]; }
 
 // What a piece of the gas adds to a ray.
 struct Optics {
@@ -49,7 +45,7 @@ fn optics_at(place: vec3f) -> Optics {
     let cube = cube_at(place);
     let look = table_color(interpolated(corners[cube.index], cube.inside));
     var gas = Optics(look.rgb, view.opacity * look.a, vec3f(0.0), 0.0);
-    if (EMISSION) {
+    if EMISSION {
         let hot = ramp_color(interpolated(glow[cube.index], cube.inside));
         gas.glow = hot.rgb;
         gas.shining = view.heat_opacity * hot.a;

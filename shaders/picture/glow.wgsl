@@ -28,9 +28,7 @@ const OWN_BODY: f32 = 1.5;
 const PLACES: u32 = 4u;
 
 // Edges of a coarse cell, in cells.
-fn coarse() -> vec3f {
-    return vec3f(view.cells) / f32(GLOW_CELLS);
-}
+fn coarse() -> vec3f { return vec3f(view.cells) / f32(GLOW_CELLS); }
 
 fn coarse_cell(i: u32) -> vec3f {
     return vec3f(vec3u(i % GLOW_CELLS, (i / GLOW_CELLS) % GLOW_CELLS, i / (GLOW_CELLS * GLOW_CELLS)));
@@ -39,9 +37,7 @@ fn coarse_cell(i: u32) -> vec3f {
 @compute @workgroup_size(WORKGROUP)
 fn gather_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= GLOW_CELLS * GLOW_CELLS * GLOW_CELLS) {
-        return;
-    }
+    if i >= GLOW_CELLS * GLOW_CELLS * GLOW_CELLS { return; }
     let edges = coarse() * view.spacing;
     let volume = edges.x * edges.y * edges.z;
     let across = pow(volume, 1.0 / 3.0);
@@ -61,21 +57,17 @@ fn block_index(place: vec3f) -> u32 {
 }
 
 // Edges of a cell of the blocks, in cells.
-fn block_edges() -> vec3f {
-    return vec3f(view.cells) / f32(BLOCK_CELLS);
-}
+fn block_edges() -> vec3f { return vec3f(view.cells) / f32(BLOCK_CELLS); }
 
 @compute @workgroup_size(WORKGROUP)
 fn block_bodies(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, local);
-    if (p >= view.particles || balls[2u * p].w == 0.0) {
-        return;
-    }
+    if p >= view.particles || balls[2u * p].w == 0.0 { return; }
     let edge = balls[2u * p].w / view.particle_scale / view.spacing;
     let whole = block_edges();
     let share = min(edge * edge * edge / (whole.x * whole.y * whole.z), 1.0);
     let place = in_cells(balls[2u * p].xyz) / whole;
-    if (all(place >= vec3f(0.0)) && all(place < vec3f(f32(BLOCK_CELLS)))) {
+    if all(place >= vec3f(0.0)) && all(place < vec3f(f32(BLOCK_CELLS))) {
         atomicAdd(&blocks[block_index(place)], u32(share * FULL + 0.5));
     }
 }
@@ -83,13 +75,9 @@ fn block_bodies(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
 @compute @workgroup_size(WORKGROUP)
 fn block_walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= BLOCK_CELLS * BLOCK_CELLS * BLOCK_CELLS) {
-        return;
-    }
+    if i >= BLOCK_CELLS * BLOCK_CELLS * BLOCK_CELLS { return; }
     let cell = vec3u(i % BLOCK_CELLS, (i / BLOCK_CELLS) % BLOCK_CELLS, i / (BLOCK_CELLS * BLOCK_CELLS));
-    if (distance_at((vec3f(cell) + 0.5) * block_edges()) < 0.0) {
-        atomicMax(&blocks[i], u32(FULL));
-    }
+    if distance_at((vec3f(cell) + 0.5) * block_edges()) < 0.0 { atomicMax(&blocks[i], u32(FULL)); }
 }
 
 // Share of the light that passes the bodies from one place to another, both in cells of the blocks.
@@ -100,7 +88,7 @@ fn passing(here: vec3f, there: vec3f) -> f32 {
     var depth = 0.0;
     for (var k = 0.0; k < count; k += 1.0) {
         let part = (k + 0.5) / count;
-        if (part * reach > OWN_BODY) {
+        if part * reach > OWN_BODY {
             let filled = f32(atomicLoad(&blocks[block_index(here + part * along)])) / FULL;
             depth += reach / count * min(filled, 1.0);
         }
@@ -112,9 +100,7 @@ fn passing(here: vec3f, there: vec3f) -> f32 {
 fn spread_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
     let count = GLOW_CELLS * GLOW_CELLS * GLOW_CELLS;
-    if (i >= count) {
-        return;
-    }
+    if i >= count { return; }
     let edges = coarse() * view.spacing;
     let soft = 0.25 * dot(edges, edges) / 3.0;
     let here = coarse_cell(i);
@@ -123,11 +109,11 @@ fn spread_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     for (var j = 0u; j < count; j++) {
         let source = sources[j].rgb;
         let brightness = dot(source, vec3f(0.2126, 0.7152, 0.0722));
-        if (brightness > 0.0) {
+        if brightness > 0.0 {
             let away = (coarse_cell(j) - here) * edges;
             let square = dot(away, away);
             var share = 1.0 / (square + soft);
-            if (view.shadows == 1u) {
+            if view.shadows == 1u {
                 let finer = f32(BLOCK_CELLS) / f32(GLOW_CELLS);
                 share *= passing((here + 0.5) * finer, (coarse_cell(j) + 0.5) * finer);
             }

@@ -16,7 +16,7 @@ fn light_inside(place: vec3f) -> vec2f {
 // Light that arrives at a place of the light grid: through the gas alone, and past solids too.
 fn light_at(place: vec3f) -> vec2f {
     let cells = f32(LIGHT_CELLS);
-    if (view.shadows == 0u || any(place.xy < vec2f(0.0)) || any(place.xy >= vec2f(cells))) {
+    if view.shadows == 0u || any(place.xy < vec2f(0.0)) || any(place.xy >= vec2f(cells)) {
         return vec2f(1.0);
     }
     return light_inside(place);

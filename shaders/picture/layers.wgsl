@@ -31,11 +31,9 @@ fn nearer_particle(ray: u32, before: Nearest) -> Nearest {
     for (var s = 0u; s < view.samples * view.samples; s++) {
         let place = first + vec2u(s % view.samples, s / view.samples);
         let sample = place.x + sample_grid().x * place.y;
-        if (nearest[sample] == NOTHING) {
-            continue;
-        }
+        if nearest[sample] == NOTHING { continue; }
         let depth = bitcast<f32>(FARTHEST - depth_in[sample]) * dot(sample_ray(place).direction, view.forward);
-        if (found.depth < 0.0 || depth < found.depth) {
+        if found.depth < 0.0 || depth < found.depth {
             let p = FARTHEST - nearest[sample];
             found = Nearest(depth, f32(bitcast<u32>(deformation[3u * p].w) + 1u), velocity[p].xyz);
         }
@@ -48,9 +46,7 @@ fn nearer_solid(ray: u32, before: Nearest) -> Nearest {
     let wall = unpack_surface(solid[ray]);
     let along = dot(ray_through(vec2f(place_of(ray)) + 0.5).direction, view.forward);
     let depth = wall.depth * along;
-    if (wall.coverage < 0.5 || (before.depth >= 0.0 && before.depth <= depth)) {
-        return before;
-    }
+    if wall.coverage < 0.5 || (before.depth >= 0.0 && before.depth <= depth) { return before; }
     return Nearest(depth, f32(OBSTACLES), vec3f(0.0));
 }
 
@@ -59,9 +55,7 @@ fn finish_layers(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocat
     let i = thread_index(workgroup, local);
     let n = view.supersampling;
     let width = view.size.x / n;
-    if (i >= width * (view.rows / n)) {
-        return;
-    }
+    if i >= width * (view.rows / n) { return; }
     let place = vec2u(i % width, i / width) * n;
     var sum = vec4f(0.0);
     var found = Nearest(-1.0, 0.0, vec3f(0.0));
@@ -73,9 +67,7 @@ fn finish_layers(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocat
         let background = mix(view.background[0].rgb, view.background[1].rgb, row);
         let behind = view.exposure * (1.0 - own.a) * background;
         sum += vec4f(max(own.rgb - behind, vec3f(0.0)), own.a);
-        if (view.particles > 0u) {
-            found = nearer_particle(ray, found);
-        }
+        if view.particles > 0u { found = nearer_particle(ray, found); }
         found = nearer_solid(ray, found);
     }
     layers[3u * i] = sum / f32(n * n);

@@ -19,9 +19,7 @@
 // No solid in the way [m].
 const FAR: f32 = 1e30;
 
-fn texel_size() -> f32 {
-    return view.light_spacing * f32(LIGHT_CELLS) / f32(SHADOW_TEXELS);
-}
+fn texel_size() -> f32 { return view.light_spacing * f32(LIGHT_CELLS) / f32(SHADOW_TEXELS); }
 
 // A point of the light grid in space; place in metres: across, across, away from the light.
 fn from_light(place: vec3f) -> vec3f {
@@ -31,17 +29,13 @@ fn from_light(place: vec3f) -> vec3f {
 @compute @workgroup_size(WORKGROUP)
 fn clear_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i < SHADOW_TEXELS * SHADOW_TEXELS) {
-        atomicStore(&shadow_bits[i], bitcast<u32>(FAR));
-    }
+    if i < SHADOW_TEXELS * SHADOW_TEXELS { atomicStore(&shadow_bits[i], bitcast<u32>(FAR)); }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn splat_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, local);
-    if (p >= view.particles || balls[2u * p].w == 0.0) {
-        return;
-    }
+    if p >= view.particles || balls[2u * p].w == 0.0 { return; }
     let radius = balls[2u * p].w;
     let q = balls[2u * p].xyz - view.light_origin;
     let centre = vec3f(dot(q, view.light_right), dot(q, view.light_up), -dot(q, view.light));
@@ -55,7 +49,7 @@ fn splat_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
         for (var x = low.x; x < high.x; x++) {
             let offset = (vec2f(f32(x), f32(y)) + 0.5) * texel - centre.xy;
             let inside = reach * reach - dot(offset, offset);
-            if (inside >= 0.0) {
+            if inside >= 0.0 {
                 let depth = max(centre.z - min(sqrt(inside), radius), 0.0);
                 // Positive floats order like their bits.
                 atomicMin(&shadow_bits[x + SHADOW_TEXELS * y], bitcast<u32>(depth));
@@ -67,23 +61,17 @@ fn splat_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
 @compute @workgroup_size(WORKGROUP)
 fn trace_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= SHADOW_TEXELS * SHADOW_TEXELS) {
-        return;
-    }
+    if i >= SHADOW_TEXELS * SHADOW_TEXELS { return; }
     let place = (vec2f(f32(i % SHADOW_TEXELS), f32(i / SHADOW_TEXELS)) + 0.5) * texel_size();
     let ray = Ray(from_light(vec3f(place, 0.0)), -view.light);
     let hit = hit_obstacle(ray, domain_span(ray));
-    if (hit >= 0.0) {
-        atomicMin(&shadow_bits[i], bitcast<u32>(hit));
-    }
+    if hit >= 0.0 { atomicMin(&shadow_bits[i], bitcast<u32>(hit)); }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn cast_light(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= LIGHT_CELLS * LIGHT_CELLS) {
-        return;
-    }
+    if i >= LIGHT_CELLS * LIGHT_CELLS { return; }
     let column = vec2u(i % LIGHT_CELLS, i / LIGHT_CELLS);
     let ray = Ray(from_light(vec3f((vec2f(column) + 0.5) * view.light_spacing, 0.0)), -view.light);
     let span = domain_span(ray);
@@ -97,7 +85,7 @@ fn cast_light(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
     for (var layer = 0u; layer < LIGHT_CELLS; layer++) {
         let s = (f32(layer) + 0.5) * view.light_spacing;
         var own = 0.0;
-        if (s > span.x && s < span.y && view.volume == 1u) {
+        if s > span.x && s < span.y && view.volume == 1u {
             let gas = optics_at(in_cells(ray.start + s * ray.direction));
             own = (gas.extinction + gas.shining) * view.light_spacing;
         }

@@ -21,9 +21,7 @@ fn light_past_solids(point: vec3f, bias: f32) -> f32 {
     let place = in_light(point);
     let texels = f32(SHADOW_TEXELS);
     let middle = place.xy / f32(LIGHT_CELLS) * texels;
-    if (view.shadows == 0u || any(middle < vec2f(4.0)) || any(middle >= vec2f(texels - 4.0))) {
-        return 1.0;
-    }
+    if view.shadows == 0u || any(middle < vec2f(4.0)) || any(middle >= vec2f(texels - 4.0)) { return 1.0; }
     let distance = place.z * view.light_spacing - bias;
     // A square window of four texels that slides smoothly: five by five, the outer ones weighted by their part inside.
     let corner = middle - 2.0;
@@ -46,9 +44,7 @@ override EMISSION: bool = true;
 
 // Light of hot gas that a surface sends on.
 fn light_of_gas(point: vec3f, normal: vec3f) -> vec3f {
-    if (!EMISSION) {
-        return vec3f(0.0);
-    }
+    if !EMISSION { return vec3f(0.0); }
     let cells = f32(GLOW_CELLS);
     let place = clamp(in_cells(point) / vec3f(view.cells) * cells - 0.5, vec3f(0.0), vec3f(cells - 1.001));
     let low = vec3u(place);

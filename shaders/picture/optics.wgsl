@@ -35,9 +35,7 @@ fn excess_at(place: vec3f) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn integrate_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= view.size.x * view.size.y) {
-        return;
-    }
+    if i >= view.size.x * view.size.y { return; }
     let ray = ray_through(vec2f(vec2u(i % view.size.x, i / view.size.x)) + 0.5);
     let span = domain_span(ray);
     let length = max(span.y - span.x, 0.0);
@@ -69,9 +67,7 @@ fn signal(place: vec2i) -> f32 {
     let left = column(place - vec2i(h, 0));
     let above = column(place - vec2i(0, h));
     let below = column(place + vec2i(0, h));
-    if (view.optics == OPTICS_SHADOWGRAPH) {
-        return 4.0 * column(place) - right - left - above - below;
-    }
+    if view.optics == OPTICS_SHADOWGRAPH { return 4.0 * column(place) - right - left - above - below; }
     return 0.6 * (right - left) + 0.8 * (above - below);
 }
 
@@ -82,24 +78,20 @@ fn measure_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocat
     let total = view.size.x * view.size.y;
     for (var i = thread_index(workgroup, local); i < total; i += RANGE_GROUPS * WORKGROUP) {
         let value = signal(vec2i(vec2u(i % view.size.x, i / view.size.x)));
-        if (value != 0.0) {
+        if value != 0.0 {
             squares += value * value;
             count += 1.0;
         }
     }
     squares = workgroup_sum(local, squares);
     count = workgroup_sum(local, count);
-    if (local == 0u) {
-        ranges[workgroup.x] = vec2f(squares, count);
-    }
+    if local == 0u { ranges[workgroup.x] = vec2f(squares, count); }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn draw_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= band_rays()) {
-        return;
-    }
+    if i >= band_rays() { return; }
     let bent = signal(vec2i(place_of(i))) / view.gain;
     // Like film, the grey approaches black and white slowly.
     var grey = 0.5 + 0.5 * bent / (1.0 + abs(bent));

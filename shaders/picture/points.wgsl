@@ -52,9 +52,9 @@ fn gas_around(p: u32) -> f32 {
     var count = 0.0;
     for (var i = 0u; i < 27u; i++) {
         let near = cell + vec3i(vec3u(i % 3u, (i / 3u) % 3u, i / 9u)) - 1;
-        if (all(near >= vec3i(0)) && all(near < vec3i(view.cells))) {
+        if all(near >= vec3i(0)) && all(near < vec3i(view.cells)) {
             let seen = heat[u32(near.x) + view.cells.x * (u32(near.y) + view.cells.y * u32(near.z))];
-            if (seen != NO_VALUE) {
+            if seen != NO_VALUE {
                 sum += seen;
                 count += 1.0;
             }
@@ -66,11 +66,9 @@ fn gas_around(p: u32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn measure(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, local);
-    if (p >= view.particles) {
-        return;
-    }
+    if p >= view.particles { return; }
     var result = NO_VALUE;
-    if (deformation[3u * p + 1u].w != 0.0) {
+    if deformation[3u * p + 1u].w != 0.0 {
         switch (view.particle_color) {
             case PARTICLE_SPEED: { result = length(velocity[p].xyz); }
             case PARTICLE_DEVIATORIC_STRESS: { result = deviatoric_stress(p); }
@@ -90,16 +88,14 @@ fn find_particle_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_i
     var high = NO_VALUE;
     for (var p = thread_index(workgroup, local); p < view.particles; p += RANGE_GROUPS * WORKGROUP) {
         let seen = quantity[p];
-        if (seen != NO_VALUE) {
+        if seen != NO_VALUE {
             low = min(low, seen);
             high = max(high, seen);
         }
     }
     low = workgroup_min(local, low);
     high = workgroup_max(local, high);
-    if (local == 0u) {
-        ranges[workgroup.x] = vec2f(low, high);
-    }
+    if local == 0u { ranges[workgroup.x] = vec2f(low, high); }
 }
 
 // How much larger balls are drawn where they become a surface: so that neighbours meet without holes, also where a body is stretched.
@@ -108,7 +104,7 @@ const MOST_GROWTH: f32 = 3.2;
 
 // The elastic stretch is that of the deformation; plastic flow leaves its strain alone. Cracks stay open.
 fn growth(p: u32) -> f32 {
-    if (view.smooth_skin == 0u || deformation[3u * p + 2u].w > 0.5) {
+    if view.smooth_skin == 0u || deformation[3u * p + 2u].w > 0.5 {
         return select(1.0, CLOSING, view.smooth_skin == 1u);
     }
     let a = deformation[3u * p].xyz + vec3f(1.0, 0.0, 0.0);     // columns of F
@@ -122,11 +118,9 @@ fn growth(p: u32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, local);
-    if (p >= view.particles) {
-        return;
-    }
+    if p >= view.particles { return; }
     var color = vec3f(0.0);
-    if (view.particle_color == PARTICLE_BODY || view.particle_color == PARTICLE_MATERIAL) {
+    if view.particle_color == PARTICLE_BODY || view.particle_color == PARTICLE_MATERIAL {
         let body = bitcast<u32>(deformation[3u * p].w);
         let material = bitcast<u32>(affine[3u * p + 2u].w) & 0xffffu;
         let name = select(BODIES + material, body, view.particle_color == PARTICLE_BODY);
@@ -168,7 +162,7 @@ fn square_of(p: u32, given: Footprint) -> Footprint {
     var b = deformation[3u * p + 1u].xy + vec2f(0.0, 1.0);
     let size = dot(a, a) + dot(b, b);
     // What is crushed or torn beyond telling is drawn as at rest.
-    if (a.x * b.y - a.y * b.x <= 0.02 * size || size > 60.0) {
+    if a.x * b.y - a.y * b.x <= 0.02 * size || size > 60.0 {
         a = vec2f(1.0, 0.0);
         b = vec2f(0.0, 1.0);
     }
@@ -189,9 +183,7 @@ fn footprint(p: u32) -> Footprint {
     let ball = balls[2u * p];
     var mark = Footprint(ball.xyz, ball.w * balls[2u * p + 1u].w, vec2f(0.0), 0.0, 0.0, vec2i(0), vec2i(0), vec4f(0.0), 1.0);
     let place = project(mark.centre);
-    if (mark.radius == 0.0 || (place.z <= mark.radius && view.parallel == 0u)) {
-        return mark;
-    }
+    if mark.radius == 0.0 || (place.z <= mark.radius && view.parallel == 0u) { return mark; }
     let per_metre = 0.5 * f32(view.size.y) * f32(view.samples) / view.half_height;
     mark.middle = place.xy * f32(view.samples) - vec2f(0.0, f32(sample_top()));
     mark.samples = mark.radius * per_metre / select(place.z, 1.0, view.parallel == 1u);
@@ -200,7 +192,7 @@ fn footprint(p: u32) -> Footprint {
     let near = select(place.z - mark.radius, 1.0, view.parallel == 1u);
     let stretched = min(1.2 * mark.radius * per_metre / near + 1.0, MAX_REACH);
     var reach = select(mark.samples, stretched, mark.samples > 12.0);
-    if (view.dimension < 3u) {
+    if view.dimension < 3u {
         mark = square_of(p, mark);
         let sides = abs(deformation[3u * p].xy) + abs(deformation[3u * p + 1u].xy) + 1.0;
         reach = min(mark.samples * max(1.0, HALF_EDGE * max(sides.x, sides.y)), MAX_REACH);
@@ -214,13 +206,11 @@ fn footprint(p: u32) -> Footprint {
 // Depth of a ball in a sample, negative if it is missed [m]. The outline of a small one is round, and its depth that of a ball
 // seen along its own line of sight.
 fn depth_in(mark: Footprint, place: vec2u) -> f32 {
-    if (view.dimension < 3u) {
+    if view.dimension < 3u {
         let share = share_of_square(mark, vec2f(place) + 0.5 - mark.middle);
         return select(-1.0, mark.distance + mark.radius * share, share < 1.0);
     }
-    if (mark.samples > 12.0) {
-        return hit_sphere(sample_ray(place), mark.centre, mark.radius);
-    }
+    if mark.samples > 12.0 { return hit_sphere(sample_ray(place), mark.centre, mark.radius); }
     let offset = vec2f(place) + 0.5 - mark.middle;
     let inside = 1.0 - dot(offset, offset) / (mark.samples * mark.samples);
     return select(-1.0, mark.distance - mark.radius * sqrt(max(inside, 0.0)), inside >= 0.0);
@@ -229,15 +219,13 @@ fn depth_in(mark: Footprint, place: vec2u) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, local);
-    if (p >= view.particles) {
-        return;
-    }
+    if p >= view.particles { return; }
     let mark = footprint(p);
     for (var y = mark.low.y; y < mark.high.y; y++) {
         for (var x = mark.low.x; x < mark.high.x; x++) {
             let place = vec2u(vec2i(x, y));
             let depth = depth_in(mark, place);
-            if (depth > 0.0) {
+            if depth > 0.0 {
                 // Positive floats order like their bits.
                 atomicMax(&depth_bits[place.x + sample_grid().x * place.y], FARTHEST - bitcast<u32>(depth));
             }
@@ -248,16 +236,14 @@ fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
 @compute @workgroup_size(WORKGROUP)
 fn splat_nearest(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, local);
-    if (p >= view.particles) {
-        return;
-    }
+    if p >= view.particles { return; }
     let mark = footprint(p);
     for (var y = mark.low.y; y < mark.high.y; y++) {
         for (var x = mark.low.x; x < mark.high.x; x++) {
             let place = vec2u(vec2i(x, y));
             let depth = depth_in(mark, place);
             let i = place.x + sample_grid().x * place.y;
-            if (depth > 0.0 && FARTHEST - bitcast<u32>(depth) + DEPTH_SLACK >= atomicLoad(&depth_bits[i])) {
+            if depth > 0.0 && FARTHEST - bitcast<u32>(depth) + DEPTH_SLACK >= atomicLoad(&depth_bits[i]) {
                 atomicMax(&nearest[i], FARTHEST - p);
             }
         }

@@ -6,13 +6,9 @@ const FARTHEST: u32 = 0xffffffffu;
 const NOTHING: u32 = 0u;
 
 // Row of the whole picture's samples that is the first of the band's.
-fn sample_top() -> i32 {
-    return i32(view.first_row * view.samples) - i32(SAMPLE_MARGIN);
-}
+fn sample_top() -> i32 { return i32(view.first_row * view.samples) - i32(SAMPLE_MARGIN); }
 
-fn sample_grid() -> vec2u {
-    return vec2u(view.size.x * view.samples, view.rows * view.samples + 2u * SAMPLE_MARGIN);
-}
+fn sample_grid() -> vec2u { return vec2u(view.size.x * view.samples, view.rows * view.samples + 2u * SAMPLE_MARGIN); }
 
 fn sample_ray(place: vec2u) -> Ray {
     let row = f32(i32(place.y) + sample_top());

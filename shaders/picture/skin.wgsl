@@ -34,9 +34,7 @@ const SAME_HUE: f32 = 0.995;
 
 fn depth_of(place: vec2i) -> f32 {
     let grid = sample_grid();
-    if (any(place < vec2i(0)) || any(place >= vec2i(grid))) {
-        return -1.0;
-    }
+    if any(place < vec2i(0)) || any(place >= vec2i(grid)) { return -1.0; }
     let bits = depth_in[u32(place.x) + grid.x * u32(place.y)];
     return select(bitcast<f32>(FARTHEST - bits), -1.0, bits == NOTHING);
 }
@@ -45,22 +43,16 @@ fn depth_of(place: vec2i) -> f32 {
 const SHEET: f32 = 6.0;
 // Of sixteen places around, how many beyond a sheet tell its side from a small hole. The wider the ring, the fewer: what is left of a
 // straight side is then as narrow.
-fn places_of_side(growth: f32) -> u32 {
-    return select(2u, 4u, growth < 1.8);
-}
+fn places_of_side(growth: f32) -> u32 { return select(2u, 4u, growth < 1.8); }
 
 @compute @workgroup_size(WORKGROUP)
 fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
     let grid = sample_grid();
-    if (i >= grid.x * grid.y) {
-        return;
-    }
+    if i >= grid.x * grid.y { return; }
     kept[i] = nearest[i];
     depth_out[i] = depth_in[i];
-    if (nearest[i] == NOTHING) {
-        return;
-    }
+    if nearest[i] == NOTHING { return; }
     let place = vec2i(vec2u(i % grid.x, i / grid.x));
     let depth = bitcast<f32>(FARTHEST - depth_in[i]);
     let ball = 2u * (FARTHEST - nearest[i]);
@@ -78,17 +70,17 @@ fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
         let near = clamp(place + vec2i(round(reach * vec2f(cos(angle), sin(angle)))), vec2i(0), vec2i(grid) - 1);
         let j = u32(near.x) + grid.x * u32(near.y);
         let own = select(bitcast<f32>(FARTHEST - depth_in[j]), 1e30, nearest[j] == NOTHING);
-        if (own - depth <= SHEET * radius) {
+        if own - depth <= SHEET * radius {
             farthest = max(farthest, own);
         } else {
             beyond += 1u;
             behind = select(behind, j + 1u, nearest[j] != NOTHING);
         }
     }
-    if (beyond >= side && behind != NOTHING) {
+    if beyond >= side && behind != NOTHING {
         kept[i] = nearest[behind - 1u];
         farthest = bitcast<f32>(FARTHEST - depth_in[behind - 1u]);
-    } else if (beyond >= side) {
+    } else if beyond >= side {
         kept[i] = NOTHING;
     }
     depth_out[i] = select(FARTHEST - bitcast<u32>(farthest + excess), NOTHING, kept[i] == NOTHING);
@@ -98,13 +90,9 @@ fn draw_back(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
 fn smooth_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
     let grid = sample_grid();
-    if (i >= grid.x * grid.y) {
-        return;
-    }
+    if i >= grid.x * grid.y { return; }
     depth_out[i] = depth_in[i];
-    if (depth_in[i] == NOTHING) {
-        return;
-    }
+    if depth_in[i] == NOTHING { return; }
     let place = vec2i(vec2u(i % grid.x, i / grid.x));
     let depth = bitcast<f32>(FARTHEST - depth_in[i]);
     let radius = balls[2u * (FARTHEST - nearest[i])].w;
@@ -116,7 +104,7 @@ fn smooth_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
         let ring = f32(k / 8u + 1u) / 3.0;
         let angle = (f32(k % 8u) + 0.5 * f32((k / 8u) & 1u)) * 0.78539816;
         let near = depth_of(place + vec2i(round(reach * ring * vec2f(cos(angle), sin(angle)))));
-        if (near > 0.0 && abs(near - depth) < radius * (1.0 + STEEPEST * SMOOTH_REACH * ring)) {
+        if near > 0.0 && abs(near - depth) < radius * (1.0 + STEEPEST * SMOOTH_REACH * ring) {
             let weight = exp(-2.0 * ring * ring);
             sum += weight * near;
             weights += weight;
@@ -148,7 +136,7 @@ fn fit_sheet(place: vec2i, here: vec3f, depth: f32, p: u32) -> Sheet {
         let angle = f32(k) * 0.52359878;
         let offset = round(reach * vec2f(cos(angle), sin(angle)));
         let near = depth_of(place + vec2i(offset));
-        if (near > 0.0 && abs(near - depth) < radius * (1.0 + 1.2 * STEEPEST)) {
+        if near > 0.0 && abs(near - depth) < radius * (1.0 + 1.2 * STEEPEST) {
             rises += offset * (near - depth);
             squares += offset * offset;
             let beside = balls[2u * (FARTHEST - particle_at(place + vec2i(offset))) + 1u].rgb;
@@ -157,7 +145,7 @@ fn fit_sheet(place: vec2i, here: vec3f, depth: f32, p: u32) -> Sheet {
         }
     }
     var across = vec3f(0.0);
-    if (min(squares.x, squares.y) > 0.0) {
+    if min(squares.x, squares.y) > 0.0 {
         let slope = rises / squares;
         let right = point_at(place + vec2i(1, 0), depth + slope.x) - here;
         let below = point_at(place + vec2i(0, 1), depth + slope.y) - here;
@@ -170,11 +158,9 @@ fn fit_sheet(place: vec2i, here: vec3f, depth: f32, p: u32) -> Sheet {
 fn sheet_at(place: vec2i, ray: Ray, depth: f32, p: u32) -> Sheet {
     let here = ray.start + depth * ray.direction;
     var sheet = Sheet(vec3f(0.0), balls[2u * p + 1u].rgb);
-    if (SMOOTH) {
-        sheet = fit_sheet(place, here, depth, p);
-    }
+    if SMOOTH { sheet = fit_sheet(place, here, depth, p); }
     let size = length(sheet.normal);
-    if (size > 0.0) {
+    if size > 0.0 {
         sheet.normal *= select(1.0, -1.0, dot(sheet.normal, ray.direction) > 0.0) / size;
     } else {
         sheet.normal = (here - balls[2u * p].xyz) / balls[2u * p].w;
@@ -190,16 +176,14 @@ fn first_sample(i: u32) -> vec2u {
 @compute @workgroup_size(WORKGROUP)
 fn list_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= band_rays()) {
-        return;
-    }
+    if i >= band_rays() { return; }
     let first = first_sample(i);
     var seen = 0u;
     for (var s = 0u; s < view.samples * view.samples; s++) {
         let place = first + vec2u(s % view.samples, s / view.samples);
         seen |= nearest[place.x + sample_grid().x * place.y];
     }
-    if (seen != NOTHING) {
+    if seen != NOTHING {
         let slot = atomicAdd(&covered[0], 1u);
         atomicMax(&skin_groups[0], slot / WORKGROUP + 1u);
         atomicStore(&covered[1u + slot], i);
@@ -209,9 +193,7 @@ fn list_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
 @compute @workgroup_size(WORKGROUP)
 fn shade_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let entry = thread_index(workgroup, local);
-    if (entry >= atomicLoad(&covered[0])) {
-        return;
-    }
+    if entry >= atomicLoad(&covered[0]) { return; }
     let i = atomicLoad(&covered[1u + entry]);
     let first = first_sample(i);
     var sum = Surface(0.0, 0.0, vec3f(0.0));
@@ -221,19 +203,17 @@ fn shade_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
     for (var s = 0u; s < count; s++) {
         let place = first + vec2u(s % view.samples, s / view.samples);
         let sample = place.x + sample_grid().x * place.y;
-        if (view.dimension < 3u) {
+        if view.dimension < 3u {
             let area = area_at(vec2i(place), 1.0);
             sum.color += area.w * area.rgb;
             sum.coverage += area.w;
-        } else if (nearest[sample] != NOTHING) {
+        } else if nearest[sample] != NOTHING {
             let p = FARTHEST - nearest[sample];
             let depth = bitcast<f32>(FARTHEST - depth_in[sample]);
             let ray = sample_ray(place);
             let point = ray.start + depth * ray.direction;
             let sheet = sheet_at(vec2i(place), ray, depth, p);
-            if (arriving < 0.0) {
-                arriving = arriving_at(point, 1.5 * balls[2u * p].w);
-            }
+            if arriving < 0.0 { arriving = arriving_at(point, 1.5 * balls[2u * p].w); }
             sum.color += lit_surface(sheet.color, point, sheet.normal, -ray.direction, arriving);
             sum.depth += depth;
             sum.coverage += 1.0;

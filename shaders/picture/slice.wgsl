@@ -20,13 +20,9 @@ const WALL_SHADE: vec3f = vec3f(0.075, 0.080, 0.090);
 
 const LINE_COLOR: vec3f = vec3f(0.02, 0.02, 0.025);
 
-fn fraction_of(value: f32) -> f32 {
-    return clamp((value - view.low) / (view.high - view.low), 0.0, 1.0);
-}
+fn fraction_of(value: f32) -> f32 { return clamp((value - view.low) / (view.high - view.low), 0.0, 1.0); }
 
-fn color_of(value: f32) -> vec3f {
-    return colors[u32(fraction_of(value) * f32(COLOR_COUNT - 1u) + 0.5)].rgb;
-}
+fn color_of(value: f32) -> vec3f { return colors[u32(fraction_of(value) * f32(COLOR_COUNT - 1u) + 0.5)].rgb; }
 
 // What is sampled: the field itself, or what it is a derivative of.
 const OF_FIELD: u32 = 0u;
@@ -37,9 +33,7 @@ const OF_VELOCITY_Y: u32 = 3u;
 fn value_at(cell: vec2i, quantity: u32) -> f32 {
     let inside = vec2u(clamp(cell, vec2i(0), vec2i(view.cells.xy) - 1));
     let seen = field[inside.x + view.cells.x * inside.y];
-    if (quantity == OF_FIELD || seen == NO_VALUE) {
-        return seen;
-    }
+    if quantity == OF_FIELD || seen == NO_VALUE { return seen; }
     let state = conserved[slot_of(vec3i(vec2i(inside), 0))];
     let velocity = state.yz / state.x;
     return select(select(velocity.x, velocity.y, quantity == OF_VELOCITY_Y), state.x, quantity == OF_DENSITY);
@@ -69,15 +63,13 @@ fn mean_around(low: vec2f, t: vec2f, quantity: u32) -> f32 {
     for (var k = 0u; k < 16u; k++) {
         let offset = vec2f(f32(k & 3u), f32(k >> 2u)) - 1.0;
         let value = value_at(vec2i(low + offset), quantity);
-        if (value != NO_VALUE) {
+        if value != NO_VALUE {
             let share = max(1.0 - abs(offset - t), vec2f(0.0));
             near += share.x * share.y * vec2f(value, 1.0);
             far += vec2f(value, 1.0);
         }
     }
-    if (near.y > 1e-3) {
-        return near.x / near.y;
-    }
+    if near.y > 1e-3 { return near.x / near.y; }
     return select(NO_VALUE, far.x / far.y, far.y > 0.0);
 }
 
@@ -105,20 +97,16 @@ fn interpolated(place: vec2f) -> f32 {
     let low = floor(place - 0.5);
     let t = place - 0.5 - low;
     let rest = mean_around(low, t, OF_FIELD);
-    if (rest == NO_VALUE) {
-        return NO_VALUE;
-    }
-    if (view.field == FIELD_SCHLIEREN) {
-        return length(gradient(low, t, OF_DENSITY));
-    }
-    if (view.field == FIELD_VORTICITY) {
+    if rest == NO_VALUE { return NO_VALUE; }
+    if view.field == FIELD_SCHLIEREN { return length(gradient(low, t, OF_DENSITY)); }
+    if view.field == FIELD_VORTICITY {
         return abs(gradient(low, t, OF_VELOCITY_Y).x - gradient(low, t, OF_VELOCITY_X).y);
     }
     var least = rest;
     var most = rest;
     for (var k = 0u; k < 4u; k++) {
         let value = value_at(vec2i(low + vec2f(f32(k & 1u), f32(k >> 1u))), OF_FIELD);
-        if (value != NO_VALUE) {
+        if value != NO_VALUE {
             least = min(least, value);
             most = max(most, value);
         }
@@ -137,29 +125,25 @@ fn lines(place: vec2f, reach: f32) -> f32 {
 // Gas reaches a little into bodies and obstacles, which are drawn over it.
 fn gas_color(place: vec2f, reach: f32) -> vec3f {
     let value = interpolated(place);
-    if (value == NO_VALUE) {
+    if value == NO_VALUE {
         let inside = clamp(vec2i(floor(place)), vec2i(0), vec2i(view.cells.xy) - 1);
         let kind = kind_of(cells[slot_of(vec3i(inside, 0))]);
         return select(BODY_SHADE, WALL_SHADE, kind == KIND_WALL);
     }
     let color = color_of(value);
-    if (view.contour_count == 0u) {
-        return color;
-    }
+    if view.contour_count == 0u { return color; }
     return mix(color, LINE_COLOR, lines(place, reach));
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn draw_slice(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= band_rays()) {
-        return;
-    }
+    if i >= band_rays() { return; }
     let pixel = vec2f(place_of(i)) + 0.5;
     let place = in_cells(ray_through(pixel).start).xy;
     let reach = abs(in_cells(ray_through(pixel + vec2f(1.0, 0.0)).start).x - place.x);
     var color = gas_color(place, reach);
-    if (view.fineness > 0u) {
+    if view.fineness > 0u {
         let gap = distance_at(vec3f(place, 0.0)) / view.spacing;
         color = mix(WALL_SHADE, color, clamp(gap / reach + 0.5, 0.0, 1.0));
     }

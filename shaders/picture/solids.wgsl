@@ -18,7 +18,7 @@ const GROUND_COLOR: vec3f = vec3f(0.060, 0.062, 0.068);
 // Direction out of an obstacle; where the domain's side cuts it, that of the side.
 fn wall_normal(ray: Ray, s: f32, span: vec2f) -> vec3f {
     let place = in_cells(ray.start + s * ray.direction);
-    if (s <= span.x) {
+    if s <= span.x {
         let half = 0.5 * vec3f(view.cells);
         let from_middle = (place - half) / half;
         let most = max(abs(from_middle.x), max(abs(from_middle.y), abs(from_middle.z)));
@@ -41,15 +41,13 @@ fn floor_coverage(point: vec3f) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= band_rays()) {
-        return;
-    }
+    if i >= band_rays() { return; }
     let ray = ray_through(vec2f(place_of(i)) + 0.5);
     var found = Surface(0.0, 0.0, vec3f(0.0));
-    if (view.fineness > 0u) {
+    if view.fineness > 0u {
         let span = domain_span(ray);
         let hit = hit_obstacle(ray, span);
-        if (hit >= 0.0) {
+        if hit >= 0.0 {
             let point = ray.start + hit * ray.direction;
             let normal = wall_normal(ray, hit, span);
             let arriving = arriving_at(point, 0.5 * view.spacing);
@@ -57,9 +55,9 @@ fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
         }
     }
     let descent = dot(view.ground.xyz, ray.direction);
-    if (descent < -1e-6) {
+    if descent < -1e-6 {
         let s = (view.ground.w - dot(view.ground.xyz, ray.start)) / descent;
-        if (s > 0.0 && (found.coverage == 0.0 || s < found.depth)) {
+        if s > 0.0 && (found.coverage == 0.0 || s < found.depth) {
             let point = ray.start + s * ray.direction;
             let arriving = arriving_at(point, 0.2 * view.spacing);
             let color = lit_surface(GROUND_COLOR, point, view.ground.xyz, -ray.direction, arriving);

@@ -67,13 +67,9 @@ struct Ray {
 @group(0) @binding(0) var<uniform> view: View;
 
 // Cells in the ring on each side.
-fn ring() -> vec3u {
-    return select(vec3u(0u), vec3u(1u), vec3u(0u, 1u, 2u) < vec3u(view.dimension));
-}
+fn ring() -> vec3u { return select(vec3u(0u), vec3u(1u), vec3u(0u, 1u, 2u) < vec3u(view.dimension)); }
 
-fn stored() -> vec3u {
-    return view.cells + 2u * ring();
-}
+fn stored() -> vec3u { return view.cells + 2u * ring(); }
 
 fn slot_of(cell: vec3i) -> u32 {
     let place = vec3u(cell + vec3i(ring()));
@@ -86,37 +82,25 @@ fn cell_of(i: u32) -> vec3i {
     return vec3i(vec3u(i % view.cells.x, (i / view.cells.x) % view.cells.y, i / (view.cells.x * view.cells.y)));
 }
 
-fn cell_count() -> u32 {
-    return view.cells.x * view.cells.y * view.cells.z;
-}
+fn cell_count() -> u32 { return view.cells.x * view.cells.y * view.cells.z; }
 
 // A point in cells from the low corner of the domain.
-fn in_cells(point: vec3f) -> vec3f {
-    return (point - view.origin) / view.spacing;
-}
+fn in_cells(point: vec3f) -> vec3f { return (point - view.origin) / view.spacing; }
 
-fn kind_of(word: u32) -> u32 {
-    return word & 3u;
-}
+fn kind_of(word: u32) -> u32 { return word & 3u; }
 
 // Rays of the band drawn now.
-fn band_rays() -> u32 {
-    return view.size.x * view.rows;
-}
+fn band_rays() -> u32 { return view.size.x * view.rows; }
 
 // Column and row, in the whole picture, of a ray of the band.
-fn place_of(i: u32) -> vec2u {
-    return vec2u(i % view.size.x, view.first_row + i / view.size.x);
-}
+fn place_of(i: u32) -> vec2u { return vec2u(i % view.size.x, view.first_row + i / view.size.x); }
 
 // The ray through a point of the picture, in rays from the top left corner.
 fn ray_through(pixel: vec2f) -> Ray {
     let size = vec2f(view.size);
     let offset = (pixel - 0.5 * size) / (0.5 * size.y) * view.half_height;
     let across = offset.x * view.right - offset.y * view.up;
-    if (view.parallel == 1u) {
-        return Ray(view.eye + across, view.forward);
-    }
+    if view.parallel == 1u { return Ray(view.eye + across, view.forward); }
     return Ray(view.eye, normalize(view.forward + across));
 }
 

@@ -84,9 +84,7 @@ fn brick_at(ray: Ray, place: vec3f, s: f32) -> Brick {
 fn gas_light(before: Gathered, place: vec3f, lit: f32) -> Gathered {
     let gas = optics_at(place);
     let extinction = gas.extinction + gas.shining;
-    if (extinction * view.spacing < 1e-5) {
-        return before;
-    }
+    if extinction * view.spacing < 1e-5 { return before; }
     // A fully lit gas has the colours of the colour bar.
     let outside = view.sky_strength + (1.0 - view.sky_strength) * view.light_strength * lit;
     let source = (gas.extinction * outside * gas.color + gas.shining * gas.glow) / extinction;
@@ -99,9 +97,7 @@ const CLEARANCE: f32 = 1.2;
 // Gathers light from the gas between two distances.
 fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Gathered) -> Gathered {
     var gathered = before;
-    if (view.volume == 0u) {
-        return gathered;
-    }
+    if view.volume == 0u { return gathered; }
     // The light grid is read at its nearest cell, half a cell off at random: steps add up to the mean.
     let light_start = in_light(ray.start) + 0.8 * (jitter - 0.5);
     let light_step = in_light(ray.start + ray.direction) - in_light(ray.start);
@@ -110,11 +106,9 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Ga
     var brick = Brick(-1.0, false);
     while (s < to_distance && gathered.passing > DARK) {
         let place = in_cells(ray.start + min(s, clear) * ray.direction);
-        if (s >= brick.end) {
-            brick = brick_at(ray, place, s);
-        }
+        if s >= brick.end { brick = brick_at(ray, place, s); }
         var steps = 1.0;
-        if (brick.visible) {
+        if brick.visible {
             let lit = select(1.0, light_inside(light_start + s * light_step).y, view.shadows == 1u);
             gathered = gas_light(gathered, place, lit);
         } else {
@@ -132,9 +126,7 @@ fn next_slice(ray: Ray, after: f32, span: vec2f) -> vec2f {
     for (var k = 0u; SLICES && k < view.slice_count; k++) {
         let plane = view.slices[k];
         let s = (plane.w - dot(plane.xyz, ray.start)) / dot(plane.xyz, ray.direction);
-        if (s > after && s >= span.x && s <= span.y && s < found.x) {
-            found = vec2f(s, f32(k));
-        }
+        if s > after && s >= span.x && s <= span.y && s < found.x { found = vec2f(s, f32(k)); }
     }
     return found;
 }
@@ -145,9 +137,7 @@ fn slice_color(pixel: vec2f, ray: Ray, s: f32, plane: vec4f) -> vec3f {
     let cube = cube_at(place);
     let fraction = interpolated(corners[cube.index], cube.inside);
     let color = table_color(fraction).rgb;
-    if (view.contour_count == 0u) {
-        return color;
-    }
+    if view.contour_count == 0u { return color; }
     var steepness = vec2f(0.0);
     for (var axis = 0u; axis < 2u; axis++) {
         var step = vec2f(0.0);
@@ -163,9 +153,7 @@ fn slice_color(pixel: vec2f, ray: Ray, s: f32, plane: vec4f) -> vec3f {
 @compute @workgroup_size(WORKGROUP)
 fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    if (i >= band_rays()) {
-        return;
-    }
+    if i >= band_rays() { return; }
     let corner = place_of(i);
     let pixel = vec2f(corner) + 0.5;
     let ray = ray_through(pixel);
@@ -190,13 +178,11 @@ fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
         let end = clamp(min(stop, wall_depth), span.x, max(span.x, span.y));
         gathered = march(ray, s, end, jitter, gathered);
         s = end;
-        if (stop > 1e29) {
-            break;
-        }
-        if (body_ahead && body_depth <= plane.x) {
+        if stop > 1e29 { break; }
+        if body_ahead && body_depth <= plane.x {
             gathered = over(gathered, body.color, body.coverage);
             body_ahead = false;
-        } else if (SLICES) {
+        } else if SLICES {
             gathered = over(gathered, slice_color(pixel, ray, plane.x, view.slices[u32(plane.y)]), 1.0);
             s = plane.x + 1e-5 * view.spacing;
         }

@@ -15,9 +15,7 @@ fn rigid_velocity(s: Support, x: vec3f, part: f32) -> vec3f {
 }
 
 // Columns of the matrix that turns: spin x.
-fn turning(spin: vec3f) -> mat3x3f {
-    return mat3x3f(0.0, spin.z, -spin.y, -spin.z, 0.0, spin.x, spin.y, -spin.x, 0.0);
-}
+fn turning(spin: vec3f) -> mat3x3f { return mat3x3f(0.0, spin.z, -spin.y, -spin.z, 0.0, spin.x, spin.y, -spin.x, 0.0); }
 
 // A vector that turns with `s` for a while. [Rodrigues 1840]
 fn turned(s: Support, arm: vec3f, time: f32) -> vec3f {

@@ -118,9 +118,7 @@ fn away_from_seam(c: vec3i, first: i32, last: i32) -> bool {
 
 // Enumerations of the 3^DIM block (offsets -1..1) and of the 2^DIM corners (offsets 0..1), x fastest.
 fn block_size() -> u32 { if DIM == 1u { return 3u; } if DIM == 2u { return 9u; } return 27u; }
-fn block_offset(k: u32) -> vec3i {
-    return vec3i(vec3u(k % 3u, (k / 3u) % 3u, k / 9u)) - reach();
-}
+fn block_offset(k: u32) -> vec3i { return vec3i(vec3u(k % 3u, (k / 3u) % 3u, k / 9u)) - reach(); }
 fn corner_count() -> u32 { return 1u << DIM; }
 fn corner_offset(k: u32) -> vec3i { return vec3i(vec3u(k & 1u, (k >> 1u) & 1u, k >> 2u)); }
 
@@ -132,7 +130,6 @@ fn face_area() -> f32 {
 }
 // Cell that holds a position, or the nearest one.
 fn cell_at(position: vec3f) -> vec3i { return nearest_inside(vec3i(floor((position - params.origin) / params.spacing))); }
-fn world_from_cell(c: vec3i) -> vec3f { return params.origin + (vec3f(c) + 0.5) * params.spacing; }
 
 // -- Neighbours across a face --
 

@@ -10,9 +10,7 @@
 fn own_pressure(slot: u32) -> f32 { return max(energy[part(PREDICTED_PRESSURE, slot)], 0.0); }
 
 // Velocity of a gas cell that its faces see.
-fn parting_speed(slot: u32, n: u32) -> f32 {
-    return conserved[slot][n + 1u] / conserved[slot].x;
-}
+fn parting_speed(slot: u32, n: u32) -> f32 { return conserved[slot][n + 1u] / conserved[slot].x; }
 
 // Power from the low to the high of two gas cells, beside that of the face's velocity: from shares by mass to shares by pressure.
 fn shift_between(p: f32, low: u32, high: u32, n: u32) -> f32 {

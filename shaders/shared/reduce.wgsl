@@ -7,9 +7,7 @@ fn workgroup_sum(local: u32, value: f32) -> f32 {
     reduce_scratch[local] = value;
     workgroupBarrier();
     for (var width = WORKGROUP / 2u; width > 0u; width /= 2u) {
-        if (local < width) {
-            reduce_scratch[local] += reduce_scratch[local + width];
-        }
+        if local < width { reduce_scratch[local] += reduce_scratch[local + width]; }
         workgroupBarrier();
     }
     return reduce_result();
@@ -19,7 +17,7 @@ fn workgroup_min(local: u32, value: f32) -> f32 {
     reduce_scratch[local] = value;
     workgroupBarrier();
     for (var width = WORKGROUP / 2u; width > 0u; width /= 2u) {
-        if (local < width) {
+        if local < width {
             reduce_scratch[local] = min(reduce_scratch[local], reduce_scratch[local + width]);
         }
         workgroupBarrier();
@@ -27,9 +25,7 @@ fn workgroup_min(local: u32, value: f32) -> f32 {
     return reduce_result();
 }
 
-fn workgroup_max(local: u32, value: f32) -> f32 {
-    return -workgroup_min(local, -value);
-}
+fn workgroup_max(local: u32, value: f32) -> f32 { return -workgroup_min(local, -value); }
 
 // The barrier lets a thread start the next reduction only when all have read this one.
 fn reduce_result() -> f32 {

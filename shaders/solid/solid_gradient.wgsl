@@ -2,7 +2,7 @@
 // forces G Q + H h of the solve. [Cao et al. 2022, eq. 23 and fig. 13]
 // The gradient is that of the node's own cell, from the means over its faces; faces between gas and solid carry h. rho is the mass of
 // the node over the solid volume that the elements around give it. Nodes at walls keep their forces, which the film belongs to.
-// Reads the solved pressure. Writes the second half of work, as solve_forces does.
+// Reads the solved pressure. Writes SOLID_NODE of work, as solve_forces does.
 #include "shared/system.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;

@@ -1,6 +1,8 @@
 // coupled_solve, preparation: node masses, intermediate node velocities, right-hand side of the increment form
 //   A D = dt C^T (V* - dt M^-1 C X*) - dt b,  X = X* + D,
-// which keeps float32 from losing a small increment in a large pressure. b: what inlets and outlets let through (solve_open).
+// which keeps float32 from losing a small increment in a large pressure. X: pressures of the vertices, X* before the solve, D their
+// increment; V: velocities of the nodes, M their masses; C: the gradient; A = S^-1 + dt^2 C^T M^-1 C, S^-1 the compliance; b: what inlets and
+// outlets let through, which solve_open has left in residual at the sides. [docs/method/coupled_solve.md]
 #include "shared/system.wgsl"
 #include "solve/gather.wgsl"
 
@@ -31,7 +33,7 @@ fn mean_mass(at: u32) -> f32 {
     return weighed(vec4f(middle.x, middle.y + outer.x, middle.z + outer.y, outer.z));
 }
 
-// Mass that a node sees, over the volume of a cell, from densities summed by how many axes the cells lie off it.
+// Mass that a node sees, over the volume of a cell, from such sums.
 fn weighed(densities: vec4f) -> f32 {
     var sum = 0.0;
     for (var off = 0u; off <= DIM; off++) {

@@ -52,9 +52,7 @@ fn control_cold() {
 @compute @workgroup_size(1)
 fn control_solved() {
     let solving = control.phase == PHASE_SOLVE;
-    if solving && pcg.outcome == PCG_STALLED {
-        atomicMin(&control.fault, STAGE_COUPLED_SOLVE << 27u);
-    }
+    if solving && pcg.outcome == PCG_STALLED { atomicMin(&control.fault, STAGE_COUPLED_SOLVE << 27u); }
     let done = solving && pcg.outcome == PCG_CONVERGED && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_UPDATE_EXTENTS, done);
     if !done { return; }

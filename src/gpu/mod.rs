@@ -12,6 +12,7 @@ mod device;
 mod kernel;
 mod pass;
 mod pipeline;
+#[doc(hidden)]
 pub mod readback;
 mod reflect;
 mod shader;
@@ -19,11 +20,14 @@ mod sources;
 mod written;
 
 pub use adapters::AdapterSummary;
-pub use allocations::{Allocation, watched};
-pub use buffer::Buffer;
 pub use device::{Gpu, GpuOptions, Settings};
-pub use kernel::{Bound, Constants, Extent, Kernel, MAX_GROUPS, OCTET, WORKGROUP, group_counts};
-pub use pass::{Detail, Pass, Times, add_time};
-pub use reflect::{Access, Binding, Compiled, MAX_STORAGE_BUFFERS};
-pub use shader::{Folder, Shader};
-pub use sources::SOURCES;
+#[doc(hidden)]
+pub use {
+    allocations::{Allocation, watched},
+    buffer::Buffer,
+    kernel::{Bound, Constants, Extent, Kernel, MAX_GROUPS, OCTET, WORKGROUP, group_counts},
+    pass::{Detail, Pass, Times, add_time},
+    reflect::{Access, Binding, Compiled, MAX_STORAGE_BUFFERS},
+    shader::{Folder, Shader},
+    sources::SOURCES,
+};

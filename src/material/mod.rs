@@ -18,6 +18,7 @@ mod wgsl;
 
 pub use fracture::{AtCoarse, BAND, Fracture, LEAST_RATIO, Softening, Weibull};
 pub use preset::{PRESETS, Preset, Units, kind_names};
+#[doc(hidden)]
 pub use wgsl::{wgsl_includes, wgsl_switch};
 
 use std::ops::{Bound, RangeBounds};

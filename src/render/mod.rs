@@ -31,18 +31,21 @@ mod ticks;
 mod transfer;
 mod view;
 
-pub use buffers::{ParticleBuffers, SceneBuffers};
-pub use camera::Ray;
-pub use colormap::colors;
 pub use frame::{Depth, Frame, Picture};
 pub(crate) use html::{PAGE_STYLE, escape};
-pub use kernels::constants as shader_constants;
-pub use layers::{LayerPixel, Layers};
-pub use quantity::{caption, particle_caption};
-pub use stored::{Loaded, Stored, StoredParticles};
-pub use svg::{Plot, Style};
 pub(crate) use ticks::ticks;
-pub use view::View;
+#[doc(hidden)]
+pub use {
+    buffers::{ParticleBuffers, SceneBuffers},
+    camera::Ray,
+    colormap::colors,
+    kernels::constants as shader_constants,
+    layers::{LayerPixel, Layers},
+    quantity::{caption, particle_caption},
+    stored::{Loaded, Stored, StoredParticles},
+    svg::{Plot, Style},
+    view::View,
+};
 
 use crate::Result;
 use crate::gpu::Gpu;

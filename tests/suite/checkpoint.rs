@@ -117,9 +117,7 @@ fn same_files(one: &Path, two: &Path) {
 
 #[test]
 fn a_stopped_run_goes_on_to_the_same_files() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let place = tempfile::tempdir().unwrap();
     let text = |path: &Path| path.to_str().unwrap().to_owned();
     let (whole, parts) = (place.path().join("whole"), place.path().join("parts"));
@@ -199,9 +197,7 @@ fn bad_checkpoints(run: &Path) {
 
 #[test]
 fn a_branch_starts_from_a_state_of_another_run() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let place = tempfile::tempdir().unwrap();
     let (run, branch) = (place.path().join("run"), place.path().join("branch"));
     let text = |path: &Path| path.to_str().unwrap().to_owned();
@@ -244,9 +240,7 @@ fn an_interrupted_run_leaves_a_checkpoint() {
 
 #[test]
 fn what_a_later_program_wrote_is_refused_and_what_the_first_wrote_is_read() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let place = tempfile::tempdir().unwrap();
     let run = place.path().join("run");
     let out = run.display().to_string();

@@ -158,9 +158,7 @@ fn variants_are_listed_and_chosen() {
 
 #[test]
 fn check_draws_the_start_and_names_overlaps() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("start.png");
     let overlap = "bodies[2].shape={ sphere = { center = [1.0, 0.4], radius = 0.1 } }";
@@ -202,9 +200,7 @@ fn mistakes_in_scenes_are_named() {
 
 #[test]
 fn devices() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     assert!(succeeds(&["devices"]).starts_with("0: "));
     let text = fails(4, &["run", "sod", "--device", "abacus"]);
     assert!(text.contains("no device matches `abacus`; there are\n  0: "), "{text}");
@@ -212,9 +208,7 @@ fn devices() {
 
 #[test]
 fn too_large_scenes_are_refused_before_allocation() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
     let text = fails(5, &["run", "bursting_shell_3d", "--resolution", "900", "--out", out]);
@@ -264,9 +258,7 @@ fn a_closed_pipe_is_no_bug() {
 
 #[test]
 fn a_folder_that_cannot_be_written_is_a_disk_error() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("file");
     std::fs::write(&file, "not a folder").unwrap();
@@ -352,9 +344,7 @@ fn a_run_leaves_its_files() {
 /// The software driver takes workgroups in turn, as the suite does elsewhere, or on threads of its own; two that write one place show.
 #[test]
 fn threads_of_the_driver_change_no_bit() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     for scene in [
         &["bursting_diaphragm_2d", "--until", "0.01"][..],

@@ -26,9 +26,7 @@ fn copy(to: &Path) -> PathBuf {
 
 #[test]
 fn a_run_of_the_first_form_is_drawn_and_converted_and_does_not_go_on() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let place = tempfile::tempdir().unwrap();
     let run = copy(place.path());
     let text = run.display().to_string();

@@ -13,9 +13,7 @@ const SHORT: [&str; 7] = ["run", "sod", "--until", "0.01", "--frames", "1", "--o
 
 #[test]
 fn a_run_is_replaced_by_force_only_and_nothing_else_with_it() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     let out = target.to_str().unwrap();
@@ -33,9 +31,7 @@ fn a_run_is_replaced_by_force_only_and_nothing_else_with_it() {
 
 #[test]
 fn a_report_tells_of_what_was_killed_and_a_stale_lock_is_none() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     let out = target.to_str().unwrap();
@@ -56,9 +52,7 @@ fn a_report_tells_of_what_was_killed_and_a_stale_lock_is_none() {
 
 #[test]
 fn output_that_goes_away_ends_no_run() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     let arguments = [&SHORT[..], &[target.to_str().unwrap()]].concat();
@@ -82,9 +76,7 @@ pub(crate) fn with_program(folder: &Path, name: &str, text: &str) -> String {
 
 #[test]
 fn an_encoder_that_fails_costs_the_film_alone() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     let film = folder.path().join("film.mp4");
@@ -199,9 +191,7 @@ fn lives(process: &str) -> bool {
 
 #[test]
 fn sigterm_means_now_and_takes_the_encoder_along() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
     let start = Instant::now();
@@ -219,9 +209,7 @@ fn sigterm_means_now_and_takes_the_encoder_along() {
 
 #[test]
 fn a_second_signal_ends_at_once_with_the_encoder() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
     assert!(kill("-INT", &child.id().to_string()));
@@ -236,9 +224,7 @@ fn a_second_signal_ends_at_once_with_the_encoder() {
 
 #[test]
 fn an_interruption_gives_the_encoder_a_moment() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
     let start = Instant::now();
@@ -252,9 +238,7 @@ fn an_interruption_gives_the_encoder_a_moment() {
 #[cfg(feature = "verify")]
 #[test]
 fn a_verification_is_stopped_within_a_case_with_what_the_others_found() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
     let arguments = ["verify", "--full", "--filter", "sod", "--out", out];
@@ -280,9 +264,7 @@ fn wait_for(what: &str, mut condition: impl FnMut() -> bool) {
 
 #[test]
 fn a_run_that_is_stopped_in_set_up_says_so_and_takes_no_name() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     let long = ["run", "bursting_shell_3d", "--no-expect", "--quiet", "--out", target.to_str().unwrap()];
@@ -304,9 +286,7 @@ fn a_run_that_is_stopped_in_set_up_says_so_and_takes_no_name() {
 
 #[test]
 fn a_disk_that_is_full_is_told_with_what_was_written() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     // a limit on the size of files is met as a full disk is: pictures grow with what there is to see
@@ -327,9 +307,7 @@ fn a_disk_that_is_full_is_told_with_what_was_written() {
 
 #[test]
 fn a_film_that_nobody_encodes_is_told_by_the_exit_code() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     let arguments = [&SHORT[..], &[target.to_str().unwrap(), "--video", "film.mp4"]].concat();
@@ -343,9 +321,7 @@ fn a_film_that_nobody_encodes_is_told_by_the_exit_code() {
 /// Whoever sent the folder of a run may have put links into it.
 #[test]
 fn no_link_leads_out_of_a_foreign_run() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     let out = target.to_str().unwrap();
@@ -369,9 +345,7 @@ fn no_link_leads_out_of_a_foreign_run() {
 #[test]
 #[cfg(target_os = "linux")]
 fn nohup_is_heeded() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("run");
     let long = "run sod --until 1000 --frames 100000 --no-expect --quiet --out";

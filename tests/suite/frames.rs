@@ -120,9 +120,7 @@ fn layers_lead_back_to_the_particles() {
 /// Compositors get the plot alone, from the states of a run.
 #[test]
 fn states_are_converted_for_compositors() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let out = states_of_a_shell(folder.path());
     let run = out.to_str().unwrap();
@@ -235,9 +233,7 @@ camera = { eye = [0.5, 0.5, 4.0], target = [0.5, 0.5, 0.5], up = [0.0, 1.0, 0.0]
 
 #[test]
 fn frames_drawn_again_are_the_same_to_the_byte() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let text = |path: &Path| path.to_str().unwrap().to_owned();
     let (small, shell) = (folder.path().join("small.toml"), folder.path().join("shell.toml"));
@@ -261,9 +257,7 @@ fn frames_drawn_again_are_the_same_to_the_byte() {
 
 #[test]
 fn frames_drawn_again_have_another_look() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let out = states_of_a_shell(folder.path());
     let run = out.to_str().unwrap();
@@ -304,9 +298,7 @@ fn installed(program: &str) -> bool {
 
 #[test]
 fn a_film_is_made_where_there_is_ffmpeg() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("shell.toml");
     write_shell(&scene);

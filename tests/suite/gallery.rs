@@ -45,9 +45,7 @@ fn printed(output: &Output) -> serde_json::Value {
 
 #[test]
 fn a_gallery_shows_every_variant_and_says_which_failed() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("tube.toml"), SCENE).unwrap();
     // the one that fails comes first: the other runs all the same
@@ -73,9 +71,7 @@ fn a_gallery_shows_every_variant_and_says_which_failed() {
 
 #[test]
 fn a_gallery_takes_scenes_at_full_size_and_knows_its_names() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("tube.toml"), SCENE.split("[variants.wrong]").next().unwrap()).unwrap();
     let output = gallery(folder.path(), &["tube.toml", "--scale", "full", "-q"]);
@@ -93,9 +89,7 @@ fn a_gallery_takes_scenes_at_full_size_and_knows_its_names() {
 
 #[test]
 fn a_gallery_runs_scenes_at_a_time_and_shows_them_in_order() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("tube.toml"), SCENE).unwrap();
     let names = ["tube.toml:long", "tube.toml:dense", "--json", "--jobs"];

@@ -156,9 +156,7 @@ fn a_refused_call_is_a_bug_of_ours_and_reported_once() {
 /// So is a shader of ours that the library refuses, by its text or only as a pipeline; one that the user brings is not.
 #[test]
 fn a_refused_shader_is_a_bug_of_whoever_wrote_it() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     // kernels that are refused are for no other compiler
     let written = tempfile::tempdir().unwrap();
     let options = GpuOptions { kernels: Some(written.path().into()), ..GpuOptions::default() };
@@ -183,9 +181,7 @@ fn a_refused_shader_is_a_bug_of_whoever_wrote_it() {
 
 #[test]
 fn an_unknown_device_is_answered_with_the_list() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let list = Gpu::adapters();
     assert!(!list.is_empty() && list.iter().enumerate().all(|(index, adapter)| adapter.index == index));
     for wish in ["no such device", "999"] {

@@ -19,9 +19,7 @@ fn shaders_with(folder: &Path, name: &str, from: &str, to: &str) {
 
 #[test]
 fn a_wrong_stage_fails_the_selftest_by_name() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("found.json");
     let arguments = ["selftest", "--filter", "prefix sum", "--out", file.to_str().unwrap()];
@@ -42,9 +40,7 @@ fn a_wrong_stage_fails_the_selftest_by_name() {
 
 #[test]
 fn nodes_and_order_of_particles_are_those_of_the_host() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("found.json");
     let arguments = ["selftest", "--filter", "particles", "--out", file.to_str().unwrap()];
@@ -60,9 +56,7 @@ fn nodes_and_order_of_particles_are_those_of_the_host() {
 
 #[test]
 fn devices_tell_limits_and_why_one_is_chosen() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let text = brisance(&["devices"]).env_remove("BRISANCE_DEVICE").output().unwrap();
     for part in
         ["maxComputeWorkgroupsPerDimension 65535", "chosen    the first of the list", "features  ", "known     "]
@@ -76,9 +70,7 @@ fn devices_tell_limits_and_why_one_is_chosen() {
 
 #[test]
 fn the_environment_is_checked() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     for (name, value, allowed) in
         [("BRISANCE_AS", "abacus", "gpu or software"), ("BRISANCE_WAIT", "0", "whole number of seconds above 0")]
     {
@@ -94,9 +86,7 @@ fn the_environment_is_checked() {
 
 #[test]
 fn the_settings_of_hardware_give_the_same_within_rounding() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("found.json");
     let arguments = ["selftest", "--filter", "both settings", "--out", file.to_str().unwrap()];
@@ -107,9 +97,7 @@ fn the_settings_of_hardware_give_the_same_within_rounding() {
 
 #[test]
 fn kernels_are_written_for_other_compilers() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let text = succeeds(&["shaders", "riemann_2d", "--out", folder.path().to_str().unwrap()]);
     assert!(text.contains("kernels of 1 scenes"), "{text}");

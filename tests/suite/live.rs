@@ -191,9 +191,7 @@ fn a_tighter_tolerance_costs_iterations() {
 /// A device that goes away is an error that says so, and another one takes its place.
 #[test]
 fn a_lost_device_is_no_panic() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let scene = scene(3, BODY);
     let gpu = Gpu::new(&GpuOptions::default()).unwrap();
     let mut simulation = Simulation::new(&gpu, &scene).unwrap();

@@ -37,9 +37,7 @@ fn table(run: &Path) -> Sheet {
 
 #[test]
 fn every_run_with_bodies_has_its_pieces() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let place = tempfile::tempdir().unwrap();
     for dimension in 1..=3 {
         let file = place.path().join(format!("bar{dimension}.toml"));
@@ -76,9 +74,7 @@ fn every_run_with_bodies_has_its_pieces() {
 /// A run that goes on knows the pieces of the frame before: its rows are those of a run in one piece.
 #[test]
 fn pieces_know_their_parents_behind_a_checkpoint() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let place = tempfile::tempdir().unwrap();
     let file = place.path().join("bar.toml");
     std::fs::write(&file, bar(2)).unwrap();

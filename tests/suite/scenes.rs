@@ -52,9 +52,10 @@ fn meets_its_expectations(path: &str, changes: [&[&str]; 2]) {
     assert!(told.is_empty(), "{path}\n{}", told.join("\n"));
 }
 
+/// Rows `test: scene [variants], changes`; those with the time that they take, in software, two at a time, run when asked for.
 macro_rules! scenes {
-    ($($(#[$attribute:meta])* $name:ident: $path:literal $([$($variant:ident),*])? $(, $set:literal)*;)*) => {
-        $(#[test] $(#[$attribute])* fn $name() { meets_its_expectations($path, [&[$($(stringify!($variant)),*)?], &[$($set),*]]); })*
+    ($($name:ident: $path:literal $([$($variant:ident),*])? $(, $set:literal)* $(takes $time:literal)?;)*) => {
+        $(#[test] $(#[ignore = $time])? fn $name() { meets_its_expectations($path, [&[$($(stringify!($variant)),*)?], &[$($set),*]]); })*
 
         /// Files that a test above runs.
         const TESTED: &[&str] = &[$($path),*];
@@ -145,70 +146,41 @@ scenes! {
     shocked_panel: "validation/shocked_panel.toml", "domain.cells=[300, 68]", "time.until=1e-6";
     blasted_ellipse: "paper/fig14_ordering.toml", "domain.cells=[32, 32]";
     blasted_ellipse_coupling_first: "paper/fig14_ordering.toml" [small, coupling_first];
-    #[ignore = "17 s in software, two scenes at a time"]
-    blasted_ellipse_elasticity_first: "paper/fig14_ordering.toml" [small, coupling_last];
+    blasted_ellipse_elasticity_first: "paper/fig14_ordering.toml" [small, coupling_last] takes "17 s";
     supernova_2d: "paper/fig08_supernova_2d.toml", "domain.cells=[40, 16]";
-    #[ignore = "68 s in software, two scenes at a time"]
-    car_over_a_mine: "paper/fig01_car_landmine.toml" [small];
-    #[ignore = "83 s in software, two scenes at a time"]
-    three_rabbits: "paper/fig02_tribunny.toml" [small];
-    #[ignore = "51 s in software, two scenes at a time"]
-    strong_truck: "paper/fig04_trucks.toml" [small, strong];
-    #[ignore = "51 s in software, two scenes at a time"]
-    weak_truck: "paper/fig04_trucks.toml" [small, weak];
-    #[ignore = "107 s in software, two scenes at a time"]
-    elastic_pumpkin: "paper/fig06_pumpkin.toml" [small, elastic];
-    #[ignore = "270 s in software, two scenes at a time"]
-    plastic_pumpkin: "paper/fig06_pumpkin.toml" [small, plastic];
-    #[ignore = "222 s in software, two scenes at a time"]
-    supernova: "paper/fig08_supernova.toml" [small];
-    #[ignore = "107 s in software, two scenes at a time"]
-    stiff_elastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, stiff_elastic];
-    #[ignore = "116 s in software, two scenes at a time"]
-    soft_elastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, soft_elastic];
-    #[ignore = "246 s in software, two scenes at a time"]
-    stiff_plastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, stiff_plastic];
-    #[ignore = "292 s in software, two scenes at a time"]
-    soft_plastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, soft_plastic];
-    #[ignore = "188 s in software, two scenes at a time"]
-    aeroplane_in_a_wind_tunnel: "paper/fig11_airplane.toml" [small];
-    #[ignore = "135 s in software, two scenes at a time"]
-    cactus_forest: "paper/fig12_cactus_forest.toml" [small];
-    #[ignore = "43 s in software, two scenes at a time"]
-    koalas_above_jets: "paper/fig19_koalas.toml" [small];
+    car_over_a_mine: "paper/fig01_car_landmine.toml" [small] takes "68 s";
+    three_rabbits: "paper/fig02_tribunny.toml" [small] takes "83 s";
+    strong_truck: "paper/fig04_trucks.toml" [small, strong] takes "51 s";
+    weak_truck: "paper/fig04_trucks.toml" [small, weak] takes "51 s";
+    elastic_pumpkin: "paper/fig06_pumpkin.toml" [small, elastic] takes "107 s";
+    plastic_pumpkin: "paper/fig06_pumpkin.toml" [small, plastic] takes "270 s";
+    supernova: "paper/fig08_supernova.toml" [small] takes "222 s";
+    stiff_elastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, stiff_elastic] takes "107 s";
+    soft_elastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, soft_elastic] takes "116 s";
+    stiff_plastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, stiff_plastic] takes "246 s";
+    soft_plastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, soft_plastic] takes "292 s";
+    aeroplane_in_a_wind_tunnel: "paper/fig11_airplane.toml" [small] takes "188 s";
+    cactus_forest: "paper/fig12_cactus_forest.toml" [small] takes "135 s";
+    koalas_above_jets: "paper/fig19_koalas.toml" [small] takes "43 s";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml", "time.until=1.5";
     shell_at_rest: "paper/fig13_ghost_update.toml", "time.until=3.0";
     shell_at_rest_by_forces: "paper/fig13_ghost_update.toml" [small, forces];
-    #[ignore = "13 s in software, two scenes at a time"]
-    shell_at_rest_by_gradients: "paper/fig13_ghost_update.toml" [small, gradients];
-    #[ignore = "23 s in software, two scenes at a time"]
-    bursting_shell_2d: "paper/fig03_elastic_shell_2d.toml" [small];
-    #[ignore = "67 s in software, two scenes at a time"]
-    heavy_bullet: "paper/fig05_bullets_2d.toml" [small, heavy];
-    #[ignore = "67 s in software, two scenes at a time"]
-    light_bullet: "paper/fig05_bullets_2d.toml" [small, light];
-    #[ignore = "102 s in software, two scenes at a time"]
-    light_bullet_with_silencer: "paper/fig05_bullets_2d.toml" [small, light_silencer];
-    #[ignore = "14 s in software, two scenes at a time"]
-    forward_step_to_its_end: "paper/fig15_stair_flow.toml" [small];
+    shell_at_rest_by_gradients: "paper/fig13_ghost_update.toml" [small, gradients] takes "13 s";
+    bursting_shell_2d: "paper/fig03_elastic_shell_2d.toml" [small] takes "23 s";
+    heavy_bullet: "paper/fig05_bullets_2d.toml" [small, heavy] takes "67 s";
+    light_bullet: "paper/fig05_bullets_2d.toml" [small, light] takes "67 s";
+    light_bullet_with_silencer: "paper/fig05_bullets_2d.toml" [small, light_silencer] takes "102 s";
+    forward_step_to_its_end: "paper/fig15_stair_flow.toml" [small] takes "14 s";
     lifting_cylinder_to_its_end: "paper/fig17_lifting_cylinder.toml" [small];
-    #[ignore = "20 s in software, two scenes at a time"]
-    mach_diamond_to_its_end: "paper/fig18_mach_diamond_2d.toml" [small];
-    #[ignore = "47 s in software, two scenes at a time"]
-    glass_front: "demos/glass_front_2d.toml";
-    #[ignore = "54 s in software, two scenes at a time"]
-    sonic_boom: "demos/sonic_boom_2d.toml";
-    #[ignore = "60 s in software, two scenes at a time"]
-    shaped_cavity: "demos/shaped_cavity_2d.toml";
-    #[ignore = "41 s in software, two scenes at a time"]
-    bursting_diaphragm: "demos/bursting_diaphragm_2d.toml";
-    #[ignore = "40 s in software, two scenes at a time"]
-    meteor: "demos/meteor_3d.toml";
-    #[ignore = "56 s in software, two scenes at a time"]
-    playground: "demos/playground_2d.toml";
-    #[ignore = "59 s in software, two scenes at a time"]
-    bursting_shell_3d: "demos/bursting_shell_3d.toml";
+    mach_diamond_to_its_end: "paper/fig18_mach_diamond_2d.toml" [small] takes "20 s";
+    glass_front: "demos/glass_front_2d.toml" takes "47 s";
+    sonic_boom: "demos/sonic_boom_2d.toml" takes "54 s";
+    shaped_cavity: "demos/shaped_cavity_2d.toml" takes "60 s";
+    bursting_diaphragm: "demos/bursting_diaphragm_2d.toml" takes "41 s";
+    meteor: "demos/meteor_3d.toml" takes "40 s";
+    playground: "demos/playground_2d.toml" takes "56 s";
+    bursting_shell_3d: "demos/bursting_shell_3d.toml" takes "59 s";
     bursting_vessel_3d: "demos/bursting_vessel_3d.toml" [small];
     gelatine_3d: "demos/gelatine_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
     street_blast: "demos/street_blast_3d.toml" [small], "time.until=0.003";

@@ -240,7 +240,7 @@ fn the_ledger_of_covered_gas_drains_no_cell_under_a_heap() {
     let scene = Scene::parse(text, "test.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
     let mut simulation = Simulation::new(&gpu, &scene).unwrap_or_else(|error| panic!("{error}"));
     let records = simulation.advance_to(scene.time.until).unwrap_or_else(|error| panic!("{error}"));
-    // 0.19; 0.007 where a cell pays debts however much they take of what it has.
+    // 0.19; 0.007 where a cell gives back what it owes however much that takes of what it has.
     let least = records.iter().map(|record| record.density[0]).fold(f32::INFINITY, f32::min);
     assert!(least > 0.1, "{least}");
     assert!(records.iter().all(|record| record.floored == 0), "no cell needs the floor");

@@ -260,13 +260,13 @@ impl Twins {
         let all = [0.0, x, y, z, heat];
         for (k, name) in names.into_iter().enumerate() {
             let held = |slot: &usize| conserved(&flow, &energy, *slot)[k];
-            let debt = |slot: &usize| conserved(&owed, &owed_energy, *slot)[k] / volume;
+            let owes = |slot: &usize| conserved(&owed, &owed_energy, *slot)[k] / volume;
             let twin = |slot: &usize| self.state.ledger[*slot][k] / volume;
             let (found, expected): (Vec<f64>, Vec<f64>) = if owed.len() < flow.len() {
                 // gas cells have no budgets of their own: what floors took is one sum
                 (vec![all[k] / volume], vec![slots.iter().map(twin).sum()])
             } else {
-                let found = covered.iter().map(held).chain(slots.iter().map(debt)).collect();
+                let found = covered.iter().map(held).chain(slots.iter().map(owes)).collect();
                 (found, covered.iter().chain(&slots).map(twin).collect())
             };
             self.check_scaled(&format!("owed {name}"), tolerance, 1.0, &found, &expected);

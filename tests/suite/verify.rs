@@ -232,9 +232,7 @@ fn the_iteration_bound_is_that_of_conjugate_gradients() {
 
 #[test]
 fn a_verification_leaves_its_files() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("deep");
     let run = |arguments: &[&str]| {
@@ -260,9 +258,7 @@ fn a_verification_leaves_its_files() {
 
 #[test]
 fn a_failed_gate_has_an_exit_code() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     copy_shaders(&Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders"), folder.path());
     // A table that mistakes the sign of the lowest pressure is what the gate on it must not let pass.

@@ -191,9 +191,7 @@ fn wait(worker: &Worker, seen: &mut Outbox, what: &str, done: impl Fn(&Outbox) -
 
 #[test]
 fn the_worker_opens_steps_detonates_changes_and_saves() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("charge.toml");
     std::fs::write(&file, SPACE).unwrap();
@@ -244,9 +242,7 @@ fn the_worker_opens_steps_detonates_changes_and_saves() {
 
 #[test]
 fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let worker = Worker::start(GpuOptions::default(), || {});
     let mut seen = Outbox::default();
     worker.send(Command::Open(
@@ -262,9 +258,7 @@ fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
 /// A recording begins with the picture in the window and counts every picture of steps.
 #[test]
 fn a_recording_counts_its_pictures() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     // Recordings go to a folder of this name below `out`.
     let name = format!("recorded_{}", std::process::id());

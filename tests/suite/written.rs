@@ -23,9 +23,7 @@ fn below(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 /// Pictures, page, tables and report of a tube, of a plane and of space are told within 30 %.
 #[test]
 fn what_a_run_will_write_is_told() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     for (scene, cells) in [
         ("sod", "400"),
@@ -58,9 +56,7 @@ fn limited(kib: u32, arguments: &[&str]) -> Output {
 
 #[test]
 fn a_full_disk_costs_nothing_that_was_there() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name).display().to_string();
     let [run, out, again, sweep] = ["run", "out", "again", "sweep"].map(place);
@@ -99,9 +95,7 @@ const RAW: &str = "#!/bin/bash\n[ \"$1\" = -version ] && exit 0\ncat >\"${@: -1}
 
 #[test]
 fn a_film_goes_on_without_a_seam() {
-    if gpu_or_skip().is_none() {
-        return;
-    }
+    let Some(_) = gpu_or_skip() else { return };
     let folder = tempfile::tempdir().unwrap();
     let path = with_program(folder.path(), "ffmpeg", RAW);
     let filmed = |arguments: &[&str]| {

@@ -26,7 +26,7 @@ impl Transfer {
     }
 }
 
-/// What one transfer carries.
+/// What one transfer by nodes gives: mass and momentum, the elastic force, or both at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Carry {
     Mass,
@@ -46,12 +46,12 @@ enum Kernels {
     Nodes(Bound),
 }
 
-/// Kernels of the stage.
+/// Kernels of the stage: mass and momentum, the elastic force, and all of it after the particles have moved.
 #[derive(Debug)]
 pub struct P2g {
     mass: Kernels,
     force: Force,
-    both: Vec<Kernels>,
+    all: Vec<Kernels>,
 }
 
 /// The transfer of a stress alone.
@@ -134,7 +134,7 @@ impl P2g {
     pub fn new(state: &State, transfer: Transfer) -> Result<Self> {
         let stress = state.particles.stress.raw();
         let force = Force::new(state, transfer, stress)?;
-        let (mass, both) = match transfer {
+        let (mass, all) = match transfer {
             Transfer::Columns => {
                 let mass = Kernels::columns(state, false, stress)?;
                 (mass.clone(), vec![mass, force.0.clone()])
@@ -143,7 +143,7 @@ impl P2g {
                 (Kernels::nodes(state, Carry::Mass, stress)?, vec![Kernels::nodes(state, Carry::Both, stress)?])
             }
         };
-        Ok(Self { mass, force, both })
+        Ok(Self { mass, force, all })
     }
 
     /// Mass and velocity at the start of a step.
@@ -164,7 +164,7 @@ impl P2g {
         if first {
             self.force.record(pass, state, Phase::First);
         } else {
-            for kernels in &self.both {
+            for kernels in &self.all {
                 kernels.record(pass, state, Phase::Again);
             }
         }

@@ -66,7 +66,7 @@ const TUBE: [Station; 8] = [
 /// Why the plate is early.
 const FOOT: &str = "a captured shock is some cells wide: its foot moves the plate by less than a tenth of a cell early";
 /// Why the rebound is slow.
-const CUSHION: &str = "the cushion of gas is 0.14 long, 7 and 14 cells; the error falls with the cells, and the velocity at 3.5 \
+const REBOUND: &str = "the gas that throws it back is 0.14 long, 7 and 14 cells; the error falls with the cells, and the velocity at 3.5 \
 scatters by 0.017 with the size of the steps";
 
 /// Cells of the runs of a suite.
@@ -114,7 +114,7 @@ fn plate_in_tube(session: &mut Session<'_>) -> Result<()> {
                 let row = session.check(run, &format!("{name} at {time}"), ours).reference(goal, LAGRANGIAN);
                 row.pass(Limit::Between(goal - 0.02, goal + 0.02));
                 if time > 3.0 && cells < 620 {
-                    row.known(Limit::Between(goal - known, goal + known), CUSHION);
+                    row.known(Limit::Between(goal - known, goal + known), REBOUND);
                 }
             }
         }

@@ -58,7 +58,7 @@ fn pocket(problem: &Problem, state: &State, bins: &Bins, c: [i32; 3]) -> [f64; 5
 }
 
 /// Part of its ledger that a gas cell applies at once. In the open the ledger may take half more than the cell holds, and 0.3 of the
-/// speed of sound per step; enclosed on two faces or more it must leave a quarter, and a tenth. No debt takes the entropy below the least.
+/// speed of sound per step; enclosed on two faces or more it must leave a quarter, and a tenth. Nothing owed takes the entropy below the least.
 pub(crate) fn settled_part(
     u: [f64; 5],
     owed: [f64; 5],
