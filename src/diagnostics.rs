@@ -84,6 +84,9 @@ pub struct StepRecord {
     pub fracture_energy: f32,
     /// Mass of the particles that have broken \[kg\].
     pub broken_mass: f32,
+    /// Mass of the second gas, what is owed included, and what of it has left since the start \[kg\].
+    #[serde(default)]
+    pub species_mass: [f32; 2],
     /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start, the energy of blasts, and what
     /// charges have given to the gas, their mass among it. What clamped and driven parts give is not in it.
     pub given: Total,
@@ -176,6 +179,7 @@ impl StepRecord {
             plastic_heat: solid_heat[3],
             fracture_energy: cracks[0],
             broken_mass: cracks[1],
+            species_mass: [cracks[2], cracks[3]],
             given: total([0.0, given[0], given[1], given[2]], given[3]),
             solid_speed: solid_speed[0].max(0.0),
             rounds: solid_speed[1].to_bits(),

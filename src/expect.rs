@@ -79,7 +79,7 @@ impl Budget {
         let mut budget = Self {
             energy: stored,
             particles: state.params.particles.into(),
-            start_entropy: state.start_entropy,
+            start_entropy: state.start_entropy[0],
             ..Self::default()
         };
         let mut most = 0.0;

@@ -64,11 +64,13 @@ pub const TABLE: &[Quantity] = &[
     quantity(Place::Cell, "pressure", "Pa", "pressure [Pa]", 1, |s| gas(s, |i| [s.pressure[i]])),
     quantity(Place::Cell, "velocity", "m s^-1", "speed [m/s]", 3, |s| gas(s, |i| s.velocity[i])),
     quantity(Place::Cell, "energy", "J m^-3", "total energy [J/m\u{b3}]", 1, |s| gas(s, |i| [s.energy[i]])),
-    quantity(Place::Cell, "temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [s.pressure[i] / s.density[i]])),
+    quantity(Place::Cell, "temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [temperature(s, i)])),
     quantity(Place::Cell, "mach", "1", "Mach number", 1, |s| gas(s, |i| [mach(s, i)])),
     quantity(Place::Cell, "schlieren", "kg m^-4", "density gradient [kg/m\u{2074}]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
     quantity(Place::Cell, "vorticity", "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
-    quantity(Place::Cell, "entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma as f32)])),
+    quantity(Place::Cell, "entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma_at(i) as f32)])),
+    quantity(Place::Cell, "mass_fraction", "1", "mass fraction of the second gas", 1, |s| gas(s, |i| [s.mass_fraction_at(i)])),
+    quantity(Place::Cell, "volume_fraction", "1", "volume fraction of the second gas", 1, |s| gas(s, |i| [s.species.get(i).map_or(0.0, |own| own[1])])),
     quantity(Place::Cell, "owed", "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
     quantity(Place::Cell, "peak_pressure", "Pa", "largest pressure so far [Pa]", 1, |s| map(s, 0)),
     quantity(Place::Cell, "impulse", "Pa s", "impulse so far [Pa s]", 1, |s| map(s, 1)),
@@ -110,14 +112,17 @@ pub fn find(place: Place, name: &str) -> Option<&'static Quantity> {
     TABLE.iter().find(|quantity| quantity.place == place && quantity.name == name)
 }
 
-/// All quantities of cells or of particles that a state has: maps only where they were kept.
+/// All quantities of cells or of particles that a state has: maps only where they were kept, fractions where there are two gases.
 pub fn all(snapshot: &Snapshot, place: Place) -> impl Iterator<Item = &'static Quantity> {
-    let kept = !snapshot.maps.is_empty();
-    TABLE.iter().filter(move |quantity| quantity.place == place && (kept || !MAPS.contains(&quantity.name)))
+    let (kept, mixed) = (!snapshot.maps.is_empty(), !snapshot.species.is_empty());
+    let has = move |name: &str| (kept || !MAPS.contains(&name)) && (mixed || !FRACTIONS.contains(&name));
+    TABLE.iter().filter(move |quantity| quantity.place == place && has(quantity.name))
 }
 
 /// Elements that one thread takes at least.
 const LEAST: usize = 1 << 12;
+/// Quantities of scenes with two gases.
+const FRACTIONS: [&str; 2] = ["mass_fraction", "volume_fraction"];
 /// Quantities of what has been so far.
 const MAPS: [&str; 3] = ["peak_pressure", "impulse", "peak_plastic_strain"];
 
@@ -146,8 +151,14 @@ fn length([x, y, z]: [f32; 3]) -> f32 {
     (x * x + y * y + z * z).sqrt()
 }
 
+/// p / rho, over the gas constant of a mixture times that of the first gas.
+fn temperature(snapshot: &Snapshot, i: usize) -> f32 {
+    let ratio = snapshot.gases.constant_ratio(snapshot.mass_fraction_at(i).into()) as f32;
+    snapshot.pressure[i] / snapshot.density[i] / ratio
+}
+
 fn mach(snapshot: &Snapshot, i: usize) -> f32 {
-    length(snapshot.velocity[i]) / (snapshot.gamma as f32 * snapshot.pressure[i] / snapshot.density[i]).sqrt()
+    length(snapshot.velocity[i]) / (snapshot.gamma_at(i) as f32 * snapshot.pressure[i] / snapshot.density[i]).sqrt()
 }
 
 /// Of the Cauchy stress: sqrt(3/2 s:s).
@@ -206,7 +217,8 @@ mod tests {
             time: 0.0,
             step: 0,
             grid,
-            gamma: 1.4,
+            gases: crate::scene::EquationOfState { gamma: 1.4, species: None },
+            species: Vec::new(),
             kind: kinds,
             density,
             velocity,

@@ -1,9 +1,9 @@
-//! Exact solution of the Riemann problem of an ideal gas. [Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 2009, §4]
+//! Exact solution of the Riemann problem of one ideal gas, or two. [Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 2009, §4]
 
 /// Density, velocity and pressure.
 pub type Primitive = (f64, f64, f64);
 
-/// Two uniform states of one gas that meet at x = 0 at time 0. The solution depends on xi = x / t alone.
+/// Two uniform states that meet at x = 0 at time 0, of one gas or of two. The solution depends on xi = x / t alone.
 ///
 /// ```
 /// use brisance::riemann::ExactRiemann;
@@ -13,24 +13,39 @@ pub type Primitive = (f64, f64, f64);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ExactRiemann {
-    gamma: f64,
-    left: Primitive,
-    right: Primitive,
+    left: Side,
+    right: Side,
     /// Pressure between the waves; 0 if a vacuum opens.
     pub star_pressure: f64,
     /// Velocity between the waves.
     pub star_velocity: f64,
 }
 
+/// The gas on one side, as a wave to the left sees it: the right one is mirrored.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    gamma: f64,
+    density: f64,
+    velocity: f64,
+    pressure: f64,
+}
+
 impl ExactRiemann {
-    /// Solves for the state between the waves.
+    /// Solves for the state between the waves, of a gas with one ratio of specific heats.
     pub fn new(gamma: f64, left: Primitive, right: Primitive) -> Self {
-        let mut problem = ExactRiemann { gamma, left, right, star_pressure: 0.0, star_velocity: 0.0 };
+        Self::of_two_gases([gamma; 2], left, right)
+    }
+
+    /// The same of two gases, with the ratios of specific heats on the left and on the right.
+    pub fn of_two_gases([left_gamma, right_gamma]: [f64; 2], left: Primitive, right: Primitive) -> Self {
+        let side = |gamma: f64, (density, velocity, pressure): Primitive| Side { gamma, density, velocity, pressure };
+        let (left, right) = (side(left_gamma, left), side(right_gamma, mirrored(right)));
+        let mut problem = ExactRiemann { left, right, star_pressure: 0.0, star_velocity: 0.0 };
         if !problem.vacuum() {
-            problem.star_pressure = problem.solve_pressure();
-            let (towards_left, towards_right) =
-                (problem.curve(left, problem.star_pressure), problem.curve(right, problem.star_pressure));
-            problem.star_velocity = 0.5 * (left.1 + right.1) + 0.5 * (towards_right.0 - towards_left.0);
+            let star = problem.solve_pressure();
+            problem.star_pressure = star;
+            problem.star_velocity =
+                0.5 * (left.velocity - right.velocity) + 0.5 * (right.curve(star).0 - left.curve(star).0);
         }
         problem
     }
@@ -41,40 +56,18 @@ impl ExactRiemann {
             return self.sample_vacuum(xi);
         }
         if xi <= self.star_velocity {
-            self.sample_side(xi, self.left)
+            self.left.sample(xi, self.star_velocity, self.star_pressure)
         } else {
-            // the right side is the left side of the mirrored problem
-            let (rho, u, p) = self.sample_side_mirrored(xi);
-            (rho, u, p)
+            mirrored(self.right.sample(-xi, -self.star_velocity, self.star_pressure))
         }
     }
 
     /// Speeds of the waves: low and high edge of the left one, contact, low and high edge of the right one. The edges of a shock
     /// coincide; without gas between the waves the inner three are those of the vacuum.
     pub fn wave_speeds(&self) -> [f64; 5] {
-        let flip = |(rho, u, p): Primitive| (rho, -u, p);
-        let (left, right) = (self.side_speeds(self.left), self.side_speeds(flip(self.right)));
+        let [left, right] = [self.left, self.right].map(|side| side.speeds(self.star_pressure));
         let contact = if self.vacuum() { 0.5 * (left[1] - right[1]) } else { self.star_velocity };
         [left[0], left[1], contact, -right[1], -right[0]]
-    }
-
-    /// Edges of the wave on the left of a gas.
-    fn side_speeds(&self, side: Primitive) -> [f64; 2] {
-        let g = self.gamma;
-        let (c, ratio) = (self.sound(side), self.star_pressure / side.2);
-        if ratio > 1.0 {
-            return [self.shock_speed(side); 2];
-        }
-        // across a rarefaction u + 2 c / (gamma - 1) stays
-        let c_star = c * ratio.powf((g - 1.0) / (2.0 * g));
-        [side.1 - c, side.1 + 2.0 / (g - 1.0) * (c - c_star) - c_star]
-    }
-
-    /// Speed of a left shock into a gas. [Toro, eq. 4.52]
-    fn shock_speed(&self, side: Primitive) -> f64 {
-        let g = self.gamma;
-        let ratio = self.star_pressure / side.2;
-        side.1 - self.sound(side) * ((g + 1.0) / (2.0 * g) * ratio + (g - 1.0) / (2.0 * g)).sqrt()
     }
 
     /// Mean of the state over a cell at a time; the jump lies at `jump` at time 0.
@@ -88,9 +81,9 @@ impl ExactRiemann {
             let (rho, u, p) = if time > 0.0 {
                 self.sample(x / time)
             } else if x < 0.0 {
-                self.left
+                self.left.state()
             } else {
-                self.right
+                mirrored(self.right.state())
             };
             sum = (sum.0 + rho, sum.1 + u, sum.2 + p);
         }
@@ -98,43 +91,25 @@ impl ExactRiemann {
         (sum.0 * weight, sum.1 * weight, sum.2 * weight)
     }
 
-    fn sound(&self, state: Primitive) -> f64 {
-        (self.gamma * state.2 / state.0).sqrt()
-    }
-
     /// The states fly apart faster than their rarefactions can follow. [Toro, eq. 4.40]
     fn vacuum(&self) -> bool {
-        2.0 / (self.gamma - 1.0) * (self.sound(self.left) + self.sound(self.right)) <= self.right.1 - self.left.1
+        self.left.escape() <= -self.right.escape()
     }
 
-    /// Change of velocity across the wave that brings a state to pressure p, and its derivative. [Toro, eqs. 4.6, 4.7, 4.37]
-    fn curve(&self, state: Primitive, p: f64) -> (f64, f64) {
-        let g = self.gamma;
-        let (rho, _, pressure) = state;
-        if p > pressure {
-            let a = 2.0 / ((g + 1.0) * rho);
-            let b = (g - 1.0) / (g + 1.0) * pressure;
-            let root = (a / (p + b)).sqrt();
-            ((p - pressure) * root, root * (1.0 - 0.5 * (p - pressure) / (p + b)))
-        } else {
-            let c = self.sound(state);
-            let ratio = p / pressure;
-            let value = 2.0 * c / (g - 1.0) * (ratio.powf((g - 1.0) / (2.0 * g)) - 1.0);
-            (value, ratio.powf(-(g + 1.0) / (2.0 * g)) / (rho * c))
-        }
-    }
-
-    /// Newton's method from the two-rarefaction guess, which lies below the root, where the function is concave: it converges. [Toro, eq. 4.46]
+    /// Newton's method from the two-rarefaction guess, which lies below the root, where the function is concave: it converges. Of two gases the
+    /// lower of both guesses. [Toro, eq. 4.46]
     fn solve_pressure(&self) -> f64 {
-        let g = self.gamma;
-        let z = (g - 1.0) / (2.0 * g);
-        let (cl, cr) = (self.sound(self.left), self.sound(self.right));
-        let top = cl + cr - 0.5 * (g - 1.0) * (self.right.1 - self.left.1);
-        let mut p = (top / (cl / self.left.2.powf(z) + cr / self.right.2.powf(z))).powf(1.0 / z);
+        let (left, right) = (&self.left, &self.right);
+        let guess = |g: f64| {
+            let z = (g - 1.0) / (2.0 * g);
+            let (cl, cr) = (left.sound(), right.sound());
+            let top = cl + cr + 0.5 * (g - 1.0) * (right.velocity + left.velocity);
+            (top.max(1e-9 * (cl + cr)) / (cl / left.pressure.powf(z) + cr / right.pressure.powf(z))).powf(1.0 / z)
+        };
+        let mut p = f64::min(guess(left.gamma), guess(right.gamma));
         for _ in 0..100 {
-            let (fl, dl) = self.curve(self.left, p);
-            let (fr, dr) = self.curve(self.right, p);
-            let next = (p - (fl + fr + self.right.1 - self.left.1) / (dl + dr)).max(0.01 * p);
+            let [(fl, dl), (fr, dr)] = [left, right].map(|side| side.curve(p));
+            let next = (p - (fl + fr - right.velocity - left.velocity) / (dl + dr)).max(0.01 * p);
             let change = (next - p).abs();
             p = next;
             if change <= 1e-15 * p {
@@ -144,65 +119,98 @@ impl ExactRiemann {
         p
     }
 
-    fn sample_side_mirrored(&self, xi: f64) -> Primitive {
-        let flip = |(rho, u, p): Primitive| (rho, -u, p);
-        let mirrored = ExactRiemann {
-            left: flip(self.right),
-            right: flip(self.left),
-            star_velocity: -self.star_velocity,
-            ..*self
-        };
-        flip(mirrored.sample_side(-xi, mirrored.left))
-    }
-
-    /// The state on the left of the contact. [Toro, §4.5.1]
-    fn sample_side(&self, xi: f64, side: Primitive) -> Primitive {
-        let g = self.gamma;
-        let (rho, u, p) = side;
-        let c = self.sound(side);
-        let ratio = self.star_pressure / p;
-        if ratio > 1.0 {
-            let speed = self.shock_speed(side);
-            let weight = (g - 1.0) / (g + 1.0);
-            let star = rho * (ratio + weight) / (weight * ratio + 1.0);
-            return if xi < speed { side } else { (star, self.star_velocity, self.star_pressure) };
-        }
-        let tail = self.star_velocity - c * ratio.powf((g - 1.0) / (2.0 * g));
-        if xi < u - c {
-            side
-        } else if xi > tail {
-            (rho * ratio.powf(1.0 / g), self.star_velocity, self.star_pressure)
-        } else {
-            self.fan(xi, side)
-        }
-    }
-
-    /// Inside a left rarefaction. [Toro, eq. 4.56]
-    fn fan(&self, xi: f64, (rho, u, p): Primitive) -> Primitive {
-        let g = self.gamma;
-        let c = self.sound((rho, u, p));
-        let factor = 2.0 / (g + 1.0) + (g - 1.0) / ((g + 1.0) * c) * (u - xi);
-        let velocity = 2.0 / (g + 1.0) * (c + 0.5 * (g - 1.0) * u + xi);
-        (rho * factor.powf(2.0 / (g - 1.0)), velocity, p * factor.powf(2.0 * g / (g - 1.0)))
-    }
-
     /// Two rarefactions with nothing between them. [Toro, §4.6]
     fn sample_vacuum(&self, xi: f64) -> Primitive {
-        let g = self.gamma;
-        let flip = |(rho, u, p): Primitive| (rho, -u, p);
-        let (cl, cr) = (self.sound(self.left), self.sound(self.right));
-        let fronts = (self.left.1 + 2.0 * cl / (g - 1.0), self.right.1 - 2.0 * cr / (g - 1.0));
-        if xi <= self.left.1 - cl {
-            self.left
-        } else if xi < fronts.0 {
-            self.fan(xi, self.left)
-        } else if xi <= fronts.1 {
+        let fronts = [self.left.escape(), -self.right.escape()];
+        if xi < fronts[0] {
+            self.left.fan_or_rest(xi)
+        } else if xi <= fronts[1] {
             (0.0, xi, 0.0)
-        } else if xi < self.right.1 + cr {
-            flip(self.fan(-xi, flip(self.right)))
         } else {
-            self.right
+            mirrored(self.right.fan_or_rest(-xi))
         }
+    }
+}
+
+fn mirrored((density, velocity, pressure): Primitive) -> Primitive {
+    (density, -velocity, pressure)
+}
+
+impl Side {
+    fn state(&self) -> Primitive {
+        (self.density, self.velocity, self.pressure)
+    }
+
+    fn sound(&self) -> f64 {
+        (self.gamma * self.pressure / self.density).sqrt()
+    }
+
+    /// Speed of its edge where it expands into nothing.
+    fn escape(&self) -> f64 {
+        self.velocity + 2.0 / (self.gamma - 1.0) * self.sound()
+    }
+
+    /// Edges of the wave that brings it to a pressure.
+    fn speeds(&self, star_pressure: f64) -> [f64; 2] {
+        let g = self.gamma;
+        let (c, ratio) = (self.sound(), star_pressure / self.pressure);
+        if ratio > 1.0 {
+            return [self.shock_speed(star_pressure); 2];
+        }
+        // across a rarefaction u + 2 c / (gamma - 1) stays
+        let c_star = c * ratio.powf((g - 1.0) / (2.0 * g));
+        [self.velocity - c, self.velocity + 2.0 / (g - 1.0) * (c - c_star) - c_star]
+    }
+
+    /// Speed of the shock that brings it to a pressure. [Toro, eq. 4.52]
+    fn shock_speed(&self, star_pressure: f64) -> f64 {
+        let g = self.gamma;
+        let ratio = star_pressure / self.pressure;
+        self.velocity - self.sound() * ((g + 1.0) / (2.0 * g) * ratio + (g - 1.0) / (2.0 * g)).sqrt()
+    }
+
+    /// Change of velocity across the wave that brings it to pressure p, and its derivative. [Toro, eqs. 4.6, 4.7, 4.37]
+    fn curve(&self, p: f64) -> (f64, f64) {
+        let g = self.gamma;
+        if p > self.pressure {
+            let a = 2.0 / ((g + 1.0) * self.density);
+            let b = (g - 1.0) / (g + 1.0) * self.pressure;
+            let root = (a / (p + b)).sqrt();
+            ((p - self.pressure) * root, root * (1.0 - 0.5 * (p - self.pressure) / (p + b)))
+        } else {
+            let c = self.sound();
+            let ratio = p / self.pressure;
+            let value = 2.0 * c / (g - 1.0) * (ratio.powf((g - 1.0) / (2.0 * g)) - 1.0);
+            (value, ratio.powf(-(g + 1.0) / (2.0 * g)) / (self.density * c))
+        }
+    }
+
+    /// The state on this side of the contact. [Toro, §4.5.1]
+    fn sample(&self, xi: f64, star_velocity: f64, star_pressure: f64) -> Primitive {
+        let g = self.gamma;
+        let ratio = star_pressure / self.pressure;
+        if ratio > 1.0 {
+            let weight = (g - 1.0) / (g + 1.0);
+            let star = self.density * (ratio + weight) / (weight * ratio + 1.0);
+            let ahead = xi < self.shock_speed(star_pressure);
+            return if ahead { self.state() } else { (star, star_velocity, star_pressure) };
+        }
+        if xi > star_velocity - self.sound() * ratio.powf((g - 1.0) / (2.0 * g)) {
+            (self.density * ratio.powf(1.0 / g), star_velocity, star_pressure)
+        } else {
+            self.fan_or_rest(xi)
+        }
+    }
+
+    /// Inside a left rarefaction, or before it. [Toro, eq. 4.56]
+    fn fan_or_rest(&self, xi: f64) -> Primitive {
+        let (g, c) = (self.gamma, self.sound());
+        if xi < self.velocity - c {
+            return self.state();
+        }
+        let factor = 2.0 / (g + 1.0) + (g - 1.0) / ((g + 1.0) * c) * (self.velocity - xi);
+        let velocity = 2.0 / (g + 1.0) * (c + 0.5 * (g - 1.0) * self.velocity + xi);
+        (self.density * factor.powf(2.0 / (g - 1.0)), velocity, self.pressure * factor.powf(2.0 * g / (g - 1.0)))
     }
 }
 
@@ -269,5 +277,25 @@ mod tests {
             let (a, b) = (exact.sample(xi), exact.sample(-xi));
             assert!((a.0 - b.0).abs() < 1e-12 && (a.1 + b.1).abs() < 1e-12 && (a.2 - b.2).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn two_gases_meet_as_in_the_shock_tube_with_helium() {
+        // air of 1.4 behind a shock of Mach 1.22, helium of 1.648 with air in it, at the ambient pressure and 0.2239 of its density
+        let exact = ExactRiemann::of_two_gases([1.4, 1.648], (1.3764, 0.394, 1.5698), (0.2239, 0.0, 1.0));
+        let mirror = ExactRiemann::of_two_gases([1.648, 1.4], (0.2239, 0.0, 1.0), (1.3764, -0.394, 1.5698));
+        for xi in [-1.2, -0.8, 0.0, 0.5, 3.0, 4.0] {
+            let ((a, u, p), (b, v, q)) = (exact.sample(xi), mirror.sample(-xi));
+            assert!((a - b).abs() < 1e-12 && (u + v).abs() < 1e-12 && (p - q).abs() < 1e-12);
+        }
+        // jump conditions across the transmitted shock: mass, momentum, energy
+        let speed = exact.wave_speeds()[4];
+        let (density, velocity, pressure) = exact.sample(speed - 1e-9);
+        let flow = 0.2239 * speed;
+        assert!((density * (speed - velocity) - flow).abs() < 1e-9);
+        assert!((pressure - 1.0 - flow * velocity).abs() < 1e-9);
+        let energy = |p: f64, rho: f64, u: f64| p / 0.648 + 0.5 * rho * u * u;
+        let gained = (energy(pressure, density, velocity) - energy(1.0, 0.2239, 0.0)) * speed;
+        assert!((gained - velocity * (energy(pressure, density, velocity) + pressure)).abs() < 1e-9);
     }
 }

@@ -64,7 +64,7 @@ pub struct Simulation {
     gauges: Option<Gauges>,
     maps: Option<Maps>,
     detonate: Option<Detonate>,
-    gamma: f64,
+    gases: crate::scene::EquationOfState,
     /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
     given: [f64; 4],
     /// Momentum and energy that gravity has given to the gas since the start, and the gas of the step before.
@@ -134,7 +134,7 @@ impl Simulation {
             gauges: Gauges::new(&state)?,
             maps: Maps::new(&state)?,
             detonate: None,
-            gamma: scene.gas.gamma,
+            gases: scene.gas.equation_of_state(),
             given: [0.0; 4],
             pulled: [0.0; 4],
             gas_before: state.start_momentum,
@@ -391,6 +391,6 @@ impl Simulation {
     /// # Errors
     /// Driver errors.
     pub fn snapshot(&self) -> Result<Snapshot> {
-        Snapshot::read(&self.gpu, &self.state, (self.time, self.step), self.gamma)
+        Snapshot::read(&self.gpu, &self.state, (self.time, self.step), self.gases)
     }
 }

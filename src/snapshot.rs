@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::error::Result;
 use crate::gpu::{Gpu, readback};
+use crate::scene::EquationOfState;
 use crate::state::{Grid, State};
 
 /// Kind of a cell, bits 0..1 of a cell word.
@@ -31,8 +32,8 @@ pub struct Snapshot {
     pub step: u64,
     /// The grid of the cell arrays.
     pub grid: Grid,
-    /// Ratio of specific heats of the gas.
-    pub gamma: f64,
+    /// Equation of state of the gas.
+    pub gases: EquationOfState,
     /// Kind of each cell, see [`kind`].
     pub kind: Vec<u8>,
     /// Gas density \[kg m^-3\].
@@ -43,6 +44,8 @@ pub struct Snapshot {
     pub pressure: Vec<f32>,
     /// Total gas energy per volume \[J m^-3\].
     pub energy: Vec<f32>,
+    /// Mass fraction of the second gas and its volume fraction; empty without one.
+    pub species: Vec<[f32; 2]>,
     /// Gas that cells owe, and in covered cells all that they hold \[kg m^-3\].
     pub owed: Vec<f32>,
     /// Of each cell since the start: largest pressure \[Pa\], integral over time of the pressure above ambient \[Pa s\], largest plastic
@@ -144,6 +147,18 @@ impl Snapshot {
         Some(place)
     }
 
+    /// Ratio of specific heats in a cell.
+    #[must_use]
+    pub fn gamma_at(&self, cell: usize) -> f64 {
+        self.gases.gamma_at(self.species.get(cell).map_or(0.0, |own| own[1].into()))
+    }
+
+    /// Mass fraction of the second gas in a cell.
+    #[must_use]
+    pub fn mass_fraction_at(&self, cell: usize) -> f32 {
+        self.species.get(cell).map_or(0.0, |own| own[0])
+    }
+
     /// The gas at a point \[m\]; nothing outside of the domain and inside of bodies and obstacles.
     #[must_use]
     pub fn gas_at<const N: usize>(&self, position: [f64; N]) -> Option<GasSample> {
@@ -160,12 +175,13 @@ impl Snapshot {
             time,
             step,
             grid,
-            gamma: 1.4,
+            gases: EquationOfState { gamma: 1.4, species: None },
             kind: Vec::new(),
             density: Vec::new(),
             velocity: Vec::new(),
             pressure: Vec::new(),
             energy: Vec::new(),
+            species: Vec::new(),
             owed: Vec::new(),
             maps: Vec::new(),
             particles,
@@ -178,7 +194,7 @@ impl Snapshot {
     ///
     /// # Errors
     /// Driver errors.
-    pub(crate) fn read(gpu: &Gpu, state: &State, (time, step): (f64, u64), gamma: f64) -> Result<Snapshot> {
+    pub(crate) fn read(gpu: &Gpu, state: &State, (time, step): (f64, u64), gases: EquationOfState) -> Result<Snapshot> {
         let grid = state.grid;
         let particles = &state.particles;
         let rows = ParticleRows {
@@ -195,31 +211,43 @@ impl Snapshot {
             maps: readback::read(gpu, &state.maps)?,
             conserved: readback::read(gpu, &state.gas.conserved)?,
             energy: readback::read_range(gpu, &state.gas.energy, 0, grid.slots())?,
+            species: state.gas.read_species(gpu, grid.slots())?,
             kind: readback::read(gpu, &state.interface.cells)?.iter().map(|word| *word as u8 & kind::MASK).collect(),
         };
-        Ok(Self::of(grid, gamma, (time, step), &cells, &rows))
+        Ok(Self::of(grid, gases, (time, step), &cells, &rows))
     }
 
     /// From arrays in the layout of the device, of a grid and gas, at a time \[s\] after so many steps.
     #[must_use]
-    pub fn of(grid: Grid, gamma: f64, (time, step): (f64, u64), cells: &CellRows, rows: &ParticleRows) -> Snapshot {
+    pub fn of(
+        grid: Grid,
+        gases: EquationOfState,
+        (time, step): (f64, u64),
+        cells: &CellRows,
+        rows: &ParticleRows,
+    ) -> Snapshot {
         let flow = &cells.conserved;
         let pressure = |slot: usize| {
             let u = flow[slot];
             let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
-            (gamma as f32 - 1.0) * (cells.energy[slot] - kinetic)
+            let grueneisen = match cells.species.get(grid.slots() + slot) {
+                Some(phi) => gases.grueneisen((*phi).into()) as f32,
+                None => gases.gamma as f32 - 1.0,
+            };
+            grueneisen * (cells.energy[slot] - kinetic)
         };
         let velocity = |slot: usize| [1, 2, 3].map(|axis| flow[slot][axis] / flow[slot][0]);
         Snapshot {
             time,
             step,
             grid,
-            gamma,
+            gases,
             kind: grid.unpadded(&cells.kind),
             density: grid.unpadded_by(|slot| flow[slot][0]),
             velocity: grid.unpadded_by(velocity),
             pressure: grid.unpadded_by(pressure),
             energy: grid.unpadded(&cells.energy),
+            species: cells.species_fractions(&grid),
             owed: cells.owed_density(&grid),
             maps: cells.kept_maps(&grid),
             particles: rows.samples(&grid),
@@ -234,6 +262,8 @@ pub struct CellRows {
     pub conserved: Vec<[f32; 4]>,
     /// Total energy per volume.
     pub energy: Vec<f32>,
+    /// Density of the second gas of all slots, then its volume fraction; empty without one.
+    pub species: Vec<f32>,
     /// Mass owed \[kg\]; empty where only the ring has a ledger.
     pub owed: Vec<f32>,
     /// Maps, see [`State::maps`]; empty where none are kept.
@@ -250,6 +280,14 @@ impl CellRows {
         }
         let kept = |[peak, impulse, _, strain]: [f32; 4]| [peak, impulse, strain];
         grid.unpadded_by(|slot| kept(self.maps[slot]))
+    }
+
+    fn species_fractions(&self, grid: &Grid) -> Vec<[f32; 2]> {
+        if self.species.is_empty() {
+            return Vec::new();
+        }
+        let (density, volume) = self.species.split_at(grid.slots());
+        grid.unpadded_by(|slot| [density[slot] / self.conserved[slot][0], volume[slot]])
     }
 
     /// What cells owe per volume, and in covered cells all that they hold.

@@ -6,13 +6,6 @@ fn flow_at(slot: u32) -> vec4f { return source(slot).flow; }
 
 fn is_open(word: u32) -> bool { return kind_of(word) == GAS || kind_of(word) == GHOST; }
 
-// What a plane of symmetry across axis n makes of a state.
-fn image(n: u32, gas: Gas) -> Gas {
-    var out = gas;
-    out.flow = select(gas.flow, -gas.flow, vec4<bool>(false, along(n)));
-    return out;
-}
-
 // What stands at a place of a row: word and gas of the cell there; beyond a plane of symmetry, of the cell that it is the image of; beyond
 // any other side, the word of the ring's slot and the gas of the last cell, which row_around replaces by that beyond the side.
 struct Seen { word: u32, gas: Gas }
@@ -73,12 +66,6 @@ fn stencil_at(r: Row, n: u32) -> Stencil {
     if CUT { all_gas = all_gas && has(r.b.word & r.c.word & r.d.word & r.e.word, NODE_INTERIOR); }
     if !all_gas { return narrow(b, c, d, e); }
     return wide(n, r.a.gas, b, c, d, e, r.f.gas);
-}
-
-// What passes a plane of symmetry: momentum across it, as the dissipation has it. All else is zero but for rounding.
-fn reflected(n: u32, f: Fluxes) -> Fluxes {
-    let normal = vec4f(0.0, vec3f(axis(n)));
-    return Fluxes(Gas(normal * f.high_order.flow, 0.0), Gas(normal * f.first_order.flow, 0.0), 0.0, 0.0);
 }
 
 // Slot on the other side of a face.
@@ -144,8 +131,9 @@ fn face_fluxes(slot: u32, c: vec3i, n: u32, up: bool, r: Row) -> Fluxes {
         wall_velocity = (a.w * a[n] + b.w * b[n]) / max(a.w + b.w, 1e-30);
     }
     let carried = blocked * wall_velocity;
-    out.high_order = Gas(carried * here.flow + (1.0 - blocked) * out.high_order.flow, carried * here.energy + (1.0 - blocked) * out.high_order.energy);
-    out.first_order = Gas(carried * here.flow + (1.0 - blocked) * out.first_order.flow, carried * here.energy + (1.0 - blocked) * out.first_order.energy);
+    out.high_order = sum_of(carried, here, 1.0 - blocked, out.high_order);
+    out.first_order = sum_of(carried, here, 1.0 - blocked, out.first_order);
+    out.volume = carried + (1.0 - blocked) * out.volume;
     return out;
 }
 
@@ -168,8 +156,19 @@ const KEPT = 0.1;
 
 // dt L(U) of both orders, of the high order with each face's share of it, and the worst that the high-order parts of the faces can do to a
 // GAS cell: density and internal energy that they take, and momentum that they bring, relative to `velocity`. heat: that of Fluxes, over the
-// span of one solve.
-struct Change { high_order: Gas, first_order: Gas, velocity: vec3f, lost_density: f32, lost_energy: f32, slip: vec3f, heat: f32 }
+// span of one solve. Of two gases: what they take of the density of the second and of the first, and of their
+// volume fractions; phi: volume fraction of the cell, which a face that lets volume in does not change.
+struct Change {
+    high_order: Gas,
+    first_order: Gas,
+    velocity: vec3f,
+    lost_density: f32,
+    lost_energy: f32,
+    slip: vec3f,
+    heat: f32,
+    phi: f32,
+    lost_species: vec4f,
+}
 
 // Adds the high-order part of a face, its flux less that of first order, to the worst.
 fn add_excess(change: ptr<function, Change>, flow: vec4f, energy: f32) {
@@ -186,13 +185,52 @@ fn plus(a: Change, b: Change) -> Change {
     let rest = rounded4(vec4f(b.high_order.energy, b.heat, b.lost_density, b.lost_energy));
     let low = rounded4(b.first_order.flow);
     let slip = rounded4(vec4f(b.slip, b.first_order.energy));
-    return Change(Gas(a.high_order.flow + high, a.high_order.energy + rest.x), Gas(a.first_order.flow + low, a.first_order.energy + slip.w), a.velocity,
-        a.lost_density + rest.z, a.lost_energy + rest.w, a.slip + slip.xyz, a.heat + rest.y);
+    let species = rounded4(vec4f(b.high_order.species, b.first_order.species));
+    return Change(Gas(a.high_order.flow + high, a.high_order.energy + rest.x, a.high_order.species + species.xy),
+        Gas(a.first_order.flow + low, a.first_order.energy + slip.w, a.first_order.species + species.zw), a.velocity,
+        a.lost_density + rest.z, a.lost_energy + rest.w, a.slip + slip.xyz, a.heat + rest.y, a.phi, a.lost_species + b.lost_species);
 }
 
+fn times(share: f32, gas: Gas) -> Gas { return Gas(share * gas.flow, share * gas.energy, share * gas.species); }
+
 fn scaled(c: Change, share: f32) -> Change {
-    return Change(Gas(share * c.high_order.flow, share * c.high_order.energy), Gas(share * c.first_order.flow, share * c.first_order.energy), c.velocity,
-        share * c.lost_density, share * c.lost_energy, share * c.slip, share * c.heat);
+    return Change(times(share, c.high_order), times(share, c.first_order), c.velocity,
+        share * c.lost_density, share * c.lost_energy, share * c.slip, share * c.heat, c.phi, share * c.lost_species);
+}
+
+// Adds what a face passes. `share`: of the high-order part, that the cells of the face allow; below 0 there is none of it, and 1 + share of
+// the first-order flux. `sign`: 1 where the flux along +axis enters the cell, -1 where it leaves, times the open share of the face.
+fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
+    let scale = sign * stage_span() / params.spacing;
+    let high = max(share, 0.0);
+    let first = 1.0 + min(share, 0.0);
+    let flow = select(first * (f.first_order.flow + high * (f.high_order.flow - f.first_order.flow)), f.high_order.flow, share == 1.0);
+    let total = select(first * (f.first_order.energy + high * (f.high_order.energy - f.first_order.energy)), f.high_order.energy, share == 1.0);
+    var implicit = 0.0;
+    if ARS {
+        // The solve carries this part, over its own share of the step.
+        (*change).heat += sign * control.dt / params.spacing * f.heat;
+        if RUNGE_KUTTA == 1u { implicit = f.heat; }
+        if RUNGE_KUTTA == 2u { implicit = (1.0 - ARS_SHARE) * f.heat; }
+    }
+    let through = scale * flow;
+    (*change).high_order.flow += vec4f(whole(through.x, f.unit), through.yzw);
+    (*change).high_order.energy += scale * (total - implicit);
+    (*change).first_order.flow += scale * f.first_order.flow;
+    (*change).first_order.energy += scale * (f.first_order.energy - implicit);
+    add_excess(change, scale * (f.high_order.flow - f.first_order.flow), scale * (f.high_order.energy - f.first_order.energy));
+    if SPECIES { add_species(change, f, vec2f(first, high), scale); }
+}
+
+// Density and volume fraction of the second gas: phi' = phi - dt (div(phi u) - phi div u).
+fn add_species(change: ptr<function, Change>, f: Fluxes, share: vec2f, scale: f32) {
+    let beyond = f.high_order.species - f.first_order.species;
+    let carried = vec2f(0.0, (*change).phi * f.volume);
+    let through = scale * (share.x * (f.first_order.species + share.y * beyond - carried));
+    (*change).high_order.species += vec2f(whole(through.x, f.unit), through.y);
+    (*change).first_order.species += scale * (f.first_order.species - carried);
+    let excess = scale * vec3f(beyond, f.high_order.flow.x - f.first_order.flow.x);
+    (*change).lost_species += max(vec4f(-excess.x, excess.x - excess.z, -excess.y, excess.y), vec4f(0.0));
 }
 
 // -1 + the largest share, by halves, of the first-order change that leaves KEPT of what is there.
@@ -202,17 +240,28 @@ fn drained_share(before: Gas, change: Change) -> f32 {
     for (var k = 0; k < 12; k++) {
         let flow = before.flow + share * change.first_order.flow;
         let total = before.energy + share * change.first_order.energy;
-        if flow.x > KEPT * before.flow.x && internal_energy(Gas(flow, total)) > least { return share - 1.0; }
+        if flow.x > KEPT * before.flow.x && internal_energy(Gas(flow, total, before.species)) > least { return share - 1.0; }
         share *= 0.5;
     }
     return -1.0;
+}
+
+// How far densities of gases and volume fractions may fall below 0, over the density and 1.
+const SPECIES_SLACK = 1e-6;
+
+// Largest share of the high-order change that leaves of both gases density and volume.
+fn species_share(low: Gas, change: Change) -> f32 {
+    let density = low.flow.x;
+    let held = vec4f(low.species.x, density - low.species.x, low.species.y, 1.0 - low.species.y);
+    let room = max(held + SPECIES_SLACK * vec4f(density, density, 1.0, 1.0), vec4f(0.0)) / max(change.lost_species, vec4f(1e-30));
+    return min(min(room.x, room.y), min(room.z, room.w));
 }
 
 // Largest share of the high-order change that keeps density and internal energy above KEPT of the first-order update.
 // Where bodies recede on several sides even that would drain the cell: then -1 + the share of the first-order change that
 // leaves KEPT of what is there.
 fn allowed_share(before: Gas, change: Change) -> f32 {
-    let low = Gas(before.flow + change.first_order.flow, before.energy + change.first_order.energy);
+    let low = Gas(before.flow + change.first_order.flow, before.energy + change.first_order.energy, before.species + change.first_order.species);
     if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) {
         if ARS && RUNGE_KUTTA > 0u { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
         return drained_share(before, change);
@@ -222,6 +271,7 @@ fn allowed_share(before: Gas, change: Change) -> f32 {
     let least = KEPT * internal_energy(low);
     let available = internal_energy(low) + 0.5 * dot(slip, slip) / low.flow.x;
     var share = min(1.0, (1.0 - KEPT) * low.flow.x / max(change.lost_density, 1e-30));
+    if SPECIES { share = min(share, species_share(low, change)); }
     for (var k = 0; k < 12; k++) {
         let slips = abs(slip) + share * change.slip;
         let density = low.flow.x - share * change.lost_density;

@@ -6,6 +6,7 @@
 // What has crossed the boundary goes from the slot where it was collected to the ledger, where all of it is.
 #include "shared/domain.wgsl"
 #include "gas/floor.wgsl"
+#include "shared/gas_at.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -27,6 +28,13 @@ fn keep_crossed(slot: u32) {
     owed_energy[place] = total + energy[slot];
     conserved[slot] -= owed_flow[place] - flow;
     energy[slot] -= owed_energy[place] - total;
+    if SPECIES { keep_crossed_species(slot, ledger_part(OWED_SPECIES_MASS) + place); }
+}
+
+fn keep_crossed_species(slot: u32, place: u32) {
+    let before = owed_energy[place];
+    owed_energy[place] = before + energy[part(SPECIES_DENSITY, slot)];
+    energy[part(SPECIES_DENSITY, slot)] -= owed_energy[place] - before;
 }
 
 // Adds to one of the numbers in control.borrowed.
@@ -69,8 +77,9 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
         atomicMin(&control.fault, (STAGE_FLUID_UPDATE << 27u) | slot);
         return;
     }
-    let before = 1.0 / (params.gamma * fill[slot].y * (params.gamma - 1.0));
-    let least = least_energy(flow.x, total, before);
+    let phi = species_at(SPECIES_DENSITY, slot).y;
+    let before = 1.0 / (gamma_of(phi) * fill[slot].y * grueneisen_of(phi));
+    let least = least_energy(flow.x, phi, total, before);
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
     // What the first of two solves loses counts more than once in the second [shared/state.wgsl].

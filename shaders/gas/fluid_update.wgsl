@@ -5,6 +5,7 @@
 #include "gas/late_share.wgsl"
 #include "shared/parting.wgsl"
 #include "gas/floor.wgsl"
+#include "shared/gas_at.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -105,6 +106,7 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
         let left = 1.0 - late_share_of(c);
         conserved[slot] *= left;
         energy[slot] *= left;
+        if SPECIES { energy[part(SPECIES_DENSITY, slot)] *= left; }
     }
     if any(impulse != vec3f(0.0)) {
         conserved[slot] += vec4f(0.0, impulse * control.dt / params.spacing);
@@ -132,7 +134,7 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
     if CONSISTENT && face.reference > 0.0 { return p * (node[slot][n] + node[far][n]); }
     var density = here.x;   // that of the solve: gas that followed a body has left since
     if LATE_FLUX && has(cells[slot], NODE_SOLID) { density /= 1.0 - late_share_of(c); }
-    let y = admittance_of(opening_of(cells[far]), face, density, energy[part(PREDICTED_PRESSURE, slot)]);
+    let y = admittance_of(opening_of(cells[far]), face, gamma_at(slot), density, energy[part(PREDICTED_PRESSURE, slot)]);
     return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 
@@ -169,8 +171,9 @@ fn least_predicted() -> f32 { return select(0.98, 0.5, ARS); }
 // Whether the floor may have to act on a cell deep inside the gas: never false where it would, for the pressure of the predictor tells
 // nearly what internal energy there was before.
 fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
-    let before = energy[part(PREDICTED_PRESSURE, slot)] / (least_predicted() * (params.gamma - 1.0));
-    return is_unsound(flow.x, total) || total - kinetic_energy(flow) < least_energy(flow.x, total, before);
+    let phi = species_at(SPECIES_DENSITY, slot).y;
+    let before = energy[part(PREDICTED_PRESSURE, slot)] / (least_predicted() * grueneisen_of(phi));
+    return is_unsound(flow.x, total) || total - kinetic_energy(flow) < least_energy(flow.x, phi, total, before);
 }
 
 @compute @workgroup_size(WORKGROUP)

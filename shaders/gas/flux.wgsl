@@ -22,8 +22,8 @@ fn shock_spread() -> f32 { return select(0.6, 1.2, QUADRATIC && CONSISTENT); }
 //   spread   least speed of the dissipation
 struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32, level: f32, spread: f32 }
 
-// Of four cells, where others beyond them are no gas.
-fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d, e, e, 0.0, 0.0, 0.0); }
+// Of four cells, where others beyond them are no gas. Of two gases a contact must keep its pressure there, too.
+fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d, e, e, 0.0, select(0.0, 1.0, SPECIES), 0.0); }
 
 fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
     let sound = sound_between(c, d);
@@ -43,6 +43,10 @@ fn stage_span() -> f32 {
 fn most_spread() -> f32 { return params.spacing / (3.0 * max(stage_span(), 1e-30)); }
 
 fn sound_between(c: Gas, d: Gas) -> f32 {
+    if SPECIES {
+        let square = gamma_of(c.species.y) * pressure_of(c) / c.flow.x + gamma_of(d.species.y) * pressure_of(d) / d.flow.x;
+        return sqrt(max(0.5 * square, 1e-30));
+    }
     let energy = 0.5 * (internal_energy(c) / c.flow.x + internal_energy(d) / d.flow.x);
     return sqrt(max(params.gamma * (params.gamma - 1.0) * energy, 1e-30));
 }
@@ -119,7 +123,8 @@ fn weno_from_both(even: f32, a: vec4f, b: vec4f, c: vec4f, d: vec4f, e: vec4f, f
 // heat: of the energy flux, the part that the solve carries where there are two per step [shared/state.wgsl]; internal energy at the start of
 // the step times the velocity of the face.
 // unit: density that passes in a stage is a multiple of it, see whole().
-struct Fluxes { high_order: Gas, first_order: Gas, heat: f32, unit: f32 }
+// volume: velocity of the face, with which a volume fraction of 1 is carried.
+struct Fluxes { high_order: Gas, first_order: Gas, heat: f32, unit: f32, volume: f32 }
 
 // At most this part of the thinner cell, 2^-14, beside which more would count.
 const THIN_SHARE = 6.103515625e-5;
@@ -138,17 +143,29 @@ fn heat_between(s: Stencil, low: u32, high: u32) -> f32 {
 
 fn packed(gas: Gas) -> vec4f { return select(gas.flow, vec4f(gas.flow.xyz, gas.energy), vec4<bool>(DIM < 3u)); }
 
-fn unpacked(flux: vec4f, energy: f32) -> Gas {
-    if DIM < 3u { return Gas(vec4f(flux.xyz, 0.0), flux.w); }
-    return Gas(flux, energy);
+// What does not fit beside the flow.
+fn packed_rest(gas: Gas) -> vec4f { return vec4f(gas.energy, gas.energy, gas.species); }
+
+fn unpacked(flux: vec4f, rest: vec4f) -> Gas {
+    if DIM < 3u { return Gas(vec4f(flux.xyz, 0.0), flux.w, rest.zw); }
+    return Gas(flux, rest.x, rest.zw);
 }
 
-// Density, velocity and internal energy in the places of a state, and back.
-fn primitive_of(gas: Gas) -> Gas { return Gas(vec4f(gas.flow.x, velocity_of(gas.flow)), internal_energy(gas)); }
+// Density, velocity and internal energy in the places of a state, and back. Of two gases: density, velocity, pressure, mass fraction and
+// volume fraction.
+fn primitive_of(gas: Gas) -> Gas {
+    let flow = vec4f(gas.flow.x, velocity_of(gas.flow));
+    if SPECIES { return Gas(flow, pressure_of(gas), vec2f(gas.species.x / gas.flow.x, gas.species.y)); }
+    return Gas(flow, internal_energy(gas), vec2f(0.0));
+}
 fn conserved_of(primitive: Gas) -> Gas {
     let density = primitive.flow.x;
     let velocity = primitive.flow.yzw;
-    return Gas(vec4f(density, density * velocity), primitive.energy + 0.5 * density * dot(velocity, velocity));
+    let flow = vec4f(density, density * velocity);
+    let kinetic = 0.5 * density * dot(velocity, velocity);
+    if !SPECIES { return Gas(flow, primitive.energy + kinetic, vec2f(0.0)); }
+    let phi = primitive.species.y;
+    return Gas(flow, primitive.energy / grueneisen_of(phi) + kinetic, vec2f(density * primitive.species.x, phi));
 }
 
 // Both values of a state at a face.
@@ -156,15 +173,15 @@ struct Values { low: Gas, high: Gas }
 
 fn values_at(even: f32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Values {
     let flow = weno_from_both(even, packed(a), packed(b), packed(c), packed(d), packed(e), packed(f));
-    var energy = Sides(vec4f(0.0), vec4f(0.0));
-    if DIM == 3u {
-        energy = weno_from_both(even, vec4f(a.energy), vec4f(b.energy), vec4f(c.energy), vec4f(d.energy), vec4f(e.energy), vec4f(f.energy));
+    var rest = Sides(vec4f(0.0), vec4f(0.0));
+    if DIM == 3u || SPECIES {
+        rest = weno_from_both(even, packed_rest(a), packed_rest(b), packed_rest(c), packed_rest(d), packed_rest(e), packed_rest(f));
     }
-    return Values(unpacked(flow.low, energy.low.x), unpacked(flow.high, energy.high.x));
+    return Values(unpacked(flow.low, rest.low), unpacked(flow.high, rest.high));
 }
 
 fn sum_of(up: f32, low: Gas, down: f32, high: Gas) -> Gas {
-    return Gas(up * low.flow + down * high.flow, up * low.energy + down * high.energy);
+    return Gas(up * low.flow + down * high.flow, up * low.energy + down * high.energy, up * low.species + down * high.species);
 }
 
 // With one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`, at least upwind.
@@ -180,16 +197,27 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     if s.level < 1.0 {
         let values = values_at(s.even, s.a, s.b, s.c, s.d, s.e, s.f);
         let steep = sum_of(up, values.low, down, values.high);
-        out.high_order = Gas(mix(steep.flow, out.high_order.flow, s.level), mix(steep.energy, out.high_order.energy, s.level));
+        out.high_order = Gas(mix(steep.flow, out.high_order.flow, s.level), mix(steep.energy, out.high_order.energy, s.level),
+            mix(steep.species, out.high_order.species, s.level));
     }
     out.unit = unit_between(s.c, s.d);
     out.heat = held * carried;
+    out.volume = carried;
     out.first_order = sum_of(up, s.c, down, s.d);
     return out;
 }
 
+// The same of two gases: the mean of both cells carries all, so that a contact keeps its pressure.
+fn mean_fluxes(n: u32, s: Stencil, held: f32) -> Fluxes {
+    let behind = max(max(abs(velocity_along(n, s.a)), abs(velocity_along(n, s.b))), abs(velocity_along(n, s.c)));
+    let ahead = max(max(abs(velocity_along(n, s.d)), abs(velocity_along(n, s.e))), abs(velocity_along(n, s.f)));
+    let mean = (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x);
+    return carried_fluxes(s, mean, max(behind, ahead), held);
+}
+
 // With the velocities of the cells, split by local Lax-Friedrichs [above].
 fn face_fluxes_of(n: u32, s: Stencil, held: f32) -> Fluxes {
+    if SPECIES { return mean_fluxes(n, s, held); }
     let behind = vec3f(velocity_along(n, s.a), velocity_along(n, s.b), velocity_along(n, s.c));
     let ahead = vec3f(velocity_along(n, s.d), velocity_along(n, s.e), velocity_along(n, s.f));
     let most = max(abs(behind), abs(ahead));
@@ -212,9 +240,30 @@ fn face_fluxes_of(n: u32, s: Stencil, held: f32) -> Fluxes {
         energy = weno(s.even, vec4f(p.x), vec4f(p.y), vec4f(p.z), vec4f(q.x), vec4f(q.y)).x
             + weno(s.even, vec4f(t.z), vec4f(t.y), vec4f(t.x), vec4f(r.z), vec4f(r.y)).x;
     }
-    out.high_order = unpacked(flow, energy);
+    out.high_order = unpacked(flow, vec4f(energy));
     out.unit = unit_between(s.c, s.d);
     if ARS { out.heat = held * (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x); }
-    out.first_order = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy);
+    out.first_order = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy, vec2f(0.0));
+    return out;
+}
+
+// What a plane of symmetry across axis n makes of a state.
+fn image(n: u32, gas: Gas) -> Gas {
+    var out = gas;
+    out.flow = select(gas.flow, -gas.flow, vec4<bool>(false, along(n)));
+    return out;
+}
+
+// What passes a plane of symmetry: momentum across it, as the dissipation has it. All else is zero but for rounding.
+fn reflected(n: u32, f: Fluxes) -> Fluxes {
+    let normal = vec4f(0.0, vec3f(axis(n)));
+    return Fluxes(Gas(normal * f.high_order.flow, 0.0, vec2f(0.0)), Gas(normal * f.first_order.flow, 0.0, vec2f(0.0)), 0.0, 0.0, 0.0);
+}
+
+// What collects gas gets the pressure times the volume of the second one, of which there is a sum [interface/ledger.wgsl].
+fn with_owed(f: Fluxes, pressure: f32) -> Fluxes {
+    var out = f;
+    out.high_order.species.y *= pressure;
+    out.first_order.species.y *= pressure;
     return out;
 }

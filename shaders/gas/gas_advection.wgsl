@@ -15,6 +15,7 @@
 #include "gas/flux.wgsl"
 #include "gas/faces.wgsl"
 #include "gas/cut_carrier.wgsl"
+#include "shared/gas_at.wgsl"
 
 override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
 
@@ -29,31 +30,10 @@ override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
 
 // State of a slot that this stage carries, see the table above.
 fn source(slot: u32) -> Gas {
-    if RUNGE_KUTTA == select(1u, 2u, ARS) { return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)]); }
-    return Gas(in_space(conserved[slot]), energy[slot]);
-}
-
-// Adds what a face passes. `share`: of the high-order part, that the cells of the face allow; below 0 there is none of it, and 1 + share of
-// the first-order flux. `sign`: 1 where the flux along +axis enters the cell, -1 where it leaves, times the open share of the face.
-fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
-    let scale = sign * stage_span() / params.spacing;
-    let high = max(share, 0.0);
-    let first = 1.0 + min(share, 0.0);
-    let flow = select(first * (f.first_order.flow + high * (f.high_order.flow - f.first_order.flow)), f.high_order.flow, share == 1.0);
-    let total = select(first * (f.first_order.energy + high * (f.high_order.energy - f.first_order.energy)), f.high_order.energy, share == 1.0);
-    var implicit = 0.0;
-    if ARS {
-        // The solve carries this part, over its own share of the step.
-        (*change).heat += sign * control.dt / params.spacing * f.heat;
-        if RUNGE_KUTTA == 1u { implicit = f.heat; }
-        if RUNGE_KUTTA == 2u { implicit = (1.0 - ARS_SHARE) * f.heat; }
+    if RUNGE_KUTTA == select(1u, 2u, ARS) {
+        return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)], species_at(HALFWAY_SPECIES_DENSITY, slot));
     }
-    let through = scale * flow;
-    (*change).high_order.flow += vec4f(whole(through.x, f.unit), through.yzw);
-    (*change).high_order.energy += scale * (total - implicit);
-    (*change).first_order.flow += scale * f.first_order.flow;
-    (*change).first_order.energy += scale * (f.first_order.energy - implicit);
-    add_excess(change, scale * (f.high_order.flow - f.first_order.flow), scale * (f.high_order.energy - f.first_order.energy));
+    return gas_at(slot);
 }
 
 // dt L(U) of a slot inside the domain; of all cells that share its state together.
@@ -64,18 +44,24 @@ fn change_of(slot: u32, limited: bool) -> Change {
     return change;
 }
 
+fn relate(change: ptr<function, Change>, here: Gas) {
+    (*change).velocity = velocity_of(here.flow);
+    (*change).phi = here.species.y;
+}
+
 // Adds what passes the faces of a slot if it is GAS, else those that it shares with GAS cells. `gives`: and gives slots of the ring what passes
 // towards them.
 fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool, gives: bool) {
     let c = cell_of(slot);
     let is_gas = kind_of(cells[slot]) == GAS;
-    if is_gas { (*change).velocity = velocity_of(source(slot).flow); }
+    if is_gas { relate(change, source(slot)); }
     // Slots without gas around them, as deep inside a body, have nothing to do.
     let axes = select(0u, DIM, has(cells[slot], NODE_GAS));
     for (var n = 0u; n < axes; n++) {
         let row = row_around(slot, c, n);
         var along: Change;
         along.velocity = (*change).velocity;
+        along.phi = (*change).phi;
         for (var side = 0u; side < 2u; side++) {
             let up = side == 1u;
             let other = select(c - axis(n), c + axis(n), up);
@@ -83,10 +69,11 @@ fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool, gives: boo
             if !is_gas && !(inside(other) && kind_of(select(r.c.word, r.d.word, up)) == GAS) { continue; }
             var share = 1.0;
             if limited { share = min(theta[slot], theta[slot_of(other)]); }
-            let f = face_fluxes(slot, c, n, up, r);
+            var f = face_fluxes(slot, c, n, up, r);
+            if SPECIES && !is_gas { f = with_owed(f, pressure_of(chosen(r.d.gas, r.c.gas, up))); }
             let sign = select(1.0, -1.0, up) * aperture(select(slot_of(other), slot, is_gas), n, up == is_gas);
             add_face(&along, f, share, sign);
-            if is_gas && gives && !inside(other) { give(slot_of(other), f, share, -sign); }
+            if is_gas && gives && !inside(other) { give(slot_of(other), with_owed(f, 0.0), share, -sign); }
         }
         *change = plus(*change, along);
     }
@@ -110,9 +97,9 @@ fn interior_fluxes(n: u32, low: u32, stencil: Stencil) -> Fluxes {
 }
 
 // What passes both faces of a slot across one axis, deep inside the gas.
-fn axis_change(velocity: vec3f, slot: u32, word: u32, n: u32, here: Gas) -> Change {
+fn axis_change(slot: u32, word: u32, n: u32, here: Gas) -> Change {
     var change: Change;
-    change.velocity = velocity;
+    relate(&change, here);
     let s = step_of(n);
     let last = params.slots - 1u;
     let a = source(max(slot, 3u * s) - 3u * s);
@@ -135,25 +122,36 @@ fn start_of(slot: u32, here: Gas) -> Gas {
     let factor = select(ARS_MIDDLE, ARS_RETURNED, RUNGE_KUTTA == 2u);
     let gained = in_space(conserved[slot]) - in_space(work[part(KEPT_FLOW, slot)]);
     return Gas(in_space(work[part(START_FLOW, slot)]) + factor * gained,
-        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]));
+        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]), species_at(START_SPECIES_DENSITY, slot));
+}
+
+fn write_species(first: u32, slot: u32, species: vec2f) {
+    if !SPECIES { return; }
+    energy[part(first, slot)] = species.x;
+    energy[part(first + 1u, slot)] = species.y;
 }
 
 fn write_result(slot: u32, before: Gas, all: Change) {
     let change = all.high_order;
+    let species = before.species + change.species;
     if ARS && RUNGE_KUTTA != 1u {
+        write_species(ADVECTED_SPECIES_DENSITY, slot, species);
         work[part(ADVECTED_FLOW, slot)] = before.flow + change.flow;
         energy[part(ADVECTED_ENERGY, slot)] = before.energy + change.energy;
         energy[part(COLD_ENERGY, slot)] = before.energy + change.energy - all.heat;
         if RUNGE_KUTTA == 2u { return; }
+        write_species(START_SPECIES_DENSITY, slot, before.species);
         work[part(START_FLOW, slot)] = before.flow;
         work[part(KEPT_FLOW, slot)] = before.flow + change.flow;
         energy[part(START_ENERGY, slot)] = before.energy;
         energy[part(KEPT_ENERGY, slot)] = before.energy + change.energy - all.heat;
         energy[part(START_HEAT, slot)] = internal_energy(before);
     } else if !ARS && RUNGE_KUTTA == 1u {
+        write_species(ADVECTED_SPECIES_DENSITY, slot, 0.5 * (species_at(SPECIES_DENSITY, slot) + species));
         work[part(ADVECTED_FLOW, slot)] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
         energy[part(ADVECTED_ENERGY, slot)] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
+        write_species(HALFWAY_SPECIES_DENSITY, slot, species);
         work[part(HALFWAY_FLOW, slot)] = before.flow + change.flow;
         energy[part(HALFWAY_ENERGY, slot)] = before.energy + change.energy;
     }
@@ -176,7 +174,7 @@ fn stays(slot: u32) -> bool { return !CUT && !(ARS && RUNGE_KUTTA > 0u) && is_st
 // Ends the stage for a slot that nothing passes.
 fn stay(slot: u32) {
     theta[slot] = 1.0;
-    write_result(slot, Gas(in_space(conserved[slot]), energy[slot]), Change());
+    write_result(slot, gas_at(slot), Change());
 }
 
 // Whether a slot of the ring gets what passes through the side from the cell before it.
@@ -241,12 +239,12 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
         let high = interior_fluxes(n, slot, stencil_inside(n, all_gas, low_image, known && ends_in_image(word, n, true), b, c, here, e, f, g));
         if known {
             var change: Change;
-            change.velocity = velocity_of(here.flow);
+            relate(&change, here);
             var along = change;
             add_face(&along, low, 1.0, 1.0);
             add_face(&along, high, 1.0, -1.0);
             change = plus(change, along);
-            for (var m = 0u; m < n; m++) { change = plus(change, axis_change(change.velocity, slot, word, m, here)); }
+            for (var m = 0u; m < n; m++) { change = plus(change, axis_change(slot, word, m, here)); }
             finish(slot, here, change);
         }
         low = high;

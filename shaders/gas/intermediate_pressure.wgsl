@@ -3,17 +3,18 @@
 // predictor, the vertex pressures X* and the vertex stiffness S^-1. On return every gas cell has positive density and
 // pressure, or the step is flagged. [Cao et al. 2022, eqs. 9, 17, 22, 24]
 #include "shared/domain.wgsl"
+#include "shared/gas_at.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read_write> conserved: array<vec4f>;
 @group(0) @binding(4) var<storage, read> work: array<vec4f>;
 @group(0) @binding(5) var<storage, read_write> energy: array<f32>;
-@group(0) @binding(6) var<storage, read_write> fill: array<vec2f>;  // y of gas cells: 1 / (gamma p*)
+@group(0) @binding(6) var<storage, read_write> fill: array<vec2f>;  // y of gas cells: 1 / (rho c^2), c^2 = gamma p* / rho
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 
-fn advected(slot: u32) -> Gas { return Gas(in_space(work[part(ADVECTED_FLOW, slot)]), energy[part(ADVECTED_ENERGY, slot)]); }
+fn advected(slot: u32) -> Gas { return Gas(in_space(work[part(ADVECTED_FLOW, slot)]), energy[part(ADVECTED_ENERGY, slot)], species_at(ADVECTED_SPECIES_DENSITY, slot)); }
 
 // Velocity beyond a face: the neighbour's, or what the boundary prescribes.
 fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
@@ -106,7 +107,14 @@ fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
     change = change * control.dt / params.spacing;
     let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(change)), 1.0, change >= 0.0);
     // without what is unseen never below 0.99 p
-    return p * (1.0 + smooth_share * change - params.gamma * unseen * control.dt / params.spacing);
+    return p * (1.0 + smooth_share * change - gamma_of(here.species.y) * unseen * control.dt / params.spacing);
+}
+
+// The solve changes neither of the two.
+fn keep_species(slot: u32, here: Gas) {
+    if !SPECIES { return; }
+    energy[part(SPECIES_DENSITY, slot)] = here.species.x;
+    energy[part(SPECIES_VOLUME, slot)] = here.species.y;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -117,12 +125,13 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     if kind_of(cells[slot]) != GAS {
         conserved[slot] = here.flow;
         energy[slot] = here.energy;
+        keep_species(slot, here);
         return;
     }
     var p = pressure_of(here);
     // The start of a second solve is no state of the gas: behind very strong shocks it may lack internal energy. Every such cell is counted.
     if ARS {
-        let least = LEAST_STARTED * pressure_of(Gas(in_space(conserved[slot]), energy[slot]));
+        let least = LEAST_STARTED * pressure_of(gas_at(slot));
         if p < least {
             p = least;
             atomicAdd(&control.raised, 1u);
@@ -131,12 +140,13 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     if here.flow.x <= 0.0 || p <= 0.0 || is_broken(p) {
         atomicMin(&control.fault, (STAGE_GAS_ADVECTION << 27u) | slot);
     }
-    fill[slot].y = 1.0 / (params.gamma * p);
+    fill[slot].y = 1.0 / (gamma_of(here.species.y) * p);
     var total = here.energy;
     if ARS { total = energy[part(COLD_ENERGY, slot)]; }     // what the solve carries anew is not in it
     energy[part(PREDICTED_PRESSURE, slot)] = predicted(cell_of(slot), slot, here, p);
     // Gravity: the work of the mean momentum.
     let pull = control.dt * here.flow.x * params.gravity;
+    keep_species(slot, here);
     conserved[slot] = here.flow + vec4f(0.0, pull);
     energy[slot] = total + control.dt * dot(here.flow.yzw + 0.5 * pull, params.gravity);
 }

@@ -1,6 +1,7 @@
 // fluid_update, before it: gas that follows the bodies, as their slots get it; fluid_momentum takes it from the cells.
 // Reads node, the kick of the solve, the advected gas. Writes what slots of bodies owe.
 #include "gas/late_share.wgsl"
+#include "shared/gas_at.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -17,6 +18,7 @@ fn late_flux(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     let c = cell_of(slot);
     var flow = vec4f(0.0);
     var heat = 0.0;
+    var species = vec2f(0.0);   // density, and pressure times volume fraction
     for (var face = 0u; face < 2u * DIM; face++) {
         let n = face / 2u;
         let up = (face & 1u) == 1u;
@@ -25,7 +27,15 @@ fn late_flux(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
         let share = late_share(other, n, !up);
         flow += share * conserved[slot_of(other)];
         heat += share * energy[slot_of(other)];
+        if SPECIES {
+            let there = gas_at(slot_of(other));
+            species += share * vec2f(1.0, pressure_of(there)) * there.species;
+        }
     }
     conserved[slot] += flow;
     energy[slot] += heat;
+    if SPECIES {
+        energy[part(SPECIES_DENSITY, slot)] += species.x;
+        energy[part(SPECIES_VOLUME, slot)] += species.y;
+    }
 }

@@ -4,6 +4,7 @@
 // shock. At vertices of a body's surface gas cells mix instead: between shards no flux of momentum would take a velocity into a wall from
 // a cell, for closed faces have none. Reads gas, cells. Writes gas, by way of work.
 #include "shared/domain.wgsl"
+#include "shared/gas_at.wgsl"
 
 override FILTER: f32;   // share of the mode that one step removes
 
@@ -21,20 +22,28 @@ fn sign_of(corner: vec3i) -> f32 { return f32(1 - 2 * ((corner.x + corner.y + co
 
 fn gas_beside(v: vec3i, corner: u32) -> Gas {
     let slot = slot_of(v - reach() + corner_offset(corner));
-    return Gas(conserved[slot], energy[slot]);
+    return Gas(conserved[slot], energy[slot], species_at(SPECIES_DENSITY, slot));
+}
+
+// Whether of each of two gases KEPT is left, by density and by volume.
+fn has_both(gas: Gas, left: Gas) -> bool {
+    if !SPECIES { return true; }
+    let before = vec4f(gas.species, gas.flow.x - gas.species.x, 1.0 - gas.species.y);
+    let after = vec4f(left.species, left.flow.x - left.species.x, 1.0 - left.species.y);
+    return all(after >= KEPT * before);
 }
 
 // Whether a cell with one sign can give that much at all of its vertices.
 fn stands(gas: Gas, taken: Gas, sign: f32) -> bool {
     let all = sign * f32(corner_count());
-    let left = Gas(gas.flow - all * taken.flow, gas.energy - all * taken.energy);
-    return left.flow.x >= KEPT * gas.flow.x && internal_energy(left) >= KEPT * internal_energy(gas);
+    let left = Gas(gas.flow - all * taken.flow, gas.energy - all * taken.energy, gas.species - all * taken.species);
+    return left.flow.x >= KEPT * gas.flow.x && internal_energy(left) >= KEPT * internal_energy(gas) && has_both(gas, left);
 }
 
 // What the filter takes from a cell beside a vertex, up to the sign: positive for the one below it on all axes or an even number of
 // cells away.
 fn taken_at(v: vec3i) -> Gas {
-    let nothing = Gas(vec4f(0.0), 0.0);
+    let nothing = Gas(vec4f(0.0), 0.0, vec2f(0.0));
     var sum = nothing;
     var densest = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
@@ -45,10 +54,13 @@ fn taken_at(v: vec3i) -> Gas {
         sum.flow += sign * gas.flow;
         densest = max(densest, gas.flow.x);
         sum.energy += sign * gas.energy;
+        sum.species += sign * gas.species;
     }
     let share = FILTER / f32(corner_count() * corner_count());
     let flow = share * sum.flow;
-    let taken = Gas(vec4f(whole(flow.x, LAST_PLACE * power_of_two(densest)), flow.yzw), share * sum.energy);
+    let unit = LAST_PLACE * power_of_two(densest);
+    let species = share * sum.species;
+    let taken = Gas(vec4f(whole(flow.x, unit), flow.yzw), share * sum.energy, vec2f(whole(species.x, unit), species.y));
     for (var k = 0u; k < corner_count(); k++) {
         if !stands(gas_beside(v, k), taken, sign_of(corner_offset(k))) { return nothing; }
     }
@@ -79,7 +91,7 @@ fn mixing_count(v: vec3i) -> f32 {
 
 // What a cell takes from the others at a vertex: towards the mean, by pairs, so that what one gives is what the other takes.
 fn mixed_at(v: vec3i, c: vec3i, slot: u32) -> Gas {
-    var sum = Gas(vec4f(0.0), 0.0);
+    var sum = Gas(vec4f(0.0), 0.0, vec2f(0.0));
     let count = mixing_count(v);
     if count == 0.0 || !mixes(v, c) { return sum; }
     let share = FILTER / (f32(corner_count()) * count);
@@ -91,6 +103,8 @@ fn mixed_at(v: vec3i, c: vec3i, slot: u32) -> Gas {
         let unit = LAST_PLACE * power_of_two(max(conserved[at].x, conserved[slot].x));
         sum.flow += vec4f(whole(flow.x, unit), flow.yzw);
         sum.energy += share * (energy[at] - energy[slot]);
+        let species = share * (species_at(SPECIES_DENSITY, at) - species_at(SPECIES_DENSITY, slot));
+        sum.species += vec2f(whole(species.x, unit), species.y);
     }
     return sum;
 }
@@ -99,7 +113,7 @@ fn mixed_at(v: vec3i, c: vec3i, slot: u32) -> Gas {
 fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
-    var change = Gas(vec4f(0.0), 0.0);
+    var change = Gas(vec4f(0.0), 0.0, vec2f(0.0));
     if kind_of(cells[slot]) == GAS {
         let c = cell_of(slot);
         for (var k = 0u; k < corner_count(); k++) {
@@ -108,14 +122,20 @@ fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
             let sign = sign_of(reach() - corner);
             change.flow -= sign * taken.flow;
             change.energy -= sign * taken.energy;
+            change.species -= sign * taken.species;
             if SOLIDS {
                 let mixed = mixed_at(c + corner, c, slot);
                 change.flow += mixed.flow;
                 change.energy += mixed.energy;
+                change.species += mixed.species;
             }
         }
     }
     work[part(FILTER_FLOW, slot)] = change.flow;
+    if SPECIES {
+        energy[part(FILTER_SPECIES_DENSITY, slot)] = change.species.x;
+        energy[part(FILTER_SPECIES_VOLUME, slot)] = change.species.y;
+    }
     if inside(cell_of(slot)) {
         energy[part(FILTER_ENERGY, slot)] = change.energy;
     } else {
@@ -130,4 +150,8 @@ fn odd_even_remove(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     if slot >= params.slots { return; }
     conserved[slot] += work[part(FILTER_FLOW, slot)];
     energy[slot] += select(0.0, energy[part(FILTER_ENERGY, slot)], inside(cell_of(slot)));
+    if SPECIES {
+        energy[part(SPECIES_DENSITY, slot)] += energy[part(FILTER_SPECIES_DENSITY, slot)];
+        energy[part(SPECIES_VOLUME, slot)] += energy[part(FILTER_SPECIES_VOLUME, slot)];
+    }
 }

@@ -27,8 +27,12 @@ fn openings_now(@builtin(local_invocation_index) lane: u32) {
     let span = after.time - before.time;
     var share = 1.0;
     if span > 0.0 { share = clamp((time - before.time) / span, 0.0, 1.0); }
-    let gas = gas_from_primitive(mix(before.density, after.density, share), mix(before.velocity, after.velocity, share),
-        mix(before.pressure, after.pressure, share));
+    let density = mix(before.density, after.density, share);
+    let mass_fraction = openings[lane].species_density / openings[lane].flow.x;
+    let species = vec2f(mass_fraction * density, openings[lane].species_volume);
+    let gas = gas_from_primitive(density, mix(before.velocity, after.velocity, share),
+        mix(before.pressure, after.pressure, share), species);
+    openings[lane].species_density = species.x;
     openings[lane].flow = gas.flow;
     openings[lane].energy = gas.energy;
     openings[lane].pressure = mix(before.pressure, after.pressure, share);

@@ -3,6 +3,7 @@
 // Sides that let gas through, bodies and seams of periodic axes count as moving; walls and obstacles pass nothing on.
 // Reads gas and cells. Writes the rows, in extra.
 #include "shared/index.wgsl"
+#include "shared/gas_at.wgsl"
 
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
 @group(0) @binding(3) var<storage, read> conserved: array<vec4f>;
@@ -29,11 +30,14 @@ fn rests(slot: u32) -> bool {
     if kind != GAS { return kind == WALL; }
     if any(bitcast<vec3u>(conserved[slot].yzw) != vec3u(0u)) { return false; }
     let own = energy[slot];
+    let phi = species_at(SPECIES_DENSITY, slot).y;
     for (var n = 0u; n < DIM; n++) {
         let below = slot - min(step_of(n), slot);
         let above = min(slot + step_of(n), params.slots - 1u);
         if energy[below] != own && kind_of(cells[below]) == GAS { return false; }
         if energy[above] != own && kind_of(cells[above]) == GAS { return false; }
+        if SPECIES && species_at(SPECIES_DENSITY, below).y != phi && kind_of(cells[below]) == GAS { return false; }
+        if SPECIES && species_at(SPECIES_DENSITY, above).y != phi && kind_of(cells[above]) == GAS { return false; }
     }
     return true;
 }

@@ -6,6 +6,8 @@
 // next cell; what is beyond goes to its gas neighbours. A buried one passes all that it has back to the surface, if that is next to it,
 // or to all its neighbours: through the body gas would leak to its lee.
 #include "shared/index.wgsl"
+#include "shared/gas_at.wgsl"
+#include "interface/owed_species.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;
@@ -35,7 +37,7 @@ const IN_THE_OPEN = Bounds(-0.5, 0.3);
 // came without mass.
 const ENCLOSED = Bounds(0.25, 0.1);
 
-struct Sum { flow: vec4f, energy: f32, count: f32 }
+struct Sum { flow: vec4f, energy: f32, species: vec2f, count: f32 }
 
 fn add_if_old_gas(sum: ptr<function, Sum>, c: vec3i) {
     if !inside(c) { return; }
@@ -43,6 +45,7 @@ fn add_if_old_gas(sum: ptr<function, Sum>, c: vec3i) {
     if previous_kind_of(cells[slot]) != GAS { return; }
     (*sum).flow += conserved[slot];
     (*sum).energy += energy[slot];
+    (*sum).species += summed_species(gas_at(slot));
     (*sum).count += 1.0;
 }
 
@@ -71,8 +74,8 @@ fn trapped_gas(c: vec3i, slot: u32) -> Gas {
     var pressure = 0.0;
     for (var k = 0u; k < corner_count(); k++) { pressure += ghost[slot_of(c + corner_offset(k))]; }
     pressure = max(pressure / f32(corner_count()), 1e-3 * params.ambient_pressure);
-    let density = params.ambient_density * pow(pressure / params.ambient_pressure, 1.0 / params.gamma);
-    return gas_from_primitive(density, node[slot].xyz, pressure);
+    let density = params.ambient_density * pow(pressure / params.ambient_pressure, 1.0 / gamma_of(params.ambient_volume));
+    return gas_from_primitive(density, node[slot].xyz, pressure, vec2f(density * params.ambient_share, params.ambient_volume));
 }
 
 // At the start bodies cover no gas.
@@ -82,6 +85,7 @@ fn ledger_start(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     if slot >= params.slots || kind_of(cells[slot]) != SOLID { return; }
     conserved[slot] = vec4f(0.0);
     energy[slot] = 0.0;
+    hold_species(slot, vec2f(0.0));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -92,12 +96,15 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     if kind_of(word) != GAS || previous_kind_of(word) != SOLID { return; }
     let c = cell_of(slot);
     let sum = fill_from_neighbours(c);
-    var filled = Gas(sum.flow / max(sum.count, 1.0), sum.energy / max(sum.count, 1.0));
+    let count = max(sum.count, 1.0);
+    var filled = gas_of_sums(sum.flow / count, sum.energy / count, sum.species / count);
     if sum.count == 0.0 { filled = trapped_gas(c, slot); }
     owed_flow[slot] += (conserved[slot] - filled.flow) * cell_volume();
     owed_energy[slot] += (energy[slot] - filled.energy) * cell_volume();
+    owe_species(slot, owed_species(slot) + (species_at(SPECIES_DENSITY, slot) - summed_species(filled)) * cell_volume());
     conserved[slot] = filled.flow;
     energy[slot] = filled.energy;
+    hold_species(slot, filled.species);
 }
 
 fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
@@ -113,7 +120,7 @@ fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
 // Gas with a part of a debt.
 fn with_part(gas: Gas, slot: u32, part: f32) -> Gas {
     let each = part / cell_volume();
-    return Gas(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot]);
+    return gas_of_sums(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot], summed_species(gas) + each * owed_species(slot));
 }
 
 fn at_surface(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && neighbours_of_kind(cell_of(slot), GAS) > 0u; }
@@ -143,20 +150,22 @@ fn density_beside(slot: u32) -> f32 {
 
 // Part of its debt that a gas cell with so many gas neighbours settles now.
 fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
-    let gas = Gas(conserved[slot], energy[slot]);
+    let gas = Gas(conserved[slot], energy[slot], species_at(SPECIES_DENSITY, slot));
     let before = internal_energy(gas);
     let all = with_part(gas, slot, 1.0);
     var bounds = ENCLOSED;
     if gas_neighbours + 1u >= 2u * DIM { bounds = IN_THE_OPEN; }
     if all.flow.x < bounds.left * gas.flow.x || internal_energy(all) < bounds.left * before { return 0.0; }
     // No debt takes the entropy below what the floor keeps, nor further down where it is there: the floor would give it back.
-    let coldest = min(KEPT_ENTROPY * pressure_of(gas) / pow(gas.flow.x, params.gamma), params.least_entropy);
-    let kick = bounds.speed * bounds.speed * params.gamma * (params.gamma - 1.0) * before / gas.flow.x;
+    let gamma = gamma_of(gas.species.y);
+    let coldest = min(KEPT_ENTROPY * pressure_of(gas) / pow(gas.flow.x, gamma), least_entropy_of(gas.species.y));
+    let kick = bounds.speed * bounds.speed * gamma * grueneisen_of(gas.species.y) * before / gas.flow.x;
     var part = min(1.0, SETTLED_PER_STEP * gas.flow.x / max(abs(all.flow.x - gas.flow.x), 1e-30));
     for (var k = 0; k < 12; k++) {
         let some = with_part(gas, slot, part);
         let change = some.flow.yzw / some.flow.x - gas.flow.yzw / gas.flow.x;
-        let cools = pressure_of(some) < coldest * pow(some.flow.x, params.gamma);
+        let cools = pressure_of(some) < coldest * pow(some.flow.x, gamma);
+        if lacks_a_gas(some) { part *= 0.5; continue; }
         if abs(internal_energy(some) - before) <= SETTLED_PER_STEP * before && dot(change, change) <= kick && !cools { return part; }
         part *= 0.5;
     }
@@ -168,28 +177,29 @@ const TO_GAS = 0.0;
 const TO_SURFACE = 1.0;
 const TO_SOLID = 2.0;
 
-struct Handed { flow: vec4f, energy: f32, receivers: f32 }
+struct Handed { flow: vec4f, energy: f32, species: vec2f, receivers: f32 }
 
 fn handed_by_gas(slot: u32, c: vec3i) -> Handed {
     let count = neighbours_of_kind(c, GAS);
-    if count == 0u { return Handed(vec4f(0.0), 0.0, TO_GAS); }
+    if count == 0u { return Handed(vec4f(0.0), 0.0, vec2f(0.0), TO_GAS); }
     let each = (1.0 - settled_part(slot, count)) / f32(count);
-    return Handed(each * owed_flow[slot], each * owed_energy[slot], TO_GAS);
+    return Handed(each * owed_flow[slot], each * owed_energy[slot], each * owed_species(slot), TO_GAS);
 }
 
 fn handed_by_solid(slot: u32, c: vec3i) -> Handed {
     let flow = conserved[slot] * cell_volume() + owed_flow[slot];
     let heat = energy[slot] * cell_volume() + owed_energy[slot];
+    let species = species_at(SPECIES_DENSITY, slot) * cell_volume() + owed_species(slot);
     let gas = neighbours_of_kind(c, GAS);
     if gas > 0u {
         let part = 1.0 - HELD_AT_SURFACE * density_beside(slot) * cell_volume() / max(abs(flow.x), 1e-30);
         let each = max(part, 0.0) / f32(gas);
-        return Handed(each * flow, each * heat, TO_GAS);
+        return Handed(each * flow, each * heat, each * species, TO_GAS);
     }
     let surface = surface_neighbours(slot);
     let count = select(neighbours_of_kind(c, SOLID), surface, surface > 0u);
     let each = select(0.0, 1.0 / f32(max(count, 1u)), count > 0u);
-    return Handed(each * flow, each * heat, select(TO_SOLID, TO_SURFACE, surface > 0u));
+    return Handed(each * flow, each * heat, each * species, select(TO_SOLID, TO_SURFACE, surface > 0u));
 }
 
 // To each of the receivers.
@@ -204,6 +214,10 @@ fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     for (var turn = 0u; turn < when(kind == SOLID); turn++) { out = handed_by_solid(slot, cell_of(slot)); }
     work[part(HANDED_FLOW, slot)] = out.flow;
     energy[part(HANDED_ENERGY, slot)] = out.energy;
+    if SPECIES {
+        energy[part(HANDED_SPECIES_MASS, slot)] = out.species.x;
+        energy[part(HANDED_SPECIES_WORK, slot)] = out.species.y;
+    }
     if kind == SOLID { energy[part(RECEIVERS, slot)] = out.receivers; }
 }
 
@@ -223,6 +237,7 @@ fn incoming(slot: u32, kind: u32) -> Sum {
             if !takes { continue; }
             sum.flow += work[part(HANDED_FLOW, other)];
             sum.energy += energy[part(HANDED_ENERGY, other)];
+            sum.species += species_at(HANDED_SPECIES_MASS, other);
         }
     }
     return sum;
@@ -237,17 +252,21 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     if (kind != GAS && kind != SOLID) || !inside(c) { return; }
     var flow = owed_flow[slot];
     var heat = owed_energy[slot];
+    var species = owed_species(slot);
     let owes = kind == GAS && (any(flow != vec4f(0.0)) || heat != 0.0);
     for (var turn = 0u; turn < when(owes); turn++) {
         let part = settled_part(slot, neighbours_of_kind(c, GAS));
+        if SPECIES { hold_species(slot, with_part(gas_at(slot), slot, part).species); }
         conserved[slot] += part * flow / cell_volume();
         energy[slot] += part * heat / cell_volume();
         flow *= 1.0 - part;
         heat *= 1.0 - part;
+        species *= 1.0 - part;
     }
     if kind == SOLID {
         flow += conserved[slot] * cell_volume();
         heat += energy[slot] * cell_volume();
+        species += species_at(SPECIES_DENSITY, slot) * cell_volume();
     }
     let handed_on = any(work[part(HANDED_FLOW, slot)] != vec4f(0.0)) || energy[part(HANDED_ENERGY, slot)] != 0.0;
     for (var turn = 0u; turn < when(handed_on); turn++) {
@@ -255,16 +274,21 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         let count = f32(neighbours_of_kind(c, GAS));
         flow = select(vec4f(0.0), flow - count * work[part(HANDED_FLOW, slot)], keeps);
         heat = select(0.0, heat - count * energy[part(HANDED_ENERGY, slot)], keeps);
+        species = select(vec2f(0.0), species - count * species_at(HANDED_SPECIES_MASS, slot), keeps);
     }
     let more = incoming(slot, kind);
     flow += more.flow;
     heat += more.energy;
+    species += more.species;
     if kind == SOLID {
         conserved[slot] = flow / cell_volume();
         energy[slot] = heat / cell_volume();
+        hold_species(slot, species / cell_volume());
         flow = vec4f(0.0);
         heat = 0.0;
+        species = vec2f(0.0);
     }
     owed_flow[slot] = flow;
     owed_energy[slot] = heat;
+    owe_species(slot, species);
 }

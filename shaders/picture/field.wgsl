@@ -1,5 +1,5 @@
 // The quantity a picture shows, from the state of the gas.
-// evaluate_field: reads conserved, energy, owed_flow, cells, maps; writes field and heat (p / rho), NO_VALUE where there is no gas.
+// evaluate_field: reads conserved, energy, species, owed_flow, cells, maps; writes field and heat (p / rho), NO_VALUE where there is no gas.
 // find_range: reads field; writes the least and largest value that each workgroup saw.
 // pack_corners: reads field; writes, per cube between eight cell centres, their fractions of the range in 8 bits each.
 // pack_glow: reads heat; writes the same cubes' places in the black-body ramp.
@@ -22,6 +22,9 @@
 // Mass and momentum that a slot owes; one entry alone where no slot inside the domain has a ledger.
 @group(0) @binding(11) var<storage, read> owed_flow: array<vec4f>;
 
+// The second gas, see species_of(); the energy where there is none.
+@group(0) @binding(13) var<storage, read> species: array<f32>;
+
 // Largest pressure, impulse, what rounding took, largest plastic strain so far; one entry alone where no maps are kept.
 @group(0) @binding(12) var<storage, read> maps: array<vec4f>;
 
@@ -33,10 +36,41 @@ fn motion(slot: u32) -> vec4f {
     return vec4f(state.x, state.yzw / state.x);
 }
 
+// Density of the second gas, and its volume fraction.
+fn species_of(slot: u32) -> vec2f {
+    if (view.species_gamma == 0.0) {
+        return vec2f(0.0);
+    }
+    let slots = arrayLength(&conserved);
+    return vec2f(species[view.species_start + slot], species[view.species_start + slots + slot]);
+}
+
+// gamma - 1 of the mixture.
+fn grueneisen(slot: u32) -> f32 {
+    if (view.species_gamma == 0.0) {
+        return view.gamma - 1.0;
+    }
+    return 1.0 / mix(1.0 / (view.gamma - 1.0), 1.0 / (view.species_gamma - 1.0), species_of(slot).y);
+}
+
+fn gamma(slot: u32) -> f32 {
+    return select(1.0 + grueneisen(slot), view.gamma, view.species_gamma == 0.0);
+}
+
 fn pressure(slot: u32) -> f32 {
     let state = conserved[slot];
     let kinetic = 0.5 * dot(state.yzw, state.yzw) / state.x;
-    return (view.gamma - 1.0) * (energy[slot] - kinetic);
+    return grueneisen(slot) * (energy[slot] - kinetic);
+}
+
+fn mass_fraction(slot: u32) -> f32 {
+    return species_of(slot).x / conserved[slot].x;
+}
+
+// p / rho, over the gas constant of a mixture times that of the first gas.
+fn temperature(slot: u32) -> f32 {
+    let warm = pressure(slot) / conserved[slot].x;
+    return select(warm / mix(1.0, view.species_constant, mass_fraction(slot)), warm, view.species_gamma == 0.0);
 }
 
 // Difference quotient of density and velocity along an active axis; one-sided next to cells without gas.
@@ -98,11 +132,12 @@ fn value(cell: vec3i, slot: u32) -> f32 {
     switch (view.field) {
         case FIELD_PRESSURE: { return pressure(slot); }
         case FIELD_VELOCITY: { return speed; }
-        case FIELD_TEMPERATURE: { return pressure(slot) / state.x; }
+        case FIELD_TEMPERATURE: { return temperature(slot); }
         case FIELD_SCHLIEREN: { return density_gradient(cell); }
-        case FIELD_MACH: { return speed / sqrt(view.gamma * max(pressure(slot), 1e-30) / state.x); }
+        case FIELD_MACH: { return speed / sqrt(gamma(slot) * max(pressure(slot), 1e-30) / state.x); }
         case FIELD_VORTICITY: { return vorticity(cell); }
-        case FIELD_ENTROPY: { return pressure(slot) * pow(state.x, -view.gamma); }
+        case FIELD_ENTROPY: { return pressure(slot) * pow(state.x, -gamma(slot)); }
+        case FIELD_MASS_FRACTION: { return mass_fraction(slot); }
         case FIELD_OWED: { return owed_gas(slot); }
         default: { return state.x; }
     }
@@ -122,7 +157,7 @@ fn evaluate_field(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invoca
         if (bitcast<u32>(computed) & 0x7f800000u) != 0x7f800000u && abs(computed) < -NO_VALUE {
             result = computed;
         }
-        hot = max(pressure(slot) / conserved[slot].x, 0.0);
+        hot = max(temperature(slot), 0.0);
     }
     if view.field == FIELD_OWED && is_covered(slot) { result = owed_gas(slot); }
     if is_map() { result = mapped(slot); }

@@ -139,33 +139,46 @@ fn prescribes(o: Opening) -> bool { return any_used(RULE_FIXED, RULE_SUBSONIC) &
 
 // Pressure of gas that has left a reservoir without losses, at a speed. [Liepmann and Roshko 1957, section 2.10]
 fn reservoir_pressure(o: Opening, speed: f32) -> f32 {
-    let square = params.gamma * o.pressure / o.flow.x;
-    let ratio = 1.0 - 0.5 * (params.gamma - 1.0) * speed * speed / square;
-    return o.pressure * pow(max(ratio, 0.0), params.gamma / (params.gamma - 1.0));
+    let gamma = gamma_of(o.species_volume);
+    let square = gamma * o.pressure / o.flow.x;
+    let ratio = 1.0 - 0.5 * (gamma - 1.0) * speed * speed / square;
+    return o.pressure * pow(max(ratio, 0.0), gamma / (gamma - 1.0));
 }
 
 // Speed into the domain; that of sound at most, which no reservoir exceeds.
 fn inflow_speed(o: Opening, outward_velocity: f32) -> f32 {
-    let critical = sqrt(2.0 / (params.gamma + 1.0) * params.gamma * o.pressure / o.flow.x);
+    let gamma = gamma_of(o.species_volume);
+    let critical = sqrt(2.0 / (gamma + 1.0) * gamma * o.pressure / o.flow.x);
     return clamp(-outward_velocity, 0.0, critical);
+}
+
+fn species_beyond(o: Opening) -> vec2f { return vec2f(o.species_density, o.species_volume); }
+
+// The state of an opening as it stands.
+fn prescribed_gas(o: Opening) -> Gas { return Gas(o.flow, o.energy, species_beyond(o)); }
+
+// The gas of an opening where its pressure has become another without losses.
+fn incoming_gas(o: Opening, velocity: vec3f, pressure: f32) -> Gas {
+    let density = o.flow.x * pow(pressure / o.pressure, 1.0 / gamma_of(o.species_volume));
+    return gas_from_primitive(density, velocity, pressure, vec2f(o.species_density * density / o.flow.x, o.species_volume));
 }
 
 // Least speed of sound behind a wave into the far gas, over that of the far gas.
 const LEAST_SOUND = 0.1;
 
 // The far gas as it is where gas of this entropy has its pressure: what leaves pushes gas of its own entropy before it.
-fn far_density(o: Opening, density: f32, pressure: f32) -> f32 {
-    return density * pow(o.pressure / pressure, 1.0 / params.gamma);
+fn far_density(o: Opening, gamma: f32, density: f32, pressure: f32) -> f32 {
+    return density * pow(o.pressure / pressure, 1.0 / gamma);
 }
 
 // Speed of sound over that at the far pressure where a simple wave that runs outward has brought gas of a density there to velocity u:
 // u_in + 2 c / (gamma - 1) stays. [Liepmann and Roshko 1957, section 3.9]
-fn sound_from_afar(o: Opening, n: u32, outward: f32, density: f32, u: f32) -> f32 {
-    let gain = outward * (u - o.flow[n + 1u] / o.flow.x) / sound_speed(density, o.pressure);
-    return max(1.0 + 0.5 * (params.gamma - 1.0) * gain, LEAST_SOUND);
+fn sound_from_afar(o: Opening, n: u32, outward: f32, gamma: f32, density: f32, u: f32) -> f32 {
+    let gain = outward * (u - o.flow[n + 1u] / o.flow.x) / sound_speed(gamma, density, o.pressure);
+    return max(1.0 + 0.5 * (gamma - 1.0) * gain, LEAST_SOUND);
 }
 
-fn pressure_from_afar(o: Opening, sound: f32) -> f32 { return o.pressure * pow(sound, 2.0 * params.gamma / (params.gamma - 1.0)); }
+fn pressure_from_afar(o: Opening, gamma: f32, sound: f32) -> f32 { return o.pressure * pow(sound, 2.0 * gamma / (gamma - 1.0)); }
 
 // What comes in from afar below the speed of sound brings its entropy and its velocity along the face, passes the face as fast as the
 // gas there, and has the pressure that this takes. With the far velocity, advection would not let in what the pressure system
@@ -173,25 +186,32 @@ fn pressure_from_afar(o: Opening, sound: f32) -> f32 { return o.pressure * pow(s
 fn gas_from_afar(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
     let u = here.flow[n + 1u] / here.flow.x;
     if outward * u >= 0.0 { return here; }
-    if outward * u <= -sound_speed(here.flow.x, pressure_of(here)) { return Gas(o.flow, o.energy); }
     let p = pressure_of(here);
-    let sound = sound_from_afar(o, n, outward, far_density(o, here.flow.x, p), u);
+    let gamma = gamma_of(here.species.y);
+    if outward * u <= -sound_speed(gamma, here.flow.x, p) { return prescribed_gas(o); }
+    let sound = sound_from_afar(o, n, outward, gamma, far_density(o, gamma, here.flow.x, p), u);
     let velocity = select(velocity_of(o.flow), vec3f(u), along(n));
-    let p_beyond = pressure_from_afar(o, sound);
-    return gas_from_primitive(o.flow.x * pow(p_beyond / o.pressure, 1.0 / params.gamma), velocity, p_beyond);
+    let p_beyond = pressure_from_afar(o, gamma, sound);
+    return incoming_gas(o, velocity, p_beyond);
 }
 
 // State beyond a face next to `here`, across axis n, outward = -1 or 1.
 fn gas_beyond(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
-    if follows(o, RULE_FIXED) { return Gas(o.flow, o.energy); }
-    if follows(o, RULE_SUBSONIC) { return Gas(o.flow, internal_energy(here) + kinetic_energy(o.flow)); }
+    if follows(o, RULE_FIXED) { return prescribed_gas(o); }
+    if follows(o, RULE_SUBSONIC) {
+        var heat = internal_energy(here);
+        if SPECIES { heat = pressure_of(here) / grueneisen_of(o.species_volume); }
+        return Gas(o.flow, heat + kinetic_energy(o.flow), species_beyond(o));
+    }
     if follows(o, RULE_TOTAL) {
         let speed = inflow_speed(o, outward * here.flow[n + 1u] / here.flow.x);
         let pressure = reservoir_pressure(o, speed);
         let u = select(vec3f(0.0), vec3f(-outward * speed), along(n));
-        return gas_from_primitive(o.flow.x * pow(pressure / o.pressure, 1.0 / params.gamma), u, pressure);
+        return incoming_gas(o, u, pressure);
     }
-    if follows(o, RULE_ATTENUATED) { return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share)); }
+    if follows(o, RULE_ATTENUATED) {
+        return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share), mix(here.species, species_beyond(o), o.share));
+    }
     if follows(o, RULE_FAR) { return gas_from_afar(o, n, outward, here); }
     return here;
 }
@@ -223,6 +243,9 @@ fn ledger_place(slot: u32) -> u32 {
     let in_layer = select(0u, before.y * n.x + in_row, level.z);
     return slot - before.z * n.y * n.x - in_layer;
 }
+
+// Where a part of owed_energy begins.
+fn ledger_part(k: u32) -> u32 { return k * select(params.slots, ring_count(), RING_LEDGER); }
 
 // Mass and momentum, and energy, that count as one in control.borrowed: about those of ambient gas in a cell.
 fn borrowed_unit() -> vec2f {

@@ -36,7 +36,8 @@ struct OpenFace {
 fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32) -> OpenFace {
     let velocity = here.flow[n + 1u] / here.flow.x;
     let pressure = pressure_of(here);
-    let c = sound_speed(here.flow.x, pressure);
+    let gamma = gamma_of(here.species.y);
+    let c = sound_speed(gamma, here.flow.x, pressure);
     let mach = outward * velocity / c;
     if prescribes(o) { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
     if follows(o, RULE_TOTAL) {
@@ -52,23 +53,23 @@ fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32)
         if mach <= -1.0 { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }
         // without the kick of gravity, which the pressure that it is solved for balances
         let u = velocity - dt * params.gravity[n];
-        return OpenFace(u, pressure_from_afar(o, sound_from_afar(o, n, outward, far_density(o, here.flow.x, pressure), u)));
+        return OpenFace(u, pressure_from_afar(o, gamma, sound_from_afar(o, n, outward, gamma, far_density(o, gamma, here.flow.x, pressure), u)));
     }
     if mach >= 1.0 { return OpenFace(velocity, -1.0); }
     let drift = min(1.0, o.share * max(1.0 - mach * mach, 0.0) * c * dt);
     return OpenFace(known.x + outward * drift * (known.y - o.pressure) / (here.flow.x * c), known.y);
 }
 
-// 1 / Z of an open face, from density and predicted pressure of its cell.
-fn admittance_of(o: Opening, face: OpenFace, density: f32, predicted: f32) -> f32 {
+// 1 / Z of an open face, from gamma, density and predicted pressure of its cell.
+fn admittance_of(o: Opening, face: OpenFace, gamma: f32, density: f32, predicted: f32) -> f32 {
     if face.reference < 0.0 { return 0.0; }
     // That of the far gas behind the wave. Z of the cell would let out less where its pressure is too high.
     if follows(o, RULE_FAR) {
-        let ratio = pow(face.reference / o.pressure, 0.5 + 0.5 / params.gamma);
-        let far = far_density(o, density, predicted);
-        return 1.0 / (far * sound_speed(far, o.pressure) * ratio);
+        let ratio = pow(face.reference / o.pressure, 0.5 + 0.5 / gamma);
+        let far = far_density(o, gamma, density, predicted);
+        return 1.0 / (far * sound_speed(gamma, far, o.pressure) * ratio);
     }
-    let c = sound_speed(density, predicted);
+    let c = sound_speed(gamma, density, predicted);
     if follows(o, RULE_TOTAL) { return 1.0 / (density * max(abs(face.velocity), LEAST_INFLOW * c)); }
     return 1.0 / (density * c);
 }

@@ -97,7 +97,8 @@ const MOST_GIVEN = 0.5;
 // What a vertex gets of the gas around it at most, over the sum of the pressures of those who pay: were all vertices of a cell to ask as much,
 // it would give MOST_GIVEN. Without that bound cells would pay what they have not, and the energy floor would lend it.
 fn most_asked() -> f32 {
-    return MOST_GIVEN * params.spacing / (f32(corner_count()) * (params.gamma - 1.0) * control.dt);
+    let stiffest = max(grueneisen_of(0.0), grueneisen_of(1.0));
+    return MOST_GIVEN * params.spacing / (f32(corner_count()) * stiffest * control.dt);
 }
 
 // What a gas cell gets back for its own faces at a vertex, and what it pays there of the sum.

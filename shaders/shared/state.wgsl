@@ -13,6 +13,7 @@ override QUADRATIC: bool;       // gas element pair B2B1 (true) or B1B0 (false)
 override PREDICTOR: bool;       // consistent predictor of the intermediate pressure
 override CONSISTENT: bool;      // gas is carried by what the solve sees of its velocity, see gas/carrier.wgsl; gas only
 override CUT: bool;             // obstacles cut cells; gas only, B1B0
+override SPECIES: bool;         // the scene has a second gas
 override ARS: bool;             // two solves per step, see below
 override FOURTH: bool;          // sound of fourth order in space, see gas/carrier.wgsl
 override FRACTURE: bool;        // some material breaks, see stress.wgsl
@@ -62,6 +63,10 @@ struct Params {
     still_at: u32,              // Place of the rows of blocks in super::Interface::extra
     table_at: u32,              // Place of the table of cut cells there
     row: u32,                   // Slots of a row, as sums take them (shaders/shared/pcg.wgsl)
+    species_gamma: f32,         // Ratio of specific heats of the second gas
+    species_least_entropy: f32, // p / rho^gamma that none of it falls below
+    ambient_share: f32,         // Mass fraction of the second gas in the ambient state [1]
+    ambient_volume: f32,        // Its volume fraction there [1]
     scan: array<vec4u, SCAN_DISPATCHES>, // Groups of each dispatch of a prefix sum over all slots and one more
 }
 // End of what is generated.
@@ -125,6 +130,8 @@ struct Opening {
     share: f32,                 // Attenuation [1], or relaxation over the length of the domain [m^-1]
     first: u32,                 // First knot of the table of times
     knots: u32,                 // Knots of the table of times, 0 for a constant state
+    species_density: f32,       // Density of the second gas in that state [kg m^-3]
+    species_volume: f32,        // Its volume fraction [1]
 }
 // End of what is generated.
 
@@ -160,6 +167,18 @@ const START_ENERGY = 3u; // energy: at the start of the step [J m^-3]
 const KEPT_ENERGY = 4u; // energy: what the first solve started from [J m^-3]
 const START_HEAT = 5u; // energy: internal energy at the start of the step [J m^-3]
 const COLD_ENERGY = 6u; // energy: what the next solve starts from, without the part that it carries [J m^-3]
+const SPECIES_DENSITY = 7u; // energy: density of the second gas, with the slots of conserved [kg m^-3]
+const SPECIES_VOLUME = 8u; // energy: its volume fraction; in bodies that times the pressure [1, Pa]
+const HANDED_SPECIES_MASS = 9u; // energy: mass of the second gas that the ledger hands on to each receiver [kg]
+const HALFWAY_SPECIES_DENSITY = 9u; // energy: halfway through the advection [kg m^-3]
+const FILTER_SPECIES_DENSITY = 9u; // energy: what the filter changes [kg m^-3]
+const HANDED_SPECIES_WORK = 10u; // energy: its pressure times volume [J]
+const HALFWAY_SPECIES_VOLUME = 10u; // energy: halfway through the advection [1]
+const FILTER_SPECIES_VOLUME = 10u; // energy: what the filter changes [1]
+const ADVECTED_SPECIES_DENSITY = 11u; // energy: of the advected state [kg m^-3]
+const ADVECTED_SPECIES_VOLUME = 12u; // energy: of the advected state [1]
+const START_SPECIES_DENSITY = 13u; // energy: at the start of the step, with two solves [kg m^-3]
+const START_SPECIES_VOLUME = 14u; // energy: at the start of the step, with two solves [1]
 const HANDED_FLOW = 0u; // work: mass and momentum that the ledger hands on to each receiver [kg, kg m s^-1]
 const HALFWAY_FLOW = 0u; // work: density and momentum halfway through the advection [kg m^-3, kg m^-2 s^-1]
 const FILM_PRESSURE = 0u; // work: pressure of gas films at walls, across each axis [Pa]
@@ -178,6 +197,8 @@ const KICKED_VELOCITY = 0u; // elastic: velocity after the solve; w: components 
 const ELASTIC_ACCELERATION = 0u; // elastic: of nodes at the start of the step [m s^-2]
 const START_VELOCITY = 1u; // elastic: velocity and mass of nodes at the start of the step [m s^-1, kg]
 const PASSED_ON = 1u; // elastic: velocity that nodes which have grown lighter pass on [m s^-1]
+const OWED_SPECIES_MASS = 1u; // owed_energy: the same of the second gas [kg]
+const OWED_SPECIES_WORK = 2u; // owed_energy: its pressure times volume [J]
 const LISTED_SLOTS = 1u; // extra: slots that are not deep inside the gas; from the end the frontier, the slots whose nodes they need
 const LENGTHS = 2u; // extra: lengths of both lists: LENGTH_LISTED, LENGTH_FRONTIER
 const APART = 1u; // vectors: h, then Q of vertices that carry them apart; then what each vertex asks of the gas around it [Pa]
@@ -195,12 +216,13 @@ fn unknowns() -> u32 { return part(APART, 2u * params.extra_capacity); }
 
 // -- The gas --
 
-// Ideal gas: conserved variables U = (rho, rho u, E) and what follows from them.
-// [Cao et al. 2022, eqs. 8-9]
+// Ideal gas: conserved variables U = (rho, rho u, E) and what follows from them. [Cao et al. 2022, eqs. 8-9] A second gas adds its
+// density rho Y and its volume fraction phi; both gases of a cell have one velocity and one pressure. [Allaire, Clerc and Kokh 2002]
 
 struct Gas {
     flow: vec4f,    // density [kg m^-3], momentum [kg m^-2 s^-1]
     energy: f32,    // total energy per volume [J m^-3]
+    species: vec2f, // of the second gas: density [kg m^-3], volume fraction [1]; 0 in scenes without one
 }
 
 // The momentum along axes that the scene has not is zero. Said where a state is loaded, so that no kernel reads it or reckons with it.
@@ -213,14 +235,26 @@ fn in_space(flow: vec4f) -> vec4f {
 fn velocity_of(flow: vec4f) -> vec3f { return flow.yzw / flow.x; }
 fn kinetic_energy(flow: vec4f) -> f32 { return 0.5 * dot(flow.yzw, flow.yzw) / flow.x; }
 fn internal_energy(gas: Gas) -> f32 { return gas.energy - kinetic_energy(gas.flow); }
-fn pressure_of(gas: Gas) -> f32 { return (params.gamma - 1.0) * internal_energy(gas); }
-fn sound_speed(density: f32, pressure: f32) -> f32 { return sqrt(params.gamma * max(pressure, 0.0) / density); }
-fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32) -> Gas {
+// Where one gas has less than this share of the volume, the other counts as pure.
+const PURE = 1e-3;
+
+// gamma - 1 at a volume fraction: its inverse is linear in it, so the pressure at a contact stays as it is. [Abgrall 1996; Shyue 1998]
+fn grueneisen_of(phi: f32) -> f32 {
+    if !SPECIES { return params.gamma - 1.0; }
+    return 1.0 / mix(1.0 / (params.gamma - 1.0), 1.0 / (params.species_gamma - 1.0), phi);
+}
+fn gamma_of(phi: f32) -> f32 {
+    if !SPECIES { return params.gamma; }
+    return 1.0 + grueneisen_of(phi);
+}
+fn pressure_of(gas: Gas) -> f32 { return grueneisen_of(gas.species.y) * internal_energy(gas); }
+fn sound_speed(gamma: f32, density: f32, pressure: f32) -> f32 { return sqrt(gamma * max(pressure, 0.0) / density); }
+fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32, species: vec2f) -> Gas {
     return Gas(vec4f(density, density * velocity),
-        pressure / (params.gamma - 1.0) + 0.5 * density * dot(velocity, velocity));
+        pressure / grueneisen_of(species.y) + 0.5 * density * dot(velocity, velocity), species);
 }
 fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
-    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first));
+    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first), select(b.species, a.species, first));
 }
 
 // Density that goes from cell to cell in whole units of the last place of the denser one: what one gives up is then, to the last bit,

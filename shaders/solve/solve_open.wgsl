@@ -1,6 +1,7 @@
 // coupled_solve, preparation: open faces. b of a vertex in units of face_area(), with X* in it: what flows out through the open
 // faces that it belongs to; and their admittance, which resists the increment like a stiffness.
 #include "shared/open_side.wgsl"
+#include "shared/gas_at.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -25,13 +26,15 @@ fn note_open_face(c: vec3i, slot: u32) {
     let outward = f32(away[n]);
     let opening = opening_of(cells[slot]);
     let flow = conserved[slot_of(near)];
-    let p = 1.0 / (params.gamma * fill[slot_of(near)].y);   // its energy waits for what the solve carries [shared/state.wgsl]
-    let here = Gas(flow, p / (params.gamma - 1.0) + kinetic_energy(flow));
+    let species = species_at(SPECIES_DENSITY, slot_of(near));
+    let gamma = gamma_of(species.y);
+    let p = 1.0 / (gamma * fill[slot_of(near)].y);   // its energy waits for what the solve carries [shared/state.wgsl]
+    let here = Gas(flow, p / grueneisen_of(species.y) + kinetic_energy(flow), species);
     let last = fill[slot];
     var known = vec2f(here.flow[n + 1u] / here.flow.x, p);
     if last.y > 0.0 {
         known.y = open_part_pressure(near, n, away[n] > 0);
-        known.x = last.x + outward * (known.y - last.y) / (here.flow.x * sound_speed(here.flow.x, p));
+        known.x = last.x + outward * (known.y - last.y) / (here.flow.x * sound_speed(gamma, here.flow.x, p));
     }
     let face = open_face(opening, n, outward, here, known, control.dt);
     fill[slot] = vec2f(face.velocity, select(face.reference, p, face.reference < 0.0));
@@ -73,7 +76,7 @@ fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             let beyond = slot_of(select(e - axis(n), e + axis(n), up));
             if kind_of(cells[beyond]) != GHOST { continue; }
             let face = OpenFace(energy[part(OPEN_VELOCITY, beyond)], energy[part(OPEN_PRESSURE, beyond)]);
-            let y = admittance_of(opening_of(cells[beyond]), face, conserved[here].x, energy[part(PREDICTED_PRESSURE, here)]);
+            let y = admittance_of(opening_of(cells[beyond]), face, gamma_at(here), conserved[here].x, energy[part(PREDICTED_PRESSURE, here)]);
             let share = aperture(here, n, up) * face_shape(here, n, up, corner);
             // the reference is that of the middle of the face
             let weight = conserved[here].x * params.spacing * dot(params.gravity, along_face(corner, n));

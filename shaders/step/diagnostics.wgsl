@@ -3,6 +3,7 @@
 #include "shared/reduce.wgsl"
 #include "shared/stress.wgsl"
 #include "shared/domain.wgsl"
+#include "shared/gas_at.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -41,6 +42,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     var extremes = vec4f(-3e38);
     var speed = vec2f(0.0); // of the gas, of sound, squared
     var more = vec2f(0.0);  // kinetic energy; owed mass, whatever its sign
+    var species = vec2f(0.0);   // mass of the second gas: held and owed, crossed
     var coldest = 3e38;     // p / rho^gamma
     var coldest_at = params.slots;
     if lane == 0u { atomicStore(&coldest_slot, params.slots); }
@@ -52,38 +54,46 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
         place = select(place + PLACES_PER_TURN, place + PLACES_PER_TURN - threads, place + PLACES_PER_TURN >= threads);
         if slot >= params.slots { continue; }
         let kind = kind_of(cells[slot]);
-        let u = Gas(in_space(conserved[slot]), energy[slot]);
+        let u = gas_at(slot);
         if !RING_LEDGER && (kind == GAS || kind == SOLID) {
             owed += owed_flow[slot];
             heat.y += owed_energy[slot];
             more.y += abs(owed_flow[slot].x);
+            if SPECIES { species.x += owed_energy[ledger_part(OWED_SPECIES_MASS) + slot]; }
         }
         if kind == GAS {
             let share = volume * gas_share(slot);
             gas += share * u.flow;
+            species.x += share * u.species.x;
             heat.x += share * u.energy;
             let p = pressure_of(u);
             extremes = max(extremes, vec4f(u.flow.x, -u.flow.x, p, -p));
             let v = velocity_of(u.flow);
-            speed = max(speed, vec2f(dot(v, v), params.gamma * max(p, 0.0) / u.flow.x));
+            speed = max(speed, vec2f(dot(v, v), gamma_of(u.species.y) * max(p, 0.0) / u.flow.x));
             more.x += share * kinetic_energy(u.flow);
             let entropy = p * pow(u.flow.x, -params.gamma);
-            if entropy < coldest { coldest = entropy; coldest_at = slot; }
+            // of the first gas alone: at the same pressure and density the second has another
+            if entropy < coldest && !(SPECIES && u.species.y > PURE) { coldest = entropy; coldest_at = slot; }
         } else if SOLIDS && kind == SOLID {
             owed += volume * u.flow;
             heat.y += volume * u.energy;
             more.y += volume * abs(u.flow.x);
+            species.x += volume * u.species.x;
         } else if RING_LEDGER {
             crossed += volume * u.flow;
+            species.y += volume * u.species.x;
             heat.z += volume * u.energy;
         } else {
             crossed += volume * (owed_flow[slot] + u.flow);
             heat.z += volume * (owed_energy[slot] + u.energy);
+            species.y += volume * u.species.x;
+            if SPECIES { species.y += volume * owed_energy[ledger_part(OWED_SPECIES_MASS) + slot]; }
         }
     }
     for (var k = thread_index(group, lane); RING_LEDGER && k < ring_count(); k += striding_threads()) {
         crossed += volume * owed_flow[k];
         heat.z += volume * owed_energy[k];
+        if SPECIES { species.y += volume * owed_energy[ledger_part(OWED_SPECIES_MASS) + k]; }
     }
     speed = sqrt(speed);
     let at = group_index(group);
@@ -95,6 +105,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     let largest = workgroup_max4(lane, vec4f(speed.x, speed.y * control.duration / params.spacing, speed.y, -coldest));
     put(5u, at, lane, largest);
     put(10u, at, lane, workgroup_sum4(lane, vec4f(more, 0.0, 0.0)));
+    if SPECIES { put(11u, at, lane, workgroup_sum4(lane, vec4f(0.0, 0.0, species))); }
     put(3u, at, lane, vec4f(heat_sum.xyz, first_slot(-coldest == largest.w, coldest_at)));
 }
 
@@ -141,7 +152,10 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
     put(8u, at, lane, workgroup_max4(lane, vec4f(speed, 0.0, 0.0, 0.0)));
     let left = workgroup_sum4(lane, vec4f(0.0, 0.0, gone, 0.0));
     if lane == 0u { partials[10u * PARTIALS + at] += left; }
-    put(11u, at, lane, workgroup_sum4(lane, cracks));
+    let broken = workgroup_sum4(lane, cracks);
+    if lane == 0u {
+        if SPECIES { partials[11u * PARTIALS + at] += broken; } else { partials[11u * PARTIALS + at] = broken; }
+    }
 }
 
 fn block_total(block: u32, lane: u32, largest: bool) -> vec4f {
@@ -194,7 +208,7 @@ fn totals_probes(@builtin(local_invocation_index) lane: u32) {
     let base = ((control.step + params.history - 1u) % params.history) * params.probes;
     for (var k = lane; k < params.probes; k += WORKGROUP) {
         let slot = probe_cells[k];
-        let u = Gas(in_space(conserved[slot]), energy[slot]);
+        let u = gas_at(slot);
         probe_history[2u * (base + k)] = vec4f(u.flow.x, velocity_of(u.flow));
         probe_history[2u * (base + k) + 1u] = vec4f(pressure_of(u), f32(kind_of(cells[slot])), 0.0, 0.0);
     }

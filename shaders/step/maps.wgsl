@@ -2,6 +2,7 @@
 // map_gas: after every step: reads gas, cells; writes the first three numbers of a slot's map.
 // map_particles: after every step: reads particles; raises the fourth.
 #include "shared/index.wgsl"
+#include "shared/gas_at.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -21,7 +22,7 @@ fn keep(at: u32, value: f32) { atomicStore(&maps[at], bitcast<u32>(value)); }
 fn map_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots || kind_of(cells[slot]) != GAS { return; }
-    let p = pressure_of(Gas(in_space(conserved[slot]), energy[slot]));
+    let p = pressure_of(gas_at(slot));
     let at = 4u * slot;
     if p > kept(at) { keep(at, p); }
     // Many small terms: the sum keeps what each addition loses. [Kahan 1965]

@@ -3,6 +3,7 @@
 // rate = max over cells of sum over axes of (a + sqrt(a^2 + 4 b)) / 2, a = |u| / dx, b = |dp| / (dx^2 rho)
 // [Kwatra et al. 2009, eq. 20]; also dt <= cfl dx / |v_particle|, dt <= max_courant dx / c and dt <= max_growth dt_previous.
 #include "shared/domain.wgsl"
+#include "shared/gas_at.wgsl"
 #include "shared/reduce.wgsl"
 #include "shared/extents.wgsl"
 #include "shared/stress.wgsl"
@@ -20,8 +21,6 @@
 
 // Pressure differences below this share of p are noise of the solve, not a force.
 const PRESSURE_NOISE = 1e-6;
-
-fn gas_at(slot: u32) -> Gas { return Gas(in_space(conserved[slot]), energy[slot]); }
 
 // Pressure difference to a neighbour as an acceleration over the cell edge.
 fn push_of(gas: Gas, p: f32, neighbour: Gas) -> f32 {
@@ -75,7 +74,7 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         let p = pressure_of(gas);
         var rate: f32;
         if SWEEP == OVER_LISTED { rate = listed_rate(c, gas, p); } else { rate = interior_rate(slot, gas, p); }
-        bound = max(bound, vec2f(rate, sound_speed(gas.flow.x, p)));
+        bound = max(bound, vec2f(rate, sound_speed(gamma_of(gas.species.y), gas.flow.x, p)));
     }
     let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
     if lane != 0u { return; }

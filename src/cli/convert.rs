@@ -56,7 +56,7 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
         }
         let (hash, stored) = states::read(path, most)?;
         belongs(path, (&hash, &scene_hash), &stored, &grid)?;
-        let snapshot = states::snapshot(stored, grid, scene.gas.gamma);
+        let snapshot = states::snapshot(stored, grid, scene.gas.equation_of_state());
         let (time, step) = (snapshot.time, snapshot.step);
         let snapshot = Some(&snapshot);
         let moment = Moment { index: *index, origin: &origin, time, step, pictures: &[], snapshot, stored: None };

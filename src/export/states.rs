@@ -10,12 +10,13 @@ use super::container::{self, Array, Contents, Form, Source};
 use super::npy::Kind;
 use crate::export::{Exporter, Moment, Needs};
 use crate::render::{Stored, StoredParticles};
+use crate::scene::EquationOfState;
 use crate::snapshot::{CellRows, ParticleRows, Snapshot, kind};
-use crate::state::Grid;
+use crate::state::{Grid, arrays};
 use crate::{Error, Result};
 
 /// Bytes of a slot of the grid, and of a particle.
-const SLOT: u64 = 44;
+const SLOT: u64 = 52;
 const PARTICLE: u64 = 160;
 
 /// Writes `states/NNNN.npz`.
@@ -89,6 +90,9 @@ pub fn write(path: &Path, source: &Source, state: &Stored) -> Result<()> {
         ("energy", Kind::F32, 1, cast_slice(&state.energy)),
         ("kind", Kind::U8, 1, &state.kind),
     ];
+    if !state.species.is_empty() {
+        arrays.push(("species", Kind::F32, 1, cast_slice(&state.species)));
+    }
     if !state.owed.is_empty() {
         arrays.push(("owed", Kind::F32, 1, cast_slice(&state.owed)));
     }
@@ -123,24 +127,27 @@ pub fn read(path: &Path, most: u64) -> Result<(String, Stored)> {
 
 /// A state as tables and exporters see it, of a grid and gas.
 #[must_use]
-pub fn snapshot(stored: Stored, grid: Grid, gamma: f64) -> Snapshot {
+pub fn snapshot(stored: Stored, grid: Grid, gases: EquationOfState) -> Snapshot {
     let rows = stored.particles.unwrap_or_default();
     let StoredParticles { position, velocity, affine, deformation, stress } = rows;
     let cells = CellRows {
         conserved: stored.conserved,
         energy: stored.energy,
+        species: stored.species,
         owed: stored.owed,
         maps: stored.maps,
         kind: stored.kind,
     };
     let rows = ParticleRows { position, velocity, affine, deformation, stress };
-    Snapshot::of(grid, gamma, (stored.time, stored.step), &cells, &rows)
+    Snapshot::of(grid, gases, (stored.time, stored.step), &cells, &rows)
 }
 
 /// What a file of either form holds of a state.
 fn stored(mut contents: Contents) -> std::result::Result<Stored, String> {
     let conserved: Vec<[f32; 4]> = take(&mut contents, "conserved")?;
     let mut energy: Vec<f32> = take(&mut contents, "energy")?;
+    let species =
+        if has(&contents, "species") { take(&mut contents, "species")? } else { species_of(&energy, conserved.len()) };
     energy.truncate(conserved.len()); // a full state has scratch behind it
     let kind = match take::<u8>(&mut contents, "kind") {
         Ok(kind) => kind,
@@ -165,7 +172,24 @@ fn stored(mut contents: Contents) -> std::result::Result<Stored, String> {
     if let Some(array) = contents.arrays.first().filter(|_| contents.head.form == Form::Fields) {
         return Err(format!("array `{}` is none of a state", array.name));
     }
-    Ok(Stored { time: contents.head.time, step: contents.head.step, conserved, energy, owed, maps, kind, particles })
+    Ok(Stored {
+        time: contents.head.time,
+        step: contents.head.step,
+        conserved,
+        energy,
+        species,
+        owed,
+        maps,
+        kind,
+        particles,
+    })
+}
+
+/// Density and volume fraction of the second gas, of a full state with so many slots; empty without one.
+fn species_of(energy: &[f32], slots: usize) -> Vec<f32> {
+    energy
+        .get(arrays::SPECIES_DENSITY * slots..(arrays::SPECIES_VOLUME + 1) * slots)
+        .map_or(Vec::new(), <[f32]>::to_vec)
 }
 
 /// The mass owed, of a full state; nothing where only the ring has a ledger.
@@ -198,6 +222,7 @@ mod tests {
             step: 7,
             conserved: rows(27),
             energy,
+            species: vec![0.25; 54],
             owed: vec![0.5; 27],
             maps: rows(27),
             kind,

@@ -1,5 +1,8 @@
 //! The simulation's buffers, as the renderer reads them.
 
+use crate::Result;
+use crate::gpu::{Gpu, readback};
+use crate::state::arrays::SPECIES_DENSITY;
 use crate::state::{Grid, State};
 
 /// The simulation's buffers, in the padded index space of [`Grid`].
@@ -11,6 +14,9 @@ pub struct SceneBuffers<'a> {
     pub conserved: &'a wgpu::Buffer,
     /// Total energy per volume, one f32 per slot.
     pub energy: &'a wgpu::Buffer,
+    /// A buffer with the density of the second gas, one f32 per slot, then its volume fraction, and the word where they begin; nothing
+    /// without one.
+    pub species: Option<(&'a wgpu::Buffer, u32)>,
     /// Mass and momentum owed, one vec4 per slot; nothing where only the ring has a ledger.
     pub owed: Option<&'a wgpu::Buffer>,
     /// Largest values so far, one vec4 per slot, see [`State::maps`]; nothing where no maps are kept.
@@ -47,6 +53,10 @@ impl<'a> SceneBuffers<'a> {
             grid: state.grid,
             conserved: state.gas.conserved.raw(),
             energy: state.gas.energy.raw(),
+            species: state
+                .gas
+                .has_species(state.grid.slots())
+                .then(|| (state.gas.energy.raw(), (SPECIES_DENSITY * state.grid.slots()) as u32)),
             owed: (state.gas.owed_flow.len() == state.grid.slots()).then(|| state.gas.owed_flow.raw()),
             maps: (!state.maps.is_empty()).then(|| state.maps.raw()),
             cells: state.interface.cells.raw(),
@@ -68,6 +78,7 @@ pub(super) struct Sources {
     pub(super) grid: Grid,
     pub(super) conserved: wgpu::Buffer,
     pub(super) energy: wgpu::Buffer,
+    pub(super) species: Option<(wgpu::Buffer, u32)>,
     pub(super) owed: Option<wgpu::Buffer>,
     pub(super) maps: Option<wgpu::Buffer>,
     pub(super) cells: wgpu::Buffer,
@@ -99,10 +110,18 @@ impl From<&SceneBuffers<'_>> for Sources {
             grid: buffers.grid,
             conserved: buffers.conserved.clone(),
             energy: buffers.energy.clone(),
+            species: buffers.species.map(|(buffer, start)| (buffer.clone(), start)),
             owed: buffers.owed.cloned(),
             maps: buffers.maps.cloned(),
             cells: buffers.cells.clone(),
             particles,
         }
     }
+}
+
+/// Density of the second gas of so many slots, then its volume fraction; empty without one.
+pub(super) fn read_species(gpu: &Gpu, species: Option<(&wgpu::Buffer, u32)>, slots: usize) -> Result<Vec<f32>> {
+    let Some((buffer, start)) = species else { return Ok(Vec::new()) };
+    let bytes = readback::read_bytes(gpu, buffer, 4 * u64::from(start), 8 * slots as u64)?;
+    Ok(bytemuck::pod_collect_to_vec(&bytes))
 }

@@ -63,6 +63,7 @@ impl Gas {
         let state = [
             ("conserved", &sources.conserved),
             ("energy", &sources.energy),
+            ("species", sources.species.as_ref().map_or(&sources.energy, |(buffer, _)| buffer)),
             ("owed_flow", owed),
             ("maps", sources.maps.as_ref().unwrap_or(nothing.raw())),
             ("cells", &sources.cells),

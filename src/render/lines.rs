@@ -1,6 +1,6 @@
 //! What the line plots of 1D need, read back from the device.
 
-use super::buffers::Sources;
+use super::buffers::{Sources, read_species};
 use super::palette;
 use super::plot::Line;
 use super::stored::elements;
@@ -16,11 +16,19 @@ pub(super) fn read(gpu: &Gpu, sources: &Sources, scene: &Scene, width: u32, time
     let energy: Vec<f32> = grid.unpadded(&elements(gpu, &sources.energy, grid.slots())?);
     let cells: Vec<u32> = grid.unpadded(&elements(gpu, &sources.cells, grid.slots())?);
     let velocity: Vec<f32> = conserved.iter().map(|state| state[1] / state[0]).collect();
-    let thermal = |(state, energy): (&[f32; 4], &f32)| {
-        let kinetic = 0.5 * state[1..].iter().map(|momentum| momentum * momentum).sum::<f32>() / state[0];
-        (scene.gas.gamma as f32 - 1.0) * (energy - kinetic)
+    let gases = scene.gas.equation_of_state();
+    let fractions: Vec<f32> = match sources.species.is_some() {
+        true => grid.unpadded(
+            &read_species(gpu, sources.species.as_ref().map(|(buffer, start)| (buffer, *start)), grid.slots())?
+                [grid.slots()..],
+        ),
+        false => vec![0.0; energy.len()],
     };
-    let pressure = conserved.iter().zip(&energy).map(thermal).collect();
+    let thermal = |((state, energy), phi): ((&[f32; 4], &f32), &f32)| {
+        let kinetic = 0.5 * state[1..].iter().map(|momentum| momentum * momentum).sum::<f32>() / state[0];
+        gases.grueneisen((*phi).into()) as f32 * (energy - kinetic)
+    };
+    let pressure = conserved.iter().zip(&energy).zip(&fractions).map(thermal).collect();
     let density = conserved.iter().map(|state| state[0]).collect();
     let mut particles = Vec::new();
     if let Some(own) = &sources.particles {

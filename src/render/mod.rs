@@ -236,6 +236,7 @@ impl Renderer {
         let size = [layout.plot.width as u32, layout.plot.height as u32];
         let grid = &self.sources.grid;
         let mut view = View::new(&self.scene, grid, &self.eye(look, time), look, size);
+        view.species_start = self.sources.species.as_ref().map_or(0, |(_, start)| *start);
         view.particles = self.sources.particles.as_ref().filter(|_| look.particles).map_or(0, |own| own.count);
         view.particle_color = quantity::particle_code(look.particle_color);
         view.smooth_skin = u32::from(look.surface == crate::scene::Surface::Smooth && grid.dimension == 3);
@@ -334,7 +335,7 @@ impl Renderer {
             Field::Pressure | Field::PeakPressure => ambient.pressure,
             Field::Temperature => ambient.pressure / ambient.density,
             Field::Entropy => quantity::entropy(ambient, self.scene.gas.gamma),
-            Field::Owed | Field::Impulse | Field::PeakPlasticStrain => 0.0,
+            Field::Owed | Field::Impulse | Field::PeakPlasticStrain | Field::MassFraction => 0.0,
             Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => range[0],
         };
         let neutral = ((neutral - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) as f32;

@@ -4,7 +4,7 @@ use crate::quantity::{self, Place};
 use crate::scene::{Field, GasState, ParticleColor};
 
 /// All fields with the constants that shaders switch on.
-const CODES: [(&str, Field); 12] = [
+const CODES: [(&str, Field); 13] = [
     ("FIELD_DENSITY", Field::Density),
     ("FIELD_PRESSURE", Field::Pressure),
     ("FIELD_VELOCITY", Field::Velocity),
@@ -13,6 +13,7 @@ const CODES: [(&str, Field); 12] = [
     ("FIELD_MACH", Field::Mach),
     ("FIELD_VORTICITY", Field::Vorticity),
     ("FIELD_ENTROPY", Field::Entropy),
+    ("FIELD_MASS_FRACTION", Field::MassFraction),
     ("FIELD_OWED", Field::Owed),
     ("FIELD_PEAK_PRESSURE", Field::PeakPressure),
     ("FIELD_IMPULSE", Field::Impulse),
@@ -97,9 +98,13 @@ fn starts_at_zero(field: Field) -> bool {
     match field {
         Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => true,
         Field::Impulse | Field::PeakPlasticStrain => true,
-        Field::Density | Field::Pressure | Field::Temperature | Field::Entropy | Field::Owed | Field::PeakPressure => {
-            false
-        }
+        Field::Density
+        | Field::Pressure
+        | Field::Temperature
+        | Field::Entropy
+        | Field::MassFraction
+        | Field::Owed
+        | Field::PeakPressure => false,
     }
 }
 
@@ -113,7 +118,7 @@ pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamm
         Field::Impulse => ambient.pressure * spacing / sound_speed,
         Field::Temperature => ambient.pressure / ambient.density,
         Field::Velocity => sound_speed,
-        Field::Mach | Field::PeakPlasticStrain => 1.0,
+        Field::Mach | Field::PeakPlasticStrain | Field::MassFraction => 1.0,
         Field::Schlieren => ambient.density / spacing,
         Field::Vorticity => sound_speed / spacing,
     };
@@ -135,7 +140,7 @@ mod tests {
 
     #[test]
     fn ranges_are_never_empty() {
-        let air = GasState { density: 1.0, velocity: [0.0; 3], pressure: 1.0 };
+        let air = GasState::new(1.0, 1.0);
         let range = shown_range(Field::Density, [1.0, 1.0], &air, 1.4, 0.1);
         assert!((range[1] - range[0] - 2e-3).abs() < 1e-12);
         assert_eq!(shown_range(Field::Velocity, [0.5, 3.0], &air, 1.4, 0.1), [0.0, 3.0]);

@@ -3,7 +3,7 @@
 use bytemuck::cast_slice;
 use rayon::prelude::*;
 
-use super::buffers::{ParticleBuffers, SceneBuffers};
+use super::buffers::{ParticleBuffers, SceneBuffers, read_species};
 use crate::Result;
 use crate::gpu::{Buffer, Gpu, readback};
 use crate::snapshot::kind;
@@ -20,6 +20,8 @@ pub struct Stored {
     pub conserved: Vec<[f32; 4]>,
     /// Total energy per volume.
     pub energy: Vec<f32>,
+    /// Density of the second gas of all slots, then its volume fraction; empty without one.
+    pub species: Vec<f32>,
     /// Mass owed \[kg\]; empty where only the ring has a ledger.
     pub owed: Vec<f32>,
     /// Largest values so far, see [`crate::state::State::maps`]; empty where no maps are kept.
@@ -89,6 +91,7 @@ impl Stored {
             step,
             conserved: elements(gpu, buffers.conserved, slots)?,
             energy: elements(gpu, buffers.energy, slots)?,
+            species: read_species(gpu, buffers.species, slots)?,
             owed: match buffers.owed {
                 Some(owed) => elements::<[f32; 4]>(gpu, owed, slots)?.iter().map(|owed| owed[0]).collect(),
                 None => Vec::new(),
@@ -106,7 +109,8 @@ impl Stored {
         let count = self.particles.as_ref().map_or(0, |own| own.position.len() as u32);
         let other = buffers.particles.map_or(0, |own| own.count) != count
             || (buffers.maps.is_some() && self.maps.is_empty())
-            || (buffers.owed.is_some() && self.owed.is_empty());
+            || (buffers.owed.is_some() && self.owed.is_empty())
+            || (buffers.species.is_some() && self.species.is_empty());
         if other || !self.fits(&buffers.grid) {
             return false;
         }
@@ -115,6 +119,9 @@ impl Stored {
         put(buffers.conserved, cast_slice(&self.conserved));
         put(buffers.energy, cast_slice(&self.energy));
         put(buffers.cells, cast_slice(&words));
+        if let Some((buffer, start)) = buffers.species {
+            gpu.queue.write_buffer(buffer, 4 * u64::from(start), cast_slice(&self.species));
+        }
         buffers.owed.iter().for_each(|buffer| put(buffer, cast_slice(&self.owed_flow())));
         buffers.maps.iter().for_each(|buffer| put(buffer, cast_slice(&self.maps)));
         if let (Some(own), Some(stored)) = (buffers.particles, &self.particles) {
@@ -140,7 +147,7 @@ impl Stored {
     pub fn wrong_length(&self, grid: &Grid) -> Option<&'static str> {
         let slots = grid.slots();
         let cells = [("conserved", self.conserved.len()), ("energy", self.energy.len()), ("kind", self.kind.len())];
-        let optional = [("owed", self.owed.len()), ("maps", self.maps.len())];
+        let optional = [("owed", self.owed.len()), ("maps", self.maps.len()), ("species", self.species.len() / 2)];
         let particles = self.particles.as_ref().and_then(|own| {
             let count = own.position.len();
             let mut arrays = own.arrays().into_iter().zip(ROWS);
@@ -177,6 +184,7 @@ pub struct Loaded {
     grid: Grid,
     conserved: Buffer<[f32; 4]>,
     energy: Buffer<f32>,
+    species: Option<Buffer<f32>>,
     owed: Option<Buffer<[f32; 4]>>,
     maps: Option<Buffer<[f32; 4]>>,
     cells: Buffer<u32>,
@@ -199,6 +207,10 @@ impl Loaded {
             grid,
             conserved: Buffer::from_slice(gpu, "conserved", &stored.conserved)?,
             energy: Buffer::from_slice(gpu, "energy", &stored.energy)?,
+            species: match stored.species.is_empty() {
+                true => None,
+                false => Some(Buffer::from_slice(gpu, "species", &stored.species)?),
+            },
             owed: match stored.owed.is_empty() {
                 true => None,
                 false => Some(Buffer::from_slice(gpu, "owed_flow", &stored.owed_flow())?),
@@ -227,14 +239,17 @@ impl Loaded {
             });
         let (conserved, energy, cells) = (self.conserved.raw(), self.energy.raw(), self.cells.raw());
         let [owed, maps] = [&self.owed, &self.maps].map(|buffer| buffer.as_ref().map(Buffer::raw));
-        SceneBuffers { grid: self.grid, conserved, energy, owed, maps, cells, particles }
+        let species = self.species.as_ref().map(|buffer| (buffer.raw(), 0));
+        SceneBuffers { grid: self.grid, conserved, energy, species, owed, maps, cells, particles }
     }
 
     /// Puts another state of the same scene into the same buffers; false, and nothing done, if its sizes differ.
     #[must_use]
     pub fn fill(&self, gpu: &Gpu, stored: &Stored) -> bool {
         let count = stored.particles.as_ref().map_or(0, |own| own.position.len() as u32);
-        let other = stored.owed.is_empty() != self.owed.is_none() || stored.maps.is_empty() != self.maps.is_none();
+        let other = stored.owed.is_empty() != self.owed.is_none()
+            || stored.maps.is_empty() != self.maps.is_none()
+            || stored.species.is_empty() != self.species.is_none();
         if !stored.fits(&self.grid) || count != self.count || other {
             return false;
         }
@@ -242,6 +257,9 @@ impl Loaded {
         self.conserved.write(gpu, 0, &stored.conserved);
         self.energy.write(gpu, 0, &stored.energy);
         self.cells.write(gpu, 0, &words);
+        if let Some(species) = &self.species {
+            species.write(gpu, 0, &stored.species);
+        }
         if let Some(owed) = &self.owed {
             owed.write(gpu, 0, &stored.owed_flow());
         }

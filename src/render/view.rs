@@ -126,6 +126,14 @@ structure! {
         heat_opacity: f32,
         /// Values at the ends of the line-of-sight pictures' grey are -gain and gain.
         gain: f32,
+        /// Ratio of specific heats of the second gas; 0 without one.
+        species_gamma: f32,
+        /// Its gas constant over that of the first.
+        species_constant: f32,
+        /// Word where its density begins, behind which is its volume fraction.
+        species_start: u32,
+        /// Its extinction in the ray march \[m^2 kg^-1\].
+        soot: f32,
         /// Number of slices.
         slice_count: u32,
         /// Number of contour lines.
@@ -174,6 +182,8 @@ impl View {
             particle_high: 1.0,
             exposure: look.exposure as f32,
             gain: 1.0,
+            species_gamma: scene.gas.species.values().next().map_or(0.0, |species| species.gamma as f32),
+            species_constant: scene.gas.equation_of_state().constant_ratio(1.0) as f32,
             background: Paper::sky(look).map(|[red, green, blue]| [red, green, blue, 1.0]),
             ..Self::zeroed()
         };

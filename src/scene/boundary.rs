@@ -44,6 +44,9 @@ pub struct Inflow {
     #[serde(default, deserialize_with = "vector::point")]
     #[schemars(with = "Vec<f64>")]
     pub velocity: [f64; 3],
+    /// Mass fraction of the second gas, 0 to 1.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    pub mass_fraction: f64,
 }
 
 /// Total state: that of the gas before it was accelerated, without losses, to the speed that it enters with.
@@ -54,6 +57,9 @@ pub struct Reservoir {
     pub density: f64,
     /// Total pressure `[Pa]`, positive.
     pub pressure: f64,
+    /// Mass fraction of the second gas, 0 to 1.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    pub mass_fraction: f64,
 }
 
 /// Which of its numbers an inlet prescribes.
@@ -78,6 +84,9 @@ pub struct TimedInlet {
     pub rule: InletRule,
     /// The states, in order of time.
     pub table: Vec<TimedState>,
+    /// Mass fraction of the second gas, 0 to 1.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    pub mass_fraction: f64,
 }
 
 /// The state of an inlet at one time.
@@ -126,6 +135,9 @@ pub struct AttenuatedOutlet {
     pub pressure: f64,
     /// Share of the far state in the state beyond the side, 0 to 1.
     pub attenuation: f64,
+    /// Mass fraction of the second gas, 0 to 1.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    pub mass_fraction: f64,
 }
 
 /// A side of several rules.
@@ -158,6 +170,23 @@ impl Boundary {
                 std::iter::once(&*patched.base).chain(patched.patches.iter().map(|patch| &patch.rule)).collect()
             }
             rule => vec![rule],
+        }
+    }
+
+    /// Mass fraction of the second gas in what flows in.
+    #[must_use]
+    pub fn mass_fraction(&self) -> f64 {
+        match self {
+            Boundary::Inlet(state) | Boundary::FarField(state) => state.mass_fraction,
+            Boundary::SubsonicInlet(inflow) => inflow.mass_fraction,
+            Boundary::TotalInlet(reservoir) => reservoir.mass_fraction,
+            Boundary::TimedInlet(inlet) => inlet.mass_fraction,
+            Boundary::AttenuatedOutlet(outlet) => outlet.mass_fraction,
+            Boundary::Wall
+            | Boundary::Periodic
+            | Boundary::Outlet
+            | Boundary::PressureOutlet(_)
+            | Boundary::Patched(_) => 0.0,
         }
     }
 

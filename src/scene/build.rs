@@ -194,6 +194,7 @@ impl Gas {
     #[must_use]
     pub fn new(ambient: GasState) -> Self {
         Gas {
+            species: std::collections::BTreeMap::new(),
             gamma: super::default_gamma(),
             ambient,
             atmosphere: super::Atmosphere::default(),
@@ -224,7 +225,7 @@ impl GasState {
     /// Gas at rest of a density \[kg m^-3\] and pressure \[Pa\].
     #[must_use]
     pub fn new(density: f64, pressure: f64) -> Self {
-        GasState { density, velocity: [0.0; 3], pressure }
+        GasState { density, velocity: [0.0; 3], pressure, mass_fraction: 0.0 }
     }
 
     /// The same with a velocity \[m s^-1\].

@@ -33,6 +33,7 @@ mod settings;
 mod shape;
 mod shock_tube;
 mod shot;
+mod species;
 #[cfg(test)]
 mod tests;
 mod vector;
@@ -90,6 +91,7 @@ pub use render::{
 pub use settings::{Output, Time};
 pub use shape::Shape;
 pub use shot::{Shot, ShotKeys};
+pub use species::{Conserved, EquationOfState, Species};
 pub use vortex::Vortex;
 pub use warned::Warned;
 pub use wave::Wave;
@@ -175,13 +177,16 @@ pub struct Domain {
     pub size: [f64; 3],
 }
 
-/// An ideal gas, p = (gamma - 1) rho e.
+/// An ideal gas, p = (gamma - 1) rho e, or two.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gas {
     /// Ratio of specific heats, above 1.
     #[serde(default = "default_gamma")]
     pub gamma: f64,
+    /// A second gas, by name: at most one.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub species: BTreeMap<String, Species>,
     /// State wherever no region says otherwise.
     pub ambient: GasState,
     /// How it starts under gravity.
@@ -208,7 +213,7 @@ fn default_gamma() -> f64 {
     1.4
 }
 
-/// Density, velocity and pressure of a gas. In a file, `temperature` and `air` may say one or both of them.
+/// Density, velocity and pressure of a gas. In a file, `temperature` and `air` may say one or both of them, and `species` which gas it is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GasState {
@@ -220,6 +225,13 @@ pub struct GasState {
     pub velocity: [f64; 3],
     /// Pressure `[Pa]`, positive.
     pub pressure: f64,
+    /// Mass fraction of the second gas, 0 to 1.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub mass_fraction: f64,
+}
+
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 /// A static obstacle.
@@ -335,5 +347,6 @@ impl Scene {
 pub fn schema() -> String {
     let mut schema = Scene::schema().to_value();
     file::gas_state::add_keys(&mut schema);
+    file::species::add_keys(&mut schema);
     format!("{schema:#}")
 }

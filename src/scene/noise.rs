@@ -1,7 +1,7 @@
 //! Noise on the gas at the start.
 
 use super::geometry::sample::random;
-use super::{Gas, GasState};
+use super::{Conserved, Gas, GasState};
 
 /// Above this share a state might lose its pressure.
 const MOST: f64 = 0.5;
@@ -14,18 +14,21 @@ impl Gas {
 
     /// Puts noise on density, momentum and energy per volume of a cell: shares of density and pressure and, along `axes` axes, of the
     /// speed of sound. The same cell always gets the same noise.
-    pub(super) fn disturb(&self, cell: usize, axes: usize, state: &mut [f64; 5]) {
+    pub(super) fn disturb(&self, cell: usize, axes: usize, state: &mut Conserved) {
         let share = |entry: usize| self.noise * random(5 * cell + entry);
-        let [density, _, _, _, energy] = *state;
+        let gases = self.equation_of_state();
+        let [density, _, _, _, _, part, phi] = *state;
         let mut velocity = [1, 2, 3].map(|k| state[k] / density);
-        let kinetic = 0.5 * density * velocity.iter().map(|v| v * v).sum::<f64>();
-        let pressure = (self.gamma - 1.0) * (energy - kinetic);
-        let sound = (self.gamma * pressure / density).sqrt();
+        let gamma = gases.gamma_at(phi);
+        let pressure = gases.pressure(*state);
+        let sound = (gamma * pressure / density).sqrt();
         for (entry, v) in (2..).zip(&mut velocity[..axes]) {
             *v += sound * share(entry);
         }
+        let mass_fraction = part / density;
         let (density, pressure) = (density * (1.0 + share(0)), pressure * (1.0 + share(1)));
-        *state = GasState { density, velocity, pressure }.conserved(self.gamma);
+        let [density, x, y, z, energy] = GasState { density, velocity, pressure, mass_fraction }.conserved(gamma);
+        *state = [density, x, y, z, energy, density * mass_fraction, phi];
     }
 }
 

@@ -30,18 +30,21 @@ struct RegionKeys {
     velocity: [f64; 3],
     /// Pressure `[Pa]`, positive.
     pressure: f64,
+    /// Mass fraction of the second gas, 0 to 1.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    mass_fraction: f64,
 }
 
 impl From<RegionKeys> for Region {
     fn from(keys: RegionKeys) -> Self {
-        let state = GasState { density: keys.density, velocity: keys.velocity, pressure: keys.pressure };
-        Region { shape: keys.shape, state }
+        let RegionKeys { shape, density, velocity, pressure, mass_fraction } = keys;
+        Region { shape, state: GasState { density, velocity, pressure, mass_fraction } }
     }
 }
 
 impl From<Region> for RegionKeys {
     fn from(region: Region) -> Self {
-        let GasState { density, velocity, pressure } = region.state;
-        RegionKeys { shape: region.shape, density, velocity, pressure }
+        let GasState { density, velocity, pressure, mass_fraction } = region.state;
+        RegionKeys { shape: region.shape, density, velocity, pressure, mass_fraction }
     }
 }

@@ -30,6 +30,8 @@ pub enum Field {
     Vorticity,
     /// Pressure over density to the power gamma, which no process lowers `[Pa (m^3/kg)^gamma]`.
     Entropy,
+    /// Mass fraction of the second gas.
+    MassFraction,
     /// Gas that a cell owes or, below zero, has too much of; of covered cells, what they hold `[kg m^-3]`.
     Owed,
     /// Largest pressure since the start `[Pa]`.
@@ -42,7 +44,7 @@ pub enum Field {
 
 impl Field {
     /// All fields, in the order of menus.
-    pub const ALL: [Field; 12] = [
+    pub const ALL: [Field; 13] = [
         Field::Density,
         Field::Pressure,
         Field::Velocity,
@@ -51,6 +53,7 @@ impl Field {
         Field::Mach,
         Field::Vorticity,
         Field::Entropy,
+        Field::MassFraction,
         Field::Owed,
         Field::PeakPressure,
         Field::Impulse,
@@ -69,6 +72,7 @@ impl Field {
             Field::Mach => "mach",
             Field::Vorticity => "vorticity",
             Field::Entropy => "entropy",
+            Field::MassFraction => "mass_fraction",
             Field::Owed => "owed",
             Field::PeakPressure => "peak_pressure",
             Field::Impulse => "impulse",

@@ -22,10 +22,12 @@ impl Scene {
         let (mut low, mut high) = (self.domain.origin[0], self.domain.origin[0] + self.domain.size[0]);
         let primitive = |x: f64| {
             let state = self.gas_at([x, 0.0, 0.0]);
-            (state.density, state.velocity[0], state.pressure)
+            let gases = self.gas.equation_of_state();
+            let gamma = gases.gamma_at(gases.volume_fraction(state.mass_fraction));
+            (gamma, (state.density, state.velocity[0], state.pressure))
         };
         let nudge = 1e-9 * self.domain.size[0];
-        let (left, right) = (primitive(low + nudge), primitive(high - nudge));
+        let ((left_gamma, left), (right_gamma, right)) = (primitive(low + nudge), primitive(high - nudge));
         if !plain || inside(low + nudge) == inside(high - nudge) {
             return None;
         }
@@ -37,7 +39,7 @@ impl Scene {
             }
             if inside(middle) == first { low = middle } else { high = middle }
         }
-        Some((ExactRiemann::new(self.gas.gamma, left, right), 0.5 * (low + high)))
+        Some((ExactRiemann::of_two_gases([left_gamma, right_gamma], left, right), 0.5 * (low + high)))
     }
 
     /// The exact solution and the place of its jump, while its waves are inside the domain: later the sides have their say.

@@ -9,6 +9,7 @@ use Stage::{
 use When::{At, Next, Second, Substep};
 
 use super::stages::Stage;
+use crate::scene::Scene;
 
 mod text;
 
@@ -87,14 +88,17 @@ pub enum Scenes {
     Implicit,
     /// With bodies and `numerics.paper.coupling = "last"`.
     ElasticFirst,
+    /// With a second gas.
+    TwoGases,
 }
 
 impl Scenes {
     /// Whether some scene has both.
     pub fn meet(self, other: Scenes) -> bool {
-        use Scenes::{All, Bodies, ElasticFirst, Explicit, Gas, Implicit, SolveFirst, TwoSolves};
+        use Scenes::{All, Bodies, ElasticFirst, Explicit, Gas, Implicit, SolveFirst, TwoGases, TwoSolves};
         let bodies = |scenes| matches!(scenes, Bodies | SolveFirst | Explicit | Implicit | ElasticFirst);
         match (self, other) {
+            (TwoGases, _) | (_, TwoGases) => true,
             (Explicit, Implicit | ElasticFirst)
             | (Implicit, Explicit | ElasticFirst)
             | (SolveFirst, ElasticFirst)
@@ -190,6 +194,11 @@ impl Use {
     }
 }
 
+/// Parts of `energy` that hold density and volume fraction of the second gas, as of every slot.
+pub const SPECIES_DENSITY: usize = 7;
+/// The other of the two.
+pub const SPECIES_VOLUME: usize = 8;
+
 /// Every use, by array and part, in the order of a step.
 #[rustfmt::skip]
 pub const USES: &[Use] = &[
@@ -227,6 +236,30 @@ pub const USES: &[Use] = &[
         "internal energy at the start of the step").of(Scenes::TwoSolves),
     Use::new("energy", Name::Part(6, "COLD_ENERGY"), (At(GasAdvection), Second(IntermediatePressure)), "J m^-3",
         "what the next solve starts from, without the part that it carries").of(Scenes::TwoSolves),
+    Use::new("energy", Name::Part(SPECIES_DENSITY as u32, "SPECIES_DENSITY"), (At(IntermediatePressure), Next(IntermediatePressure)), "kg m^-3",
+        "density of the second gas, with the slots of `conserved`").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(SPECIES_VOLUME as u32, "SPECIES_VOLUME"), (At(IntermediatePressure), Next(IntermediatePressure)), "1, Pa",
+        "its volume fraction; in bodies that times the pressure").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(9, "HANDED_SPECIES_MASS"), (At(Interface), At(Interface)), "kg",
+        "mass of the second gas that the ledger hands on to each receiver").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(9, "HALFWAY_SPECIES_DENSITY"), (At(GasAdvection), At(GasAdvection)), "kg m^-3",
+        "halfway through the advection").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(9, "FILTER_SPECIES_DENSITY"), (At(OddEven), At(OddEven)), "kg m^-3",
+        "what the filter changes").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(10, "HANDED_SPECIES_WORK"), (At(Interface), At(Interface)), "J",
+        "its pressure times volume").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(10, "HALFWAY_SPECIES_VOLUME"), (At(GasAdvection), At(GasAdvection)), "1",
+        "halfway through the advection").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(10, "FILTER_SPECIES_VOLUME"), (At(OddEven), At(OddEven)), "1",
+        "what the filter changes").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(11, "ADVECTED_SPECIES_DENSITY"), (At(GasAdvection), At(IntermediatePressure)), "kg m^-3",
+        "of the advected state").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(12, "ADVECTED_SPECIES_VOLUME"), (At(GasAdvection), At(IntermediatePressure)), "1",
+        "of the advected state").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(13, "START_SPECIES_DENSITY"), (At(GasAdvection), Second(GasAdvection)), "kg m^-3",
+        "at the start of the step, with two solves").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(14, "START_SPECIES_VOLUME"), (At(GasAdvection), Second(GasAdvection)), "1",
+        "at the start of the step, with two solves").of(Scenes::TwoGases),
     Use::new("work", Name::Part(0, "HANDED_FLOW"), (At(Interface), At(Interface)), "kg, kg m s^-1",
         "mass and momentum that the ledger hands on to each receiver").of(Scenes::Bodies),
     Use::new("work", Name::Part(0, "HALFWAY_FLOW"), (At(GasAdvection), At(GasAdvection)), "kg m^-3, kg m^-2 s^-1",
@@ -286,7 +319,11 @@ pub const USES: &[Use] = &[
         "its change by the solve").of(Scenes::Bodies).in_place(),
     Use::new("owed_flow", Name::Array, (At(Interface), Next(Interface)), "kg, kg m s^-1",
         "gas that cells owe; in the ring what has crossed since the start, over the volume of a cell"),
-    Use::new("owed_energy", Name::Array, (At(Interface), Next(Interface)), "J", "the same"),
+    Use::new("owed_energy", Name::First, (At(Interface), Next(Interface)), "J", "the same"),
+    Use::new("owed_energy", Name::Part(1, "OWED_SPECIES_MASS"), (At(Interface), Next(Interface)), "kg",
+        "the same of the second gas").of(Scenes::TwoGases),
+    Use::new("owed_energy", Name::Part(2, "OWED_SPECIES_WORK"), (At(Interface), Next(Interface)), "J",
+        "its pressure times volume").of(Scenes::TwoGases),
     Use::new("cells", Name::Array, (At(Interface), Next(Interface)), "", "kind, flags and blocked share of a slot"),
     Use::new("extra", Name::First, (At(Interface), Next(Interface)), "",
         "place among the vertices with P, h and Q apart").of(Scenes::Bodies),
@@ -326,8 +363,14 @@ pub const USES: &[Use] = &[
         "of h, then of Q"),
 ];
 
-/// Parts of an array in a scene with one solve per step or `two`.
-pub fn parts(array: &str, two: bool) -> usize {
-    let own = USES.iter().filter(|own| own.array == array && (two || own.scenes != Scenes::TwoSolves));
+/// Parts of an array in a scene.
+pub fn parts(array: &str, scene: &Scene) -> usize {
+    let (two_solves, two_gases) = (scene.solves() == 2, !scene.gas.species.is_empty());
+    let has = |scenes: Scenes| match scenes {
+        Scenes::TwoSolves => two_solves,
+        Scenes::TwoGases => two_gases,
+        _ => true,
+    };
+    let own = USES.iter().filter(|own| own.array == array && has(own.scenes));
     own.map(|own| own.part() as usize + 1).max().unwrap_or(0)
 }

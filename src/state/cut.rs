@@ -1,7 +1,7 @@
 //! The table of cut cells, as shaders read it, and the gas that they hold at the start.
 
 use super::Grid;
-use crate::scene::{CutGeometry, Scene};
+use crate::scene::{Conserved, CutGeometry, Scene};
 
 /// Words of one entry; the positions are those of [`FIELDS`].
 pub const WIDTH: usize = 34;
@@ -44,7 +44,7 @@ pub fn gas_shares(grid: &Grid, geometry: &CutGeometry) -> Vec<f64> {
 }
 
 /// Momentum of the gas of the start `[density, momentum, energy]` \[kg m s^-1\].
-pub fn momentum(scene: &Scene, geometry: &CutGeometry, gas: &[[f64; 5]]) -> [f64; 3] {
+pub fn momentum(scene: &Scene, geometry: &CutGeometry, gas: &[Conserved]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     let cells = gas.iter().zip(&geometry.walls).filter(|(_, wall)| !**wall);
     for (gas, _) in cells {
@@ -82,12 +82,12 @@ pub fn table(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
 }
 
 /// The gas at the start; what shares one state gets the mean.
-pub fn initial_gas(scene: &Scene, geometry: &CutGeometry) -> Vec<[f64; 5]> {
+pub fn initial_gas(scene: &Scene, geometry: &CutGeometry) -> Vec<Conserved> {
     let mut gas = scene.initial_gas();
     let [nx, ny, _] = scene.domain.cells.map(|n| n as usize);
     let index = |cell: [u32; 3]| cell[0] as usize + nx * (cell[1] as usize + ny * cell[2] as usize);
     for cluster in &geometry.clusters {
-        let (mut sum, mut volume) = ([0.0; 5], 0.0);
+        let (mut sum, mut volume) = ([0.0; 7], 0.0);
         for &member in cluster {
             let cut = &geometry.cells[member];
             let state = scene.initial_gas_beside_obstacles(cut.cell);

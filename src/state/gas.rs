@@ -2,8 +2,8 @@
 
 use super::{Grid, Openings, arrays};
 use crate::error::Result;
-use crate::gpu::{Buffer, Gpu};
-use crate::scene::Scene;
+use crate::gpu::{Buffer, Gpu, readback};
+use crate::scene::{Conserved, Scene};
 
 /// Buffers of the gas, in padded slots.
 #[derive(Debug)]
@@ -17,7 +17,7 @@ pub struct GasState {
     /// Gas that GAS cells owe: mass and momentum \[kg\], \[kg m s^-1\]; in GHOST and WALL slots what has crossed the boundary, per cell volume.
     /// Without bodies and obstacles only the slots of the ring have a place, in their order (`shaders/shared/domain.wgsl`).
     pub owed_flow: Buffer<[f32; 4]>,
-    /// Energy that GAS cells owe \[J\], or that has crossed, per cell volume.
+    /// Energy that GAS cells owe \[J\], or that has crossed, per cell volume; further parts of a second gas.
     pub owed_energy: Buffer<f32>,
 }
 
@@ -29,14 +29,33 @@ impl GasState {
     pub fn new(gpu: &Gpu, scene: &Scene, grid: &Grid, particles: usize) -> Result<Self> {
         let slots = grid.slots();
         let ledger = if ring_ledger(scene, particles > 0) { slots - grid.cell_count() } else { slots };
-        let parts = |array: &str| arrays::parts(array, scene.solves() == 2) * slots;
+        let parts = |array: &str| arrays::parts(array, scene);
+        let (energy, work) = (parts("energy") * slots, parts("work") * slots);
         Ok(Self {
             conserved: Buffer::new(gpu, "conserved", slots)?,
-            energy: Buffer::new(gpu, "energy", parts("energy"))?,
-            work: Buffer::new(gpu, "work", parts("work"))?,
+            energy: Buffer::new(gpu, "energy", energy)?,
+            work: Buffer::new(gpu, "work", work)?,
             owed_flow: Buffer::new(gpu, "owed_flow", ledger)?,
-            owed_energy: Buffer::new(gpu, "owed_energy", ledger)?,
+            owed_energy: Buffer::new(gpu, "owed_energy", parts("owed_energy") * ledger)?,
         })
+    }
+}
+
+impl GasState {
+    /// Whether there is a second gas.
+    pub fn has_species(&self, slots: usize) -> bool {
+        self.energy.len() > arrays::SPECIES_VOLUME * slots
+    }
+
+    /// Density of the second gas of all slots, then its volume fraction; empty without one.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn read_species(&self, gpu: &Gpu, slots: usize) -> Result<Vec<f32>> {
+        if !self.has_species(slots) {
+            return Ok(Vec::new());
+        }
+        readback::read_range(gpu, &self.energy, arrays::SPECIES_DENSITY * slots, 2 * slots)
     }
 }
 
@@ -51,19 +70,28 @@ const ENTROPY_SHARE: f64 = 0.9;
 /// The same in gas alone: there thin cells at corners pay for the work of dense ones.
 const ENTROPY_SHARE_ALONE: f64 = 0.1;
 
-/// Least p / rho^gamma of the gas of the start `[density, momentum, energy]` and of what may flow in; 0 without gas.
-pub(super) fn start_entropy(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> f64 {
-    let gamma = scene.gas.gamma;
-    let inside = start
-        .iter()
-        .map(|[density, x, y, z, total]| (*density, (gamma - 1.0) * (total - 0.5 * (x * x + y * y + z * z) / density)));
-    let beyond = openings.table.iter().map(|rule| (rule.flow[0], rule.pressure));
-    let later = openings.knots.iter().map(|knot| (knot.density, knot.pressure));
-    let states = inside.chain(beyond.chain(later).map(|(density, pressure)| (density.into(), pressure.into())));
-    let physical = states.filter(|(density, pressure)| *density > 0.0 && *pressure > 0.0);
-    let least =
-        physical.map(|(density, pressure): (f64, f64)| pressure / density.powf(gamma)).fold(f64::INFINITY, f64::min);
-    if least.is_finite() { least } else { 0.0 }
+/// Where one gas has less than this share of the volume, the other counts as pure. Mirror of `shaders/shared/state.wgsl`.
+const PURE: f64 = 1e-3;
+
+/// Least p / rho^gamma of the gas of the start and of what may flow in, of the first gas and of the second; 0 without.
+pub(super) fn start_entropy(scene: &Scene, start: &[Conserved], openings: &Openings) -> [f64; 2] {
+    let gases = scene.gas.equation_of_state();
+    let inside = start.iter().map(|state| (state[0], gases.pressure(*state), state[6]));
+    let beyond = openings.table.iter().map(|rule| (rule.flow[0], rule.pressure, rule.species_volume));
+    let later = openings.table.iter().flat_map(|rule| {
+        let knots = openings.knots.iter().skip(rule.first as usize).take(rule.knots as usize);
+        knots.map(|knot| (knot.density, knot.pressure, rule.species_volume))
+    });
+    let wide = |(density, pressure, phi): (f32, f32, f32)| (density.into(), pressure.into(), phi.into());
+    let mut least = [f64::INFINITY; 2];
+    for (density, pressure, phi) in inside.chain(beyond.chain(later).map(wide)) {
+        let gas = usize::from(phi > 0.5);
+        if density > 0.0 && pressure > 0.0 && f64::min(phi, 1.0 - phi) < PURE {
+            let gamma = gases.gamma_at(gas as f64);
+            least[gas] = least[gas].min(pressure / f64::powf(density, gamma));
+        }
+    }
+    least.map(|least| if least.is_finite() { least } else { 0.0 })
 }
 
 /// p / rho^gamma that no gas falls below, from the least of the start.
@@ -73,9 +101,7 @@ pub(super) fn least_entropy(scene: &Scene, start: f64) -> f32 {
 }
 
 /// Maps of the start: the pressure of the gas.
-pub(super) fn first_maps(conserved: &[[f32; 4]], energy: &[f32], gamma: f32) -> Vec<[f32; 4]> {
-    let pressure = |([density, x, y, z], energy): (&[f32; 4], &f32)| {
-        if *density > 0.0 { (gamma - 1.0) * (energy - 0.5 * (x * x + y * y + z * z) / density) } else { 0.0 }
-    };
-    conserved.iter().zip(energy).map(|state| [pressure(state), 0.0, 0.0, 0.0]).collect()
+pub(super) fn first_maps(conserved: &[[f32; 4]], pressure: &[f32]) -> Vec<[f32; 4]> {
+    let own = |([density, ..], pressure): (&[f32; 4], &f32)| if *density > 0.0 { *pressure } else { 0.0 };
+    conserved.iter().zip(pressure).map(|state| [own(state), 0.0, 0.0, 0.0]).collect()
 }

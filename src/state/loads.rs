@@ -1,7 +1,7 @@
 //! Loads of the gas on what is held, driven or fixed: which there are, their sums on the device, and who owns a slot.
 
 use super::{Grid, HISTORY, Openings};
-use crate::scene::{CutGeometry, GaugePlace, Scene};
+use crate::scene::{Conserved, CutGeometry, GaugePlace, Scene};
 
 /// Numbers of a load: force, power, moment, force of the pressure alone, area. Mirror of `shaders/step/loads.wgsl`.
 pub const LOAD_NUMBERS: u32 = 9;
@@ -49,15 +49,14 @@ pub fn length(scene: &Scene, slots: usize) -> usize {
 }
 
 /// What the kernels are told of them.
-pub(super) fn overrides(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> [(&'static str, f64); 2] {
+pub(super) fn overrides(scene: &Scene, start: &[Conserved], openings: &Openings) -> [(&'static str, f64); 2] {
     [("LOADS", count(scene).iter().sum::<usize>() as f64), ("LOAD_UNIT", unit(scene, start, openings))]
 }
 
 /// The unit of their sums: the largest pressure of the gas of the start `[density, momentum, energy]` and of the sides \[Pa\].
-fn unit(scene: &Scene, start: &[[f64; 5]], openings: &Openings) -> f64 {
-    let gamma = scene.gas.gamma;
-    let inside =
-        start.iter().map(|[density, x, y, z, total]| (gamma - 1.0) * (total - 0.5 * (x * x + y * y + z * z) / density));
+fn unit(scene: &Scene, start: &[Conserved], openings: &Openings) -> f64 {
+    let gases = scene.gas.equation_of_state();
+    let inside = start.iter().map(|state| gases.pressure(*state));
     let beyond = openings.table.iter().map(|rule| f64::from(rule.pressure));
     let all = inside.chain(beyond).filter(|pressure| pressure.is_finite());
     all.fold(scene.gas.ambient.pressure, f64::max)

@@ -52,7 +52,7 @@ impl MemoryPlan {
         let places = super::interface::Places::new([0, 1, 2].map(padded), dimension);
         let count = particles as u64;
         let solid = if particles == 0 { 1 } else { slots };
-        let parts = |array: &str| super::arrays::parts(array, scene.solves() == 2) as u64 * slots;
+        let parts = |array: &str| super::arrays::parts(array, scene) as u64 * slots;
         let table = super::cut::WIDTH as u64 * cut_cells;
         let mut plan = Self {
             cells: scene.domain.cells.iter().map(|&n| u64::from(n)).product(),
@@ -63,7 +63,8 @@ impl MemoryPlan {
         plan.add("gas", &[("conserved", slots, 16), ("work", parts("work"), 16)]);
         plan.add("gas", &[("energy", parts("energy"), 4)]);
         let ledger = if super::gas::ring_ledger(scene, particles > 0) { slots - plan.cells } else { slots };
-        plan.add("gas", &[("owed_flow", ledger, 16), ("owed_energy", ledger, 4)]);
+        let owed = super::arrays::parts("owed_energy", scene) as u64 * ledger;
+        plan.add("gas", &[("owed_flow", ledger, 16), ("owed_energy", owed, 4)]);
         plan.add("interface", &[("cells", slots, 4), ("fill", slots, 8), ("ghost", solid, 4)]);
         plan.add("interface", &[("extra", places.end + table, 4)]);
         plan.add_pressure(slots as usize, extra_capacity(slots as usize, particles, dimension), dimension as usize);

@@ -36,7 +36,7 @@ pub use supports::{MotionAt, Support, Supports};
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Constants, Gpu, Kernel, Settings};
 use crate::numerics::PcgVectors;
-use crate::scene::{Pair, Scene};
+use crate::scene::{Conserved, Pair, Scene};
 use params::{DeviceLimits, SolidLimits};
 
 /// Materials that one scene may use.
@@ -75,8 +75,8 @@ pub struct State {
     pub interface: Interface,
     /// Solids.
     pub particles: Particles,
-    /// Least p / rho^gamma of the gas of the start and of what may flow in \[Pa (m^3/kg)^gamma\].
-    pub start_entropy: f64,
+    /// Least p / rho^gamma of the gas of the start and of what may flow in, of the first gas and the second \[Pa (m^3/kg)^gamma\].
+    pub start_entropy: [f64; 2],
     /// Unknowns of the pressure system: X. Behind them what each vertex asks of the gas around it (`shaders/interface/parting.wgsl`).
     pub pressure: Buffer<f32>,
     /// S^-1 of each unknown.
@@ -124,11 +124,13 @@ fn extra_capacity(slots: usize, particles: usize, dimension: u32) -> usize {
 impl State {
     /// Gas that flows in may be colder than all that was there.
     pub(crate) fn admit(&mut self, scene: &Scene, openings: &Openings) {
-        let beyond = gas::start_entropy(scene, &[], openings);
-        if beyond > 0.0 && beyond < self.start_entropy {
-            self.start_entropy = beyond;
-            self.params.least_entropy = gas::least_entropy(scene, beyond);
+        for (own, beyond) in self.start_entropy.iter_mut().zip(gas::start_entropy(scene, &[], openings)) {
+            if beyond > 0.0 && beyond < *own {
+                *own = beyond;
+            }
         }
+        [self.params.least_entropy, self.params.species_least_entropy] =
+            self.start_entropy.map(|start| gas::least_entropy(scene, start));
     }
 
     /// Fills buffers from a scene.
@@ -146,7 +148,8 @@ impl State {
         let start_gas = cut::initial_gas(scene, &geometry);
         let start_entropy = gas::start_entropy(scene, &start_gas, &openings);
         let params = Params {
-            least_entropy: gas::least_entropy(scene, start_entropy),
+            least_entropy: gas::least_entropy(scene, start_entropy[0]),
+            species_least_entropy: gas::least_entropy(scene, start_entropy[1]),
             ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.settings == Settings::Software, capacity))
         };
         let table = cut::table(&grid, &geometry);
@@ -204,10 +207,12 @@ impl State {
     }
 
     /// Initial gas and kinds of all slots.
-    fn fill_gas(&self, gpu: &Gpu, scene: &Scene, openings: &Openings, gas: &[[f64; 5]], walls: &[bool]) {
-        let (grid, slots) = (&self.grid, self.grid.slots());
+    fn fill_gas(&self, gpu: &Gpu, scene: &Scene, openings: &Openings, gas: &[Conserved], walls: &[bool]) {
+        let (grid, slots, gases) = (&self.grid, self.grid.slots(), scene.gas.equation_of_state());
         let mut conserved = vec![[0.0f32; 4]; slots];
         let mut energy = vec![0.0f32; slots];
+        let mut pressure = vec![0.0f32; slots];
+        let mut species = if gases.species.is_some() { vec![vec![0.0f32; slots]; 2] } else { Vec::new() };
         let mut cells = vec![constants::GAS; slots];
         let (padding, stride) = (grid.padding(), grid.strides());
         for z in 0..stride[2] as i32 {
@@ -226,19 +231,24 @@ impl State {
                     let slot = grid.slot([x, y, z]);
                     cells[slot] = if walls[index] { constants::WALL } else { constants::GAS };
                     if !walls[index] {
-                        let [density, u, v, w, total] = gas[index].map(|value| value as f32);
+                        let [density, u, v, w, total, part, phi] = gas[index].map(|value| value as f32);
                         conserved[slot] = [density, u, v, w];
                         energy[slot] = total;
+                        pressure[slot] = gases.pressure(gas[index]) as f32;
+                        species.iter_mut().zip([part, phi]).for_each(|(own, value)| own[slot] = value);
                     }
                     index += 1;
                 }
             }
         }
         if !self.maps.is_empty() {
-            self.maps.write(gpu, 0, &gas::first_maps(&conserved, &energy, self.params.gamma));
+            self.maps.write(gpu, 0, &gas::first_maps(&conserved, &pressure));
         }
         self.gas.conserved.write(gpu, 0, &conserved);
         self.gas.energy.write(gpu, 0, &energy);
+        for (own, part) in species.iter().zip([arrays::SPECIES_DENSITY, arrays::SPECIES_VOLUME]) {
+            self.gas.energy.write(gpu, part * slots, own);
+        }
         self.interface.cells.write(gpu, 0, &cells);
     }
 

@@ -28,8 +28,10 @@ structure! {
         first: u32,
         /// Knots of the table of times, 0 for a constant state.
         knots: u32,
-        /// Fills the last 16 bytes.
-        unused: [u32; 2],
+        /// Density of the second gas in that state \[kg m^-3\].
+        species_density: f32,
+        /// Its volume fraction \[1\].
+        species_volume: f32,
     }
 }
 
@@ -107,20 +109,22 @@ impl Openings {
     /// Puts a rule into the table.
     fn add(&mut self, scene: &Scene, rule: &Boundary, length: f64) -> Place {
         let of_state = |name: &str, state: &GasState| of_state(scene, name, state);
-        let still = |density: f64, pressure: f64| GasState { density, velocity: [0.0; 3], pressure };
+        let mass_fraction = rule.mass_fraction();
+        let still = |density: f64, pressure: f64| GasState { density, velocity: [0.0; 3], pressure, mass_fraction };
         let mut opening = match rule {
             Boundary::Wall | Boundary::Periodic | Boundary::Patched(_) => return Place::Closed,
             Boundary::Outlet => return Place::Remembered,
             Boundary::Inlet(state) => of_state("FIXED", state),
             Boundary::SubsonicInlet(inflow) => {
-                let state = GasState { density: inflow.density, velocity: inflow.velocity, pressure: 0.0 };
+                let state =
+                    GasState { density: inflow.density, velocity: inflow.velocity, pressure: 0.0, mass_fraction };
                 of_state("SUBSONIC", &state)
             }
             Boundary::TotalInlet(total) => of_state("TOTAL", &still(total.density, total.pressure)),
             Boundary::PressureOutlet(outlet) => of_state("PRESSURE", &still(1.0, outlet.pressure)),
             Boundary::AttenuatedOutlet(outlet) => {
                 let (density, velocity, pressure) = (outlet.density, outlet.velocity, outlet.pressure);
-                of_state("ATTENUATED", &GasState { density, velocity, pressure })
+                of_state("ATTENUATED", &GasState { density, velocity, pressure, mass_fraction })
             }
             Boundary::FarField(state) => of_state("FAR", state),
             Boundary::TimedInlet(inlet) => {
@@ -135,6 +139,7 @@ impl Openings {
                     density: state.density,
                     velocity: state.velocity,
                     pressure: state.pressure,
+                    mass_fraction,
                 });
                 Opening { first, knots: inlet.table.len() as u32, ..of_state(name, &start) }
             }
@@ -186,12 +191,15 @@ impl Openings {
 }
 
 fn of_state(scene: &Scene, name: &str, state: &GasState) -> Opening {
-    let [density, x, y, z, energy] = state.conserved(scene.gas.gamma).map(|v| v as f32);
+    let [density, x, y, z, energy, species_density, species_volume] =
+        scene.gas.equation_of_state().conserved(state).map(|v| v as f32);
     let flow = [density, x, y, z];
     Opening {
         flow,
         energy,
         pressure: state.pressure as f32,
+        species_density,
+        species_volume,
         rule: constants::number(&constants::RULES, name),
         ..Opening::default()
     }

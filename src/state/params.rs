@@ -81,6 +81,14 @@ structure! {
         table_at: u32,
         /// Slots of a row, as sums take them (`shaders/shared/pcg.wgsl`).
         row: u32,
+        /// Ratio of specific heats of the second gas.
+        species_gamma: f32,
+        /// p / rho^gamma that none of it falls below.
+        species_least_entropy: f32,
+        /// Mass fraction of the second gas in the ambient state \[1\].
+        ambient_share: f32,
+        /// Its volume fraction there \[1\].
+        ambient_volume: f32,
         /// Fills the space before vectors.
         unused: [u32; 3],
         /// Groups of each dispatch of a prefix sum over all slots and one more.
@@ -153,6 +161,7 @@ impl Params {
     pub fn new(scene: &Scene, grid: &Grid, solids: &SolidLimits, limits: &DeviceLimits) -> Params {
         let (time, numerics) = (&scene.time, &scene.numerics);
         let cell_volume = scene.domain.cell_volume();
+        let (gases, ambient) = (scene.gas.equation_of_state(), &scene.gas.ambient);
         let mut params = Params {
             cells: grid.cells,
             slots: grid.slots() as u32,
@@ -190,6 +199,10 @@ impl Params {
             still_at: 0,
             table_at: 0,
             row: sum_row(scene, grid, solids.particles > 0),
+            species_gamma: gases.gamma_at(1.0) as f32,
+            species_least_entropy: 0.0,
+            ambient_share: ambient.mass_fraction as f32,
+            ambient_volume: gases.volume_fraction(ambient.mass_fraction) as f32,
             unused: [0; 3],
             scan: [[0; 4]; SCAN_DISPATCHES],
         };
@@ -218,6 +231,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("PREDICTOR", flag(scene.integrator() != Integrator::Paper)),
         ("CONSISTENT", flag(scene.consistent())),
         ("ARS", flag(scene.solves() == 2)),
+        ("SPECIES", flag(!scene.gas.species.is_empty())),
         ("FOURTH", flag(scene.sound_of_fourth_order())),
         ("RING_LEDGER", flag(ring_ledger(scene, solids))),
         ("LATE_FLUX", flag(scene.late_flux())),

@@ -322,7 +322,7 @@ impl Session {
         let before = records.len();
         self.simulation.change(&self.scene, &to, records)?;
         self.summary.add(&records[before..]);
-        self.start.start_entropy = self.simulation.state.start_entropy;
+        self.start.start_entropy = self.simulation.state.start_entropy[0];
         self.scene = Arc::new(to);
         Ok(())
     }

@@ -90,6 +90,7 @@ impl State {
             grid: self.grid,
             conserved: self.conserved.raw(),
             energy: self.energy.raw(),
+            species: None,
             owed: None,
             maps: None,
             cells: self.cells.raw(),

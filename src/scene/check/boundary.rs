@@ -119,18 +119,19 @@ impl Check<'_> {
     }
 
     fn rule(&mut self, path: &str, rule: &Boundary, index: usize) {
+        self.mass_fraction(path, rule.mass_fraction());
         match rule {
             Boundary::Inlet(state) => {
                 self.state(&format!("{path}.inlet"), state);
                 self.inward(format!("{path}.inlet.velocity"), state.velocity, index);
             }
-            Boundary::SubsonicInlet(Inflow { density, velocity }) => {
+            Boundary::SubsonicInlet(Inflow { density, velocity, .. }) => {
                 let path = format!("{path}.subsonic_inlet");
                 self.positive(format!("{path}.density"), *density, "[kg m^-3]");
                 self.planar(format!("{path}.velocity"), *velocity);
                 self.inward(format!("{path}.velocity"), *velocity, index);
             }
-            Boundary::TotalInlet(Reservoir { density, pressure }) => {
+            Boundary::TotalInlet(Reservoir { density, pressure, .. }) => {
                 self.positive(format!("{path}.total_inlet.density"), *density, "[kg m^-3]");
                 self.positive(format!("{path}.total_inlet.pressure"), *pressure, "[Pa]");
             }
@@ -142,7 +143,7 @@ impl Check<'_> {
                     self.out_of_range(format!("{path}.pressure_outlet.relaxation"), relaxation, help);
                 }
             }
-            Boundary::AttenuatedOutlet(AttenuatedOutlet { density, velocity, pressure, attenuation }) => {
+            Boundary::AttenuatedOutlet(AttenuatedOutlet { density, velocity, pressure, attenuation, .. }) => {
                 let path = format!("{path}.attenuated_outlet");
                 self.positive(format!("{path}.density"), *density, "[kg m^-3]");
                 self.positive(format!("{path}.pressure"), *pressure, "[Pa]");

@@ -123,7 +123,7 @@ impl Check<'_> {
             }
             Boundary::AttenuatedOutlet(outlet) => {
                 let (density, velocity, pressure) = (outlet.density, outlet.velocity, outlet.pressure);
-                self.state_range(path, &GasState { density, velocity, pressure });
+                self.state_range(path, &GasState { density, velocity, pressure, mass_fraction: 0.0 });
             }
             Boundary::Wall | Boundary::Outlet | Boundary::Periodic | Boundary::Patched(_) => {}
         }
@@ -151,8 +151,9 @@ impl Check<'_> {
         let regions = scene.gas.regions.iter().enumerate();
         let regions = regions.map(|(index, region)| (format!("gas.regions[{index}]"), &region.state));
         for (path, state) in std::iter::once(("gas.ambient".to_owned(), &scene.gas.ambient)).chain(regions) {
-            let energy = state.conserved(scene.gas.gamma)[4];
-            let square = state.sound_speed(scene.gas.gamma).powi(2);
+            let gases = scene.gas.equation_of_state();
+            let energy = gases.conserved(state)[4];
+            let square = state.sound_speed(gases.gamma_at(gases.volume_fraction(state.mass_fraction))).powi(2);
             for (what, value) in [("energy per volume", energy), ("square of the speed of sound", square)] {
                 if !(LEAST_PLAIN..=MOST_PLAIN).contains(&value) {
                     let message = format!("its {what}, {}, is out of the range of single precision", plain(value));

@@ -8,11 +8,9 @@ use toml::de::{DeTable, DeValue};
 
 use crate::scene::file::mended;
 use crate::scene::finding::Finding;
+use crate::scene::species::AIR_CONSTANT;
 use crate::scene::{Boundaries, Boundary, Scene};
 
-/// Gas constant of dry air \[J kg^-1 K^-1\]; temperatures in kelvin are those of air.
-/// [U.S. Standard Atmosphere, 1976]
-const AIR_CONSTANT: f64 = 287.053;
 /// Temperature \[K\], pressure \[Pa\] and fall of temperature \[K m^-1\] of the standard atmosphere at sea level.
 const SEA_LEVEL: [f64; 3] = [288.15, 101_325.0, 0.0065];
 /// Gravity of the standard atmosphere \[m s^-2\].

@@ -14,6 +14,7 @@ use crate::scene::file::gas_state;
 use crate::scene::file::mended::Mended;
 use crate::scene::file::numbers;
 use crate::scene::file::source::{self, Source};
+use crate::scene::file::species;
 use crate::scene::file::variants;
 use crate::scene::file::vocabulary;
 use crate::scene::finding::Finding;
@@ -184,6 +185,7 @@ pub(crate) fn read(
     source.index(&root);
     numbers::findings(&root, &mut findings);
     let settled = gas_state::take(&mut root, &mut findings);
+    species::take(&mut root, &mut findings);
     let mut root = Spanned::new(place, root);
     let (words, mut mended) = vocabulary::findings(&mut root);
     // keys that took the place of others are found where they stand

@@ -7,5 +7,6 @@ pub(crate) mod mended;
 pub(crate) mod numbers;
 pub(crate) mod shipped;
 pub(crate) mod source;
+pub(crate) mod species;
 pub(crate) mod variants;
 pub(crate) mod vocabulary;

@@ -2,19 +2,19 @@
 
 use rayon::prelude::*;
 
-use crate::scene::{GasState, Scene};
+use crate::scene::{Conserved, GasState, Scene};
 
 /// Sub-samples per axis in cells that the surface of a region crosses.
 const SAMPLES: u32 = 4;
 
 impl Scene {
-    /// Density, momentum and energy per volume of every cell, x fastest, without padding.
+    /// What is conserved in every cell, x fastest, without padding.
     ///
     /// A cell that the surface of a region crosses, and every cell under waves, vortices or radial flows, holds the mean over 4^dimension
     /// points; every other cell is exact. Where bodies cover some of these points the others count: a region that ends within a wall leaves
     /// nothing on its other side.
     #[must_use]
-    pub fn initial_gas(&self) -> Vec<[f64; 5]> {
+    pub fn initial_gas(&self) -> Vec<Conserved> {
         let mut cells = self.gas_without_noise();
         if self.gas.noise > 0.0 {
             let axes = self.domain.axes();
@@ -23,16 +23,16 @@ impl Scene {
         cells
     }
 
-    fn gas_without_noise(&self) -> Vec<[f64; 5]> {
-        let gamma = self.gas.gamma;
+    fn gas_without_noise(&self) -> Vec<Conserved> {
         let gas = &self.gas;
+        let gases = gas.equation_of_state();
         if !(gas.waves.is_empty() && gas.vortices.is_empty() && gas.radial_flows.is_empty()) {
-            return self.each_cell(|center| self.mean_over(center, |point| self.gas_at(point).conserved(gamma)));
+            return self.each_cell(|center| self.mean_over(center, |point| gases.conserved(&self.gas_at(point))));
         }
-        let states = self.gas.regions.iter().map(|region| region.state.conserved(gamma)).collect::<Vec<_>>();
+        let states = self.gas.regions.iter().map(|region| gases.conserved(&region.state)).collect::<Vec<_>>();
         let reach = self.cell_radius();
         self.each_cell(|center| {
-            let ambient = self.ambient_at(center).conserved(gamma);
+            let ambient = gases.conserved(&self.ambient_at(center));
             let mut state = ambient;
             let mut mixed = false;
             for (region, inside) in self.gas.regions.iter().zip(&states) {
@@ -47,7 +47,7 @@ impl Scene {
     }
 
     /// Mean over regular points of a cell, the last region at each point.
-    fn mean_state(&self, center: [f64; 3], ambient: &[f64; 5], states: &[[f64; 5]]) -> [f64; 5] {
+    fn mean_state(&self, center: [f64; 3], ambient: &Conserved, states: &[Conserved]) -> Conserved {
         self.mean_over(center, |point| {
             let last = self.gas.regions.iter().zip(states).rev().find(|(region, _)| region.shape.distance(point) < 0.0);
             *last.map_or(ambient, |(_, state)| state)
@@ -55,7 +55,7 @@ impl Scene {
     }
 
     /// Mean of a state over regular points of a cell.
-    fn mean_over(&self, center: [f64; 3], state: impl Fn([f64; 3]) -> [f64; 5]) -> [f64; 5] {
+    fn mean_over(&self, center: [f64; 3], state: impl Fn([f64; 3]) -> Conserved) -> Conserved {
         self.mean_outside(center, |point| self.bodies.iter().any(|body| body.shape.distance(point) < 0.0), state)
     }
 
@@ -64,13 +64,13 @@ impl Scene {
         &self,
         center: [f64; 3],
         is_covered: impl Fn([f64; 3]) -> bool,
-        state: impl Fn([f64; 3]) -> [f64; 5],
-    ) -> [f64; 5] {
+        state: impl Fn([f64; 3]) -> Conserved,
+    ) -> Conserved {
         let place = |offset: [f64; 3]| std::array::from_fn(|d| center[d] + offset[d] * self.domain.spacing());
         let points: Vec<[f64; 3]> = lattice(self.domain.axes(), SAMPLES).into_iter().map(place).collect();
         let outside: Vec<[f64; 3]> = points.iter().copied().filter(|&point| !is_covered(point)).collect();
         let seen = if outside.is_empty() { points } else { outside };
-        let mut sum = [0.0; 5];
+        let mut sum = [0.0; 7];
         for &point in &seen {
             for (total, entry) in sum.iter_mut().zip(state(point)) {
                 *total += entry;
@@ -81,8 +81,9 @@ impl Scene {
 
     /// The mean over the part of a cell that lies outside of the obstacles.
     #[must_use]
-    pub fn initial_gas_beside_obstacles(&self, cell: [u32; 3]) -> [f64; 5] {
-        let state = |point| self.gas_at(point).conserved(self.gas.gamma);
+    pub fn initial_gas_beside_obstacles(&self, cell: [u32; 3]) -> Conserved {
+        let gases = self.gas.equation_of_state();
+        let state = |point| gases.conserved(&self.gas_at(point));
         self.mean_outside(self.domain.cell_center(cell), |point| self.inside_obstacle(point), state)
     }
 

@@ -228,7 +228,8 @@ fn regions_fill_by_volume_fraction() {
     let mass = gas.iter().map(|cell| cell[0] * area).sum::<f64>();
     let exact = 2.0 + 2.0 * PI * 0.16;
     assert!((mass / exact - 1.0).abs() < 2e-3, "{mass} {exact}");
-    let (outside, inside) = (scene.gas.ambient.conserved(1.4), scene.gas.regions[0].state.conserved(1.4));
+    let gases = scene.gas.equation_of_state();
+    let (outside, inside) = (gases.conserved(&scene.gas.ambient), gases.conserved(&scene.gas.regions[0].state));
     assert_eq!((gas[0], gas[20 * 80 + 40]), (outside, inside));
     assert!((inside[4] - (12.5 + 6.0)).abs() < 1e-12 && inside[1] == 6.0);
     assert!(gas.iter().any(|cell| cell[0] > 1.1 && cell[0] < 2.9));

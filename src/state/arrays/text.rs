@@ -47,6 +47,7 @@ pub fn table() -> String {
             Scenes::Gas => " (gas alone)",
             Scenes::Bodies => " (bodies)",
             Scenes::TwoSolves => " (two solves)",
+            Scenes::TwoGases => " (two gases)",
             Scenes::SolveFirst => " (bodies, solve first)",
             Scenes::Explicit => " (sub-steps)",
             Scenes::Implicit => " (implicit elasticity)",

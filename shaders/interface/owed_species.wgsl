@@ -1,0 +1,50 @@
+// The second gas among what is owed: amounts that add up. These are its mass, and the pressure times its volume: from that and the internal
+// energy follow pressure and volume fraction of what parts become together, so that a debt of the same pressure changes none.
+// Needs the bindings energy and owed_energy, and gas_at.
+
+// How far the mass of one of two gases may fall below 0 when a debt is settled, over that of both.
+const DEBT_SLACK = 1e-4;
+
+fn owed_species(slot: u32) -> vec2f {
+    if !SPECIES { return vec2f(0.0); }
+    return vec2f(owed_energy[part(OWED_SPECIES_MASS, slot)], owed_energy[part(OWED_SPECIES_WORK, slot)]);
+}
+
+fn owe_species(slot: u32, species: vec2f) {
+    if !SPECIES { return; }
+    owed_energy[part(OWED_SPECIES_MASS, slot)] = species.x;
+    owed_energy[part(OWED_SPECIES_WORK, slot)] = species.y;
+}
+
+fn hold_species(slot: u32, species: vec2f) {
+    if !SPECIES { return; }
+    energy[part(SPECIES_DENSITY, slot)] = species.x;
+    energy[part(SPECIES_VOLUME, slot)] = species.y;
+}
+
+// Density, and pressure times volume fraction, of a GAS cell.
+fn summed_species(gas: Gas) -> vec2f {
+    if !SPECIES { return vec2f(0.0); }
+    return gas.species * vec2f(1.0, pressure_of(gas));
+}
+
+// Gas of a density, momentum, energy and sums of the second gas.
+fn gas_of_sums(flow: vec4f, total: f32, sums: vec2f) -> Gas {
+    if !SPECIES { return Gas(flow, total, vec2f(0.0)); }
+    let heat = internal_energy(Gas(flow, total, vec2f(0.0)));
+    let first = 1.0 / (params.gamma - 1.0);
+    let pressure = (heat - sums.y * (1.0 / (params.species_gamma - 1.0) - first)) / first;
+    return Gas(flow, total, vec2f(sums.x, clamp(sums.y / max(pressure, 1e-30), 0.0, 1.0)));
+}
+
+// Least p / rho^gamma of gas that a debt may leave.
+fn least_entropy_of(phi: f32) -> f32 {
+    if SPECIES && phi > 0.5 { return params.species_least_entropy; }
+    return params.least_entropy;
+}
+
+// Whether a debt would take more of one gas than there is.
+fn lacks_a_gas(gas: Gas) -> bool {
+    let slack = DEBT_SLACK * gas.flow.x;
+    return SPECIES && (gas.species.x < -slack || gas.species.x > gas.flow.x + slack);
+}
