@@ -3,7 +3,7 @@
 // Needs the bindings energy and owed_energy, and gas_at.
 
 // How far the mass of one of two gases may fall below 0 when a debt is settled, over that of both.
-const DEBT_SLACK = 1e-4;
+const DEBT_SLACK = 1e-6;
 
 fn owed_species(slot: u32) -> vec2f {
     if !SPECIES { return vec2f(0.0); }

@@ -50,6 +50,10 @@ struct View {
     heat_offset: f32,           // What is taken off that place
     heat_opacity: f32,          // Extinction of the hottest gas [m^-1]; 0 for no emission
     gain: f32,                  // Values at the ends of the line-of-sight pictures' grey are -gain and gain
+    species_gamma: f32,         // Ratio of specific heats of the second gas; 0 without one
+    species_constant: f32,      // Its gas constant over that of the first
+    species_start: u32,         // Word where its density begins, behind which is its volume fraction
+    soot: f32,                  // Its extinction in the ray march [m^2 kg^-1]
     slice_count: u32,           // Number of slices
     contour_count: u32,         // Number of contour lines
     arrows: vec2u,              // Velocity arrows along x and y

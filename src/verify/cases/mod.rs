@@ -33,6 +33,7 @@ mod solids;
 mod steady;
 mod thin_walls;
 mod tubes;
+mod two_gases;
 mod waves;
 
 use super::harness::{Case, Suite};
@@ -64,6 +65,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         quiet::CASES,
         open_sides::CASES,
         contacts::CASES,
+        two_gases::CASES,
     ]);
     let by_file = gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten();
     let mut cases: Vec<&Case> = by_file.collect();
