@@ -77,7 +77,7 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
         atomicMin(&control.fault, (STAGE_FLUID_UPDATE << 27u) | slot);
         return;
     }
-    let phi = species_at(SPECIES_DENSITY, slot).y;
+    let phi = species_now(slot).y;
     let before = 1.0 / (gamma_of(phi) * fill[slot].y * grueneisen_of(phi));
     let least = least_energy(flow.x, phi, total, before);
     let kinetic = kinetic_energy(flow);

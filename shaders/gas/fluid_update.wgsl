@@ -171,7 +171,7 @@ fn least_predicted() -> f32 { return select(0.98, 0.5, ARS); }
 // Whether the floor may have to act on a cell deep inside the gas: never false where it would, for the pressure of the predictor tells
 // nearly what internal energy there was before.
 fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
-    let phi = species_at(SPECIES_DENSITY, slot).y;
+    let phi = species_now(slot).y;
     let before = energy[part(PREDICTED_PRESSURE, slot)] / (least_predicted() * grueneisen_of(phi));
     return is_unsound(flow.x, total) || total - kinetic_energy(flow) < least_energy(flow.x, phi, total, before);
 }

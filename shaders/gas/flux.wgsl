@@ -4,7 +4,7 @@
 // - elsewhere (`even` 1), fifth order from a to e: three parabolas with the linear weights 0.1, 0.6 and 0.3, times
 //   1 + (tau / (beta + epsilon))^2, tau the difference of the outer two beta. It keeps waves and contacts [Borges et al. 2008].
 // All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
-// Needs ARS, RUNGE_KUTTA and the binding control.
+// Needs ARS, RUNGE_KUTTA and the bindings control and energy.
 
 // Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/notes/reconstruction.md].
 const WENO_EPSILON = 7e-4;
@@ -149,6 +149,12 @@ fn packed_rest(gas: Gas) -> vec4f { return vec4f(gas.energy, gas.energy, gas.spe
 fn unpacked(flux: vec4f, rest: vec4f) -> Gas {
     if DIM < 3u { return Gas(vec4f(flux.xyz, 0.0), flux.w, rest.zw); }
     return Gas(flux, rest.x, rest.zw);
+}
+
+// Two parts of a slot, of the second gas; 0 without one.
+fn species_at(density: u32, volume: u32, slot: u32) -> vec2f {
+    if !SPECIES { return vec2f(0.0); }
+    return vec2f(energy[part(density, slot)], energy[part(volume, slot)]);
 }
 
 // Density, velocity and internal energy in the places of a state, and back. Of two gases: density, velocity, pressure, mass fraction and

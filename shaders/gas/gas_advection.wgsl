@@ -15,7 +15,6 @@
 #include "gas/flux.wgsl"
 #include "gas/faces.wgsl"
 #include "gas/cut_carrier.wgsl"
-#include "shared/gas_at.wgsl"
 
 override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
 
@@ -28,12 +27,15 @@ override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 
+// State of a slot at the start of the stage's solve.
+fn start(slot: u32) -> Gas { return Gas(in_space(conserved[slot]), energy[slot], species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot)); }
+
 // State of a slot that this stage carries, see the table above.
 fn source(slot: u32) -> Gas {
     if RUNGE_KUTTA == select(1u, 2u, ARS) {
-        return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)], species_at(HALFWAY_SPECIES_DENSITY, slot));
+        return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)], species_at(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, slot));
     }
-    return gas_at(slot);
+    return start(slot);
 }
 
 // dt L(U) of a slot inside the domain; of all cells that share its state together.
@@ -122,36 +124,36 @@ fn start_of(slot: u32, here: Gas) -> Gas {
     let factor = select(ARS_MIDDLE, ARS_RETURNED, RUNGE_KUTTA == 2u);
     let gained = in_space(conserved[slot]) - in_space(work[part(KEPT_FLOW, slot)]);
     return Gas(in_space(work[part(START_FLOW, slot)]) + factor * gained,
-        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]), species_at(START_SPECIES_DENSITY, slot));
+        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]), species_at(START_SPECIES_DENSITY, START_SPECIES_VOLUME, slot));
 }
 
-fn write_species(first: u32, slot: u32, species: vec2f) {
+fn write_species(density: u32, volume: u32, slot: u32, species: vec2f) {
     if !SPECIES { return; }
-    energy[part(first, slot)] = species.x;
-    energy[part(first + 1u, slot)] = species.y;
+    energy[part(density, slot)] = species.x;
+    energy[part(volume, slot)] = species.y;
 }
 
 fn write_result(slot: u32, before: Gas, all: Change) {
     let change = all.high_order;
     let species = before.species + change.species;
     if ARS && RUNGE_KUTTA != 1u {
-        write_species(ADVECTED_SPECIES_DENSITY, slot, species);
+        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, slot, species);
         work[part(ADVECTED_FLOW, slot)] = before.flow + change.flow;
         energy[part(ADVECTED_ENERGY, slot)] = before.energy + change.energy;
         energy[part(COLD_ENERGY, slot)] = before.energy + change.energy - all.heat;
         if RUNGE_KUTTA == 2u { return; }
-        write_species(START_SPECIES_DENSITY, slot, before.species);
+        write_species(START_SPECIES_DENSITY, START_SPECIES_VOLUME, slot, before.species);
         work[part(START_FLOW, slot)] = before.flow;
         work[part(KEPT_FLOW, slot)] = before.flow + change.flow;
         energy[part(START_ENERGY, slot)] = before.energy;
         energy[part(KEPT_ENERGY, slot)] = before.energy + change.energy - all.heat;
         energy[part(START_HEAT, slot)] = internal_energy(before);
     } else if !ARS && RUNGE_KUTTA == 1u {
-        write_species(ADVECTED_SPECIES_DENSITY, slot, 0.5 * (species_at(SPECIES_DENSITY, slot) + species));
+        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, slot, 0.5 * (species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot) + species));
         work[part(ADVECTED_FLOW, slot)] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
         energy[part(ADVECTED_ENERGY, slot)] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
-        write_species(HALFWAY_SPECIES_DENSITY, slot, species);
+        write_species(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, slot, species);
         work[part(HALFWAY_FLOW, slot)] = before.flow + change.flow;
         energy[part(HALFWAY_ENERGY, slot)] = before.energy + change.energy;
     }
@@ -174,7 +176,7 @@ fn stays(slot: u32) -> bool { return !CUT && !(ARS && RUNGE_KUTTA > 0u) && is_st
 // Ends the stage for a slot that nothing passes.
 fn stay(slot: u32) {
     theta[slot] = 1.0;
-    write_result(slot, gas_at(slot), Change());
+    write_result(slot, start(slot), Change());
 }
 
 // Whether a slot of the ring gets what passes through the side from the cell before it.

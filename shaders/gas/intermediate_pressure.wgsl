@@ -14,7 +14,7 @@
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 
-fn advected(slot: u32) -> Gas { return Gas(in_space(work[part(ADVECTED_FLOW, slot)]), energy[part(ADVECTED_ENERGY, slot)], species_at(ADVECTED_SPECIES_DENSITY, slot)); }
+fn advected(slot: u32) -> Gas { return Gas(in_space(work[part(ADVECTED_FLOW, slot)]), energy[part(ADVECTED_ENERGY, slot)], species_at(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, slot)); }
 
 // Velocity beyond a face: the neighbour's, or what the boundary prescribes.
 fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {

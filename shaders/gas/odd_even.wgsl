@@ -22,7 +22,7 @@ fn sign_of(corner: vec3i) -> f32 { return f32(1 - 2 * ((corner.x + corner.y + co
 
 fn gas_beside(v: vec3i, corner: u32) -> Gas {
     let slot = slot_of(v - reach() + corner_offset(corner));
-    return Gas(conserved[slot], energy[slot], species_at(SPECIES_DENSITY, slot));
+    return Gas(conserved[slot], energy[slot], species_now(slot));
 }
 
 // Whether of each of two gases KEPT is left, by density and by volume.
@@ -103,7 +103,7 @@ fn mixed_at(v: vec3i, c: vec3i, slot: u32) -> Gas {
         let unit = LAST_PLACE * power_of_two(max(conserved[at].x, conserved[slot].x));
         sum.flow += vec4f(whole(flow.x, unit), flow.yzw);
         sum.energy += share * (energy[at] - energy[slot]);
-        let species = share * (species_at(SPECIES_DENSITY, at) - species_at(SPECIES_DENSITY, slot));
+        let species = share * (species_now(at) - species_now(slot));
         sum.species += vec2f(whole(species.x, unit), species.y);
     }
     return sum;

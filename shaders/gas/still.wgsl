@@ -30,14 +30,14 @@ fn rests(slot: u32) -> bool {
     if kind != GAS { return kind == WALL; }
     if any(bitcast<vec3u>(conserved[slot].yzw) != vec3u(0u)) { return false; }
     let own = energy[slot];
-    let phi = species_at(SPECIES_DENSITY, slot).y;
+    let phi = species_now(slot).y;
     for (var n = 0u; n < DIM; n++) {
         let below = slot - min(step_of(n), slot);
         let above = min(slot + step_of(n), params.slots - 1u);
         if energy[below] != own && kind_of(cells[below]) == GAS { return false; }
         if energy[above] != own && kind_of(cells[above]) == GAS { return false; }
-        if SPECIES && species_at(SPECIES_DENSITY, below).y != phi && kind_of(cells[below]) == GAS { return false; }
-        if SPECIES && species_at(SPECIES_DENSITY, above).y != phi && kind_of(cells[above]) == GAS { return false; }
+        if SPECIES && species_now(below).y != phi && kind_of(cells[below]) == GAS { return false; }
+        if SPECIES && species_now(above).y != phi && kind_of(cells[above]) == GAS { return false; }
     }
     return true;
 }

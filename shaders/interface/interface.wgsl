@@ -3,7 +3,7 @@
 // of cells, the ghost pressure of vertices, and marks the vertices that carry P, h and Q apart.
 // [Cao et al. 2022, section 2.3; a cell is solid when the bodies fill more than `solid_threshold` of it, when it and one beside it hold a
 // thin wall, or when it holds a particle and nothing around it is that full or a wall: fragments]
-#include "shared/stress.wgsl"
+#include "materials/stress.wgsl"
 #include "shared/driven.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;

@@ -101,7 +101,7 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     if sum.count == 0.0 { filled = trapped_gas(c, slot); }
     owed_flow[slot] += (conserved[slot] - filled.flow) * cell_volume();
     owed_energy[slot] += (energy[slot] - filled.energy) * cell_volume();
-    owe_species(slot, owed_species(slot) + (species_at(SPECIES_DENSITY, slot) - summed_species(filled)) * cell_volume());
+    owe_species(slot, owed_species(slot) + (species_now(slot) - summed_species(filled)) * cell_volume());
     conserved[slot] = filled.flow;
     energy[slot] = filled.energy;
     hold_species(slot, filled.species);
@@ -150,7 +150,7 @@ fn density_beside(slot: u32) -> f32 {
 
 // Part of its debt that a gas cell with so many gas neighbours settles now.
 fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
-    let gas = Gas(conserved[slot], energy[slot], species_at(SPECIES_DENSITY, slot));
+    let gas = Gas(conserved[slot], energy[slot], species_now(slot));
     let before = internal_energy(gas);
     let all = with_part(gas, slot, 1.0);
     var bounds = ENCLOSED;
@@ -189,7 +189,7 @@ fn handed_by_gas(slot: u32, c: vec3i) -> Handed {
 fn handed_by_solid(slot: u32, c: vec3i) -> Handed {
     let flow = conserved[slot] * cell_volume() + owed_flow[slot];
     let heat = energy[slot] * cell_volume() + owed_energy[slot];
-    let species = species_at(SPECIES_DENSITY, slot) * cell_volume() + owed_species(slot);
+    let species = species_now(slot) * cell_volume() + owed_species(slot);
     let gas = neighbours_of_kind(c, GAS);
     if gas > 0u {
         let part = 1.0 - HELD_AT_SURFACE * density_beside(slot) * cell_volume() / max(abs(flow.x), 1e-30);
@@ -237,7 +237,7 @@ fn incoming(slot: u32, kind: u32) -> Sum {
             if !takes { continue; }
             sum.flow += work[part(HANDED_FLOW, other)];
             sum.energy += energy[part(HANDED_ENERGY, other)];
-            sum.species += species_at(HANDED_SPECIES_MASS, other);
+            sum.species += species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_WORK, other);
         }
     }
     return sum;
@@ -266,7 +266,7 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     if kind == SOLID {
         flow += conserved[slot] * cell_volume();
         heat += energy[slot] * cell_volume();
-        species += species_at(SPECIES_DENSITY, slot) * cell_volume();
+        species += species_now(slot) * cell_volume();
     }
     let handed_on = any(work[part(HANDED_FLOW, slot)] != vec4f(0.0)) || energy[part(HANDED_ENERGY, slot)] != 0.0;
     for (var turn = 0u; turn < when(handed_on); turn++) {
@@ -274,7 +274,7 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         let count = f32(neighbours_of_kind(c, GAS));
         flow = select(vec4f(0.0), flow - count * work[part(HANDED_FLOW, slot)], keeps);
         heat = select(0.0, heat - count * energy[part(HANDED_ENERGY, slot)], keeps);
-        species = select(vec2f(0.0), species - count * species_at(HANDED_SPECIES_MASS, slot), keeps);
+        species = select(vec2f(0.0), species - count * species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_WORK, slot), keeps);
     }
     let more = incoming(slot, kind);
     flow += more.flow;

@@ -17,7 +17,7 @@ struct MaterialParams {
 }
 // End of what is generated.
 
-// The index of a material, the low half of a particle's word; the high half has what scatters its strength [shared/stress.wgsl].
+// The index of a material, the low half of a particle's word; the high half has what scatters its strength [materials/stress.wgsl].
 fn material_index(word: f32) -> u32 { return bitcast<u32>(word) & 0xffffu; }
 
 // What the ghost pressure leaves of a law.

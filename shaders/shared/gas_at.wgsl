@@ -1,13 +1,17 @@
 // The gas of a slot as it stands.
 // Needs the bindings conserved and energy.
+#include "shared/state.wgsl"
 
-// Density and volume fraction of the second gas, the part that holds the first of both and the one behind it.
-fn species_at(first: u32, slot: u32) -> vec2f {
+// Two parts of a slot, of the second gas; 0 without one.
+fn species_at(density: u32, volume: u32, slot: u32) -> vec2f {
     if !SPECIES { return vec2f(0.0); }
-    return vec2f(energy[part(first, slot)], energy[part(first + 1u, slot)]);
+    return vec2f(energy[part(density, slot)], energy[part(volume, slot)]);
 }
 
-fn gas_at(slot: u32) -> Gas { return Gas(in_space(conserved[slot]), energy[slot], species_at(SPECIES_DENSITY, slot)); }
+// Density and volume fraction of the second gas.
+fn species_now(slot: u32) -> vec2f { return species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot); }
+
+fn gas_at(slot: u32) -> Gas { return Gas(in_space(conserved[slot]), energy[slot], species_now(slot)); }
 
 fn gamma_at(slot: u32) -> f32 {
     if !SPECIES { return params.gamma; }

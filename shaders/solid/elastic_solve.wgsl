@@ -5,7 +5,7 @@
 // Reads particles and nodes after the kick, V^. Writes node velocity. On return walls hold, and r is below the tolerance.
 #include "solid/grid_wall.wgsl"
 #include "solid/given.wgsl"
-#include "shared/stress.wgsl"
+#include "materials/stress.wgsl"
 #include "solid/ghost_between.wgsl"
 #include "solid/motion.wgsl"
 #include "shared/driven.wgsl"

@@ -3,7 +3,7 @@
 // or the step is flagged. [APIC: Jiang et al. 2015; F: Stomakhin et al. 2013; ghost pressure: Cao et al. 2022, eqs. 17-20]
 // Two forms: g2p, one thread per particle; and g2p_cells, one thread per cell that reads its nodes once for all its particles,
 // followed by g2p_particles.
-#include "shared/stress.wgsl"
+#include "materials/stress.wgsl"
 #include "solid/ghost_between.wgsl"
 #include "shared/driven.wgsl"
 #include "solid/motion.wgsl"

@@ -13,7 +13,7 @@
 // What a particle gives to the node at `offset`: the product of its weights times `constant`, and for each axis the product with
 // the second factor of that axis in place of the weight, times `along` of the axis.
 // Mass and momentum: w m (v + C (x_node - x_p)); the second factor is w times the offset, in cells.
-// Force: -vol0 tau grad w; the second factor is the slope of w. With it the driver of fracture, w m driver. [shared/stress.wgsl]
+// Force: -vol0 tau grad w; the second factor is the slope of w. With it the driver of fracture, w m driver. [materials/stress.wgsl]
 struct Share { constant: vec4f, along: mat3x4f, second: mat3x3f }
 
 // `x`: position and mass of the particle.

@@ -26,7 +26,7 @@ fn note_open_face(c: vec3i, slot: u32) {
     let outward = f32(away[n]);
     let opening = opening_of(cells[slot]);
     let flow = conserved[slot_of(near)];
-    let species = species_at(SPECIES_DENSITY, slot_of(near));
+    let species = species_now(slot_of(near));
     let gamma = gamma_of(species.y);
     let p = 1.0 / (gamma * fill[slot_of(near)].y);   // its energy waits for what the solve carries [shared/state.wgsl]
     let here = Gas(flow, p / grueneisen_of(species.y) + kinetic_energy(flow), species);

@@ -1,7 +1,7 @@
 // diagnostics: totals of gas, ledger and solids after a step, extremes, and one record of them in the history ring.
 // Sums are trees of fixed shape. Block k of `partials` holds one partial result per workgroup.
 #include "shared/reduce.wgsl"
-#include "shared/stress.wgsl"
+#include "materials/stress.wgsl"
 #include "shared/domain.wgsl"
 #include "shared/gas_at.wgsl"
 

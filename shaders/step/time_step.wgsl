@@ -6,7 +6,7 @@
 #include "shared/gas_at.wgsl"
 #include "shared/reduce.wgsl"
 #include "shared/extents.wgsl"
-#include "shared/stress.wgsl"
+#include "materials/stress.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;

@@ -30,10 +30,10 @@ pub enum Field {
     Vorticity,
     /// Pressure over density to the power gamma, which no process lowers `[Pa (m^3/kg)^gamma]`.
     Entropy,
-    /// Mass fraction of the second gas.
-    MassFraction,
     /// Gas that a cell owes or, below zero, has too much of; of covered cells, what they hold `[kg m^-3]`.
     Owed,
+    /// Mass fraction of the second gas.
+    MassFraction,
     /// Largest pressure since the start `[Pa]`.
     PeakPressure,
     /// Integral over time of the pressure above that of the ambient gas `[Pa s]`.
@@ -53,8 +53,8 @@ impl Field {
         Field::Mach,
         Field::Vorticity,
         Field::Entropy,
-        Field::MassFraction,
         Field::Owed,
+        Field::MassFraction,
         Field::PeakPressure,
         Field::Impulse,
         Field::PeakPlasticStrain,

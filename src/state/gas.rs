@@ -94,10 +94,10 @@ pub(super) fn start_entropy(scene: &Scene, start: &[Conserved], openings: &Openi
     least.map(|least| if least.is_finite() { least } else { 0.0 })
 }
 
-/// p / rho^gamma that no gas falls below, from the least of the start.
-pub(super) fn least_entropy(scene: &Scene, start: f64) -> f32 {
+/// p / rho^gamma that no gas falls below, of both gases, from the least of the start.
+pub(super) fn least_entropies(scene: &Scene, start: [f64; 2]) -> [f32; 2] {
     let share = if scene.bodies.is_empty() { ENTROPY_SHARE_ALONE } else { ENTROPY_SHARE };
-    (share * start) as f32
+    start.map(|start| (share * start) as f32)
 }
 
 /// Maps of the start: the pressure of the gas.

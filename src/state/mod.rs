@@ -130,7 +130,7 @@ impl State {
             }
         }
         [self.params.least_entropy, self.params.species_least_entropy] =
-            self.start_entropy.map(|start| gas::least_entropy(scene, start));
+            gas::least_entropies(scene, self.start_entropy);
     }
 
     /// Fills buffers from a scene.
@@ -139,21 +139,20 @@ impl State {
     /// If the device has no room, or a driver error.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<State> {
         let (grid, start) = (Grid::of(&scene.domain), ParticleStart::new(scene));
-        let limits = SolidLimits { particles: start.len() as u32, max_density: start.max_density };
-        let slots = grid.slots();
+        let (slots, limits) =
+            (grid.slots(), SolidLimits { particles: start.len() as u32, max_density: start.max_density });
         let capacity = extra_capacity(slots, start.len(), grid.dimension);
-        let unknowns = slots + 2 * capacity;
-        let (openings, supports) = (Openings::new(scene), Supports::new(scene));
+        let (unknowns, openings, supports) = (slots + 2 * capacity, Openings::new(scene), Supports::new(scene));
         let geometry = scene.cut_geometry();
         let start_gas = cut::initial_gas(scene, &geometry);
         let start_entropy = gas::start_entropy(scene, &start_gas, &openings);
+        let [least_entropy, species_least_entropy] = gas::least_entropies(scene, start_entropy);
         let params = Params {
-            least_entropy: gas::least_entropy(scene, start_entropy[0]),
-            species_least_entropy: gas::least_entropy(scene, start_entropy[1]),
+            least_entropy,
+            species_least_entropy,
             ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.settings == Settings::Software, capacity))
         };
-        let table = cut::table(&grid, &geometry);
-        let mut overrides = params::overrides(scene, !start.is_empty());
+        let (table, mut overrides) = (cut::table(&grid, &geometry), params::overrides(scene, !start.is_empty()));
         overrides.extend(loads::overrides(scene, &start_gas, &openings));
         overrides.extend(switches(&supports, &openings, table.is_empty()));
         let state = State {

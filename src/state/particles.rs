@@ -104,7 +104,7 @@ fn strength_bits(factor: f64) -> u32 {
     ((f64::from(STRENGTH_UNIT) * factor).round() as u32) << 16
 }
 
-/// Units of that factor in one, as in `shaders/shared/stress.wgsl`.
+/// Units of that factor in one, as in `shaders/materials/stress.wgsl`.
 pub(super) const STRENGTH_UNIT: u32 = 8192;
 
 impl Particles {

@@ -111,6 +111,11 @@ scenes! {
     still_air_in_space: "validation/still_air.toml" [space], "domain.cells=[8, 8, 8]", "time.until=1.0";
     leaving_blast: "validation/leaving_blast.toml";
     drifting_contact: "validation/drifting_contact.toml", "time.until=0.3";
+    two_gas_contact: "validation/two_gas_contact.toml";
+    two_gas_disc: "validation/two_gas_disc.toml", "domain.cells=[32, 32]", "time.until=0.5";
+    two_gas_tube: "validation/two_gas_tube.toml";
+    helium_shock: "validation/helium_shock.toml";
+    helium_bubble: "validation/helium_bubble.toml", "domain.cells=[125, 25]", "time.until=1e-4";
     hot_bubble: "validation/hot_bubble.toml", "domain.cells=[20, 40]", "time.until=20.0";
     kelvin_helmholtz: "gas/kelvin_helmholtz.toml", "domain.cells=[48, 48]", "time.until=0.5";
     mach_diamond_of_the_paper: "paper/fig18_mach_diamond_2d.toml", "domain.cells=[48, 48]", "time.until=0.5", "expect.probes=[]";
