@@ -10,7 +10,7 @@ use brisance::state::stages::Stage;
 use serde_json::Value;
 
 use crate::cli::{fails, succeeds};
-use crate::common::gpu_or_skip;
+use crate::common::{folder_or_skip, gpu_or_skip};
 
 const SHORT: &[&str] = &["bench", "sod", "--steps", "3", "--warmup", "1"];
 
@@ -27,8 +27,7 @@ fn a_copy_is_faster_than_a_disk_and_slower_than_light() {
 
 #[test]
 fn an_earlier_measurement_stands_beside_a_new_one() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let file = folder.path().join("before.json");
     let name = file.to_str().unwrap();
     let json = bench(&["--json"]);

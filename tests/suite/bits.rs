@@ -1,13 +1,13 @@
 //! A fingerprint of what every shipped scene computes, to show that a change of the code's form moves no bit. `scripts/bits` runs it.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use brisance::gpu::{Gpu, readback};
 use brisance::scene::{Changes, SMALL, Scene};
 use brisance::simulation::Simulation;
 
-use crate::common::gpu_or_skip;
+use crate::common::{files_below, gpu_or_skip, is_kind};
 
 /// Steps of each run.
 const STEPS: u64 = 8;
@@ -38,11 +38,12 @@ fn every_scene_has_its_fingerprint() {
     let all = std::env::var("BRISANCE_BITS").is_ok_and(|value| value == "all");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let mut table = String::new();
-    for path in scene_files(&folder).iter().filter(|path| all || FEW.iter().any(|few| path.ends_with(few))) {
-        let name = path.strip_prefix(&folder).unwrap().display().to_string();
+    let scenes = files_below(&folder).into_iter().filter(|path| is_kind(path, "toml"));
+    for path in scenes.filter(|path| all || FEW.iter().any(|few| path.ends_with(few))) {
+        let name = path.display();
         let mut seen = Vec::new();
         for method in METHODS {
-            let Some(scene) = small(path, method) else { continue };
+            let Some(scene) = small(&folder.join(&path), method) else { continue };
             if seen.contains(&scene.hash()) {
                 continue;
             }
@@ -56,21 +57,6 @@ fn every_scene_has_its_fingerprint() {
     let rows = table.lines().count();
     assert!(rows >= FEW.len(), "{rows} rows");
     std::fs::write(std::env::var("BRISANCE_BITS_TABLE").expect("scripts/bits names the file"), table).unwrap();
-}
-
-/// All scene files below a folder, by name.
-fn scene_files(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
-        let path = entry.path();
-        if path.is_dir() {
-            found.extend(scene_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "toml") {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
 }
 
 /// The scene in its small variant, or at a third of its resolution at most; nothing where the method does not suit it.

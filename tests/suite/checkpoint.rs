@@ -9,7 +9,7 @@ use brisance::scene::{Changes, Scene};
 use brisance::simulation::{Saved, SavedArray, Simulation};
 
 use crate::cli::{brisance, fails, succeeds};
-use crate::common::gpu_or_skip;
+use crate::common::{contents_below, folder_or_skip, gpu_or_skip};
 
 /// Steps before the state is saved, and behind it.
 const STEPS: u64 = 3;
@@ -87,29 +87,14 @@ fn a_saved_state_leads_to_the_same_bits() {
 /// All files of a run but those that know the clock, in order.
 fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let known = ["report.json", "report.html", "run.json", "written.txt"];
-    let mut found = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            let name = path.file_name().unwrap().to_string_lossy().into_owned();
-            match path.is_dir() {
-                true if name != "checkpoints" => folders.push(path),
-                false if !known.contains(&name.as_str()) => found.push((path.clone(), std::fs::read(&path).unwrap())),
-                _ => {}
-            }
-        }
-    }
-    found.sort();
-    found
+    let all = contents_below(folder).into_iter().filter(|(path, _)| !path.starts_with("checkpoints"));
+    all.filter(|(path, _)| !known.iter().any(|name| path.ends_with(name))).collect()
 }
 
 fn same_files(one: &Path, two: &Path) {
     let (a, b) = (files(one), files(two));
-    let names = |all: &[(PathBuf, Vec<u8>)], from: &Path| -> Vec<PathBuf> {
-        all.iter().map(|(path, _)| path.strip_prefix(from).unwrap().to_owned()).collect()
-    };
-    assert_eq!(names(&a, one), names(&b, two));
+    let names = |all: &[(PathBuf, Vec<u8>)]| -> Vec<PathBuf> { all.iter().map(|(path, _)| path.clone()).collect() };
+    assert_eq!(names(&a), names(&b));
     for ((path, first), (_, second)) in a.iter().zip(&b) {
         assert!(first == second, "{} differs", path.display());
     }
@@ -117,8 +102,7 @@ fn same_files(one: &Path, two: &Path) {
 
 #[test]
 fn a_stopped_run_goes_on_to_the_same_files() {
-    let Some(_) = gpu_or_skip() else { return };
-    let place = tempfile::tempdir().unwrap();
+    let Some(place) = folder_or_skip() else { return };
     let text = |path: &Path| path.to_str().unwrap().to_owned();
     let (whole, parts) = (place.path().join("whole"), place.path().join("parts"));
     let given = [&SHORT[..], &["--until", "0.05", "--frames", "4", "--export", "vtk,states"]].concat();
@@ -197,8 +181,7 @@ fn bad_checkpoints(run: &Path) {
 
 #[test]
 fn a_branch_starts_from_a_state_of_another_run() {
-    let Some(_) = gpu_or_skip() else { return };
-    let place = tempfile::tempdir().unwrap();
+    let Some(place) = folder_or_skip() else { return };
     let (run, branch) = (place.path().join("run"), place.path().join("branch"));
     let text = |path: &Path| path.to_str().unwrap().to_owned();
     let given = ["run", "sod", "--resolution", "64", "--until", "0.05", "--frames", "4", "--no-expect", "-q"];
@@ -240,8 +223,7 @@ fn an_interrupted_run_leaves_a_checkpoint() {
 
 #[test]
 fn what_a_later_program_wrote_is_refused_and_what_the_first_wrote_is_read() {
-    let Some(_) = gpu_or_skip() else { return };
-    let place = tempfile::tempdir().unwrap();
+    let Some(place) = folder_or_skip() else { return };
     let run = place.path().join("run");
     let out = run.display().to_string();
     let asked = ["--until", "0.02", "--frames", "1", "--no-frames", "--export", "states", "--checkpoint", "t=0.01"];

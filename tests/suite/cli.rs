@@ -7,7 +7,7 @@ use brisance::scene::Scene;
 use brisance::simulation::Simulation;
 use brisance::state::MemoryPlan;
 
-use crate::common::gpu_or_skip;
+use crate::common::{folder_or_skip, gpu_or_skip, read_png};
 
 pub(crate) fn brisance(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_brisance"));
@@ -158,8 +158,7 @@ fn variants_are_listed_and_chosen() {
 
 #[test]
 fn check_draws_the_start_and_names_overlaps() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let picture = folder.path().join("start.png");
     let overlap = "bodies[2].shape={ sphere = { center = [1.0, 0.4], radius = 0.1 } }";
     let arguments = ["check", "fig08_supernova_2d", "--set", overlap, "--picture", picture.to_str().unwrap()];
@@ -169,9 +168,8 @@ fn check_draws_the_start_and_names_overlaps() {
         "{}",
         out(&output)
     );
-    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&picture).unwrap()));
-    let info = decoder.read_info().unwrap();
-    assert_eq!((info.info().width, info.info().height), (1200, 520));
+    let (info, _) = read_png(&picture);
+    assert_eq!((info.width, info.height), (1200, 520));
 }
 
 #[test]
@@ -208,8 +206,7 @@ fn devices() {
 
 #[test]
 fn too_large_scenes_are_refused_before_allocation() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let out = folder.path().to_str().unwrap();
     let text = fails(5, &["run", "bursting_shell_3d", "--resolution", "900", "--out", out]);
     let advice = text.split("--resolution ").nth(1).unwrap_or_else(|| panic!("{text}"));
@@ -258,8 +255,7 @@ fn a_closed_pipe_is_no_bug() {
 
 #[test]
 fn a_folder_that_cannot_be_written_is_a_disk_error() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let file = folder.path().join("file");
     std::fs::write(&file, "not a folder").unwrap();
     let text = fails(9, &["run", "sod", "--out", file.join("out").to_str().unwrap()]);
@@ -344,8 +340,7 @@ fn a_run_leaves_its_files() {
 /// The software driver takes workgroups in turn, as the suite does elsewhere, or on threads of its own; two that write one place show.
 #[test]
 fn threads_of_the_driver_change_no_bit() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     for scene in [
         &["bursting_diaphragm_2d", "--until", "0.01"][..],
         &["fig16_convergence", "--resolution", "160", "--until", "0.04"],

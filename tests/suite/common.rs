@@ -1,6 +1,7 @@
 //! What the tests share: a device and random numbers that are the same on every run.
 
 use std::ops::Deref;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use brisance::gpu::{Folder, Gpu, GpuOptions};
@@ -37,6 +38,54 @@ pub(crate) fn gpu_or_skip() -> Option<Borrowed> {
     }
     let idle = IDLE.lock().unwrap_or_else(PoisonError::into_inner).pop();
     Some(Borrowed(Some(idle.unwrap_or_else(opened))))
+}
+
+/// A folder of its own for a test that runs the program on a device, or `None`, as [`gpu_or_skip`].
+pub(crate) fn folder_or_skip() -> Option<tempfile::TempDir> {
+    gpu_or_skip()?;
+    Some(tempfile::tempdir().unwrap())
+}
+
+/// All files below a folder, in order: paths from there.
+pub(crate) fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let (mut found, mut folders) = (Vec::new(), vec![folder.to_owned()]);
+    while let Some(next) = folders.pop() {
+        for path in std::fs::read_dir(next).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() { folders.push(path) } else { found.push(path.strip_prefix(folder).unwrap().to_owned()) }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The same with what they hold.
+pub(crate) fn contents_below(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let read = |path: PathBuf| (path.clone(), std::fs::read(folder.join(path)).unwrap());
+    files_below(folder).into_iter().map(read).collect()
+}
+
+/// A path with slashes.
+pub(crate) fn slashed(path: &Path) -> String {
+    path.to_string_lossy().replace('\\', "/")
+}
+
+/// Whether the name of a file ends like that.
+pub(crate) fn is_kind(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|found| found == extension)
+}
+
+/// A picture on the disk: what its head says, and its bytes.
+pub(crate) fn read_png(path: &Path) -> (png::Info<'static>, Vec<u8>) {
+    let file = std::fs::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut bytes).unwrap();
+    (reader.info().clone(), bytes)
+}
+
+/// Fails with all that was found.
+pub(crate) fn report(failures: &[String]) {
+    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
 }
 
 fn opened() -> Gpu {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use brisance::export::{container, states};
 
 use crate::cli::{fails, succeeds};
-use crate::common::gpu_or_skip;
+use crate::common::folder_or_skip;
 
 /// A copy of the run.
 fn copy(to: &Path) -> PathBuf {
@@ -26,8 +26,7 @@ fn copy(to: &Path) -> PathBuf {
 
 #[test]
 fn a_run_of_the_first_form_is_drawn_and_converted_and_does_not_go_on() {
-    let Some(_) = gpu_or_skip() else { return };
-    let place = tempfile::tempdir().unwrap();
+    let Some(place) = folder_or_skip() else { return };
     let run = copy(place.path());
     let text = run.display().to_string();
     succeeds(&["render", &text, "-q", "--size", "80x64"]);
@@ -52,7 +51,7 @@ fn a_run_of_the_first_form_is_drawn_and_converted_and_does_not_go_on() {
 #[cfg(feature = "viewer")]
 #[test]
 fn a_run_of_the_first_form_is_looked_at() {
-    let Some(gpu) = gpu_or_skip() else { return };
+    let Some(gpu) = crate::common::gpu_or_skip() else { return };
     let place = tempfile::tempdir().unwrap();
     let run = copy(place.path());
     for _ in 0..2 {

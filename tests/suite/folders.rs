@@ -7,14 +7,13 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::cli::{SmallRun, brisance, err, fails, report, run, small_run, succeeds, table, write_small_scene};
-use crate::common::gpu_or_skip;
+use crate::common::folder_or_skip;
 
 const SHORT: [&str; 7] = ["run", "sod", "--until", "0.01", "--frames", "1", "--out"];
 
 #[test]
 fn a_run_is_replaced_by_force_only_and_nothing_else_with_it() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     let out = target.to_str().unwrap();
     let arguments = [&SHORT[..], &[out]].concat();
@@ -31,17 +30,12 @@ fn a_run_is_replaced_by_force_only_and_nothing_else_with_it() {
 
 #[test]
 fn a_report_tells_of_what_was_killed_and_a_stale_lock_is_none() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     let out = target.to_str().unwrap();
     let long = ["run", "sod", "--until", "1000", "--frames", "100000", "--no-expect", "--out", out];
     let mut child = brisance(&long).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-    let start = Instant::now();
-    while !target.join("frames/0003.png").exists() {
-        assert!(start.elapsed() < Duration::from_secs(120), "no frame");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    wait_for("a frame", || target.join("frames/0003.png").exists());
     assert!(fails(2, &long).contains("belongs to another run"));
     child.kill().unwrap();
     child.wait().unwrap();
@@ -52,8 +46,7 @@ fn a_report_tells_of_what_was_killed_and_a_stale_lock_is_none() {
 
 #[test]
 fn output_that_goes_away_ends_no_run() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     let arguments = [&SHORT[..], &[target.to_str().unwrap()]].concat();
     let mut child = brisance(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -76,8 +69,7 @@ pub(crate) fn with_program(folder: &Path, name: &str, text: &str) -> String {
 
 #[test]
 fn an_encoder_that_fails_costs_the_film_alone() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     let film = folder.path().join("film.mp4");
     let talks = "#!/bin/sh\n[ \"$1\" = -version ] && exit 0\nyes error | head -c 1000000 >&2\ncat >/dev/null\nexit 1\n";
@@ -136,14 +128,11 @@ fn interruption_leaves_complete_files() {
     let long = ["--until", "1000", "--frames", "100000", "--out", target.to_str().unwrap()];
     let arguments = [&["run", &scene], &long[..]].concat();
     let mut child = brisance(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-    let start = Instant::now();
-    while !target.join("frames/0003.png").exists() {
+    wait_for("a frame", || {
         assert!(child.try_wait().unwrap().is_none(), "ended early");
-        assert!(start.elapsed() < Duration::from_secs(60), "no frame in a minute");
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(killed.success());
+        target.join("frames/0003.png").exists()
+    });
+    assert!(kill("-INT", &child.id().to_string()));
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let report = report(&target);
     assert!(report["outcome"].as_str().unwrap().starts_with("interrupted"), "{}", report["outcome"]);
@@ -171,11 +160,7 @@ fn run_with_a_deaf_encoder(folder: &Path) -> (std::process::Child, String) {
     let mut command = brisance(&[&long[..], &["--set", "render.size=[64, 64]"]].concat());
     let child = command.env("PATH", path).env("DEAF", &pid).stdout(Stdio::null()).stderr(Stdio::null());
     let child = child.spawn().unwrap();
-    let start = Instant::now();
-    while !target.join("frames/0003.png").exists() || !pid.exists() {
-        assert!(start.elapsed() < Duration::from_secs(120), "no frame");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    wait_for("a frame", || target.join("frames/0003.png").exists() && pid.exists());
     (child, std::fs::read_to_string(pid).unwrap().trim().to_owned())
 }
 
@@ -191,8 +176,7 @@ fn lives(process: &str) -> bool {
 
 #[test]
 fn sigterm_means_now_and_takes_the_encoder_along() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
     let start = Instant::now();
     assert!(kill("-TERM", &child.id().to_string()));
@@ -209,8 +193,7 @@ fn sigterm_means_now_and_takes_the_encoder_along() {
 
 #[test]
 fn a_second_signal_ends_at_once_with_the_encoder() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
     assert!(kill("-INT", &child.id().to_string()));
     std::thread::sleep(Duration::from_millis(300));
@@ -224,8 +207,7 @@ fn a_second_signal_ends_at_once_with_the_encoder() {
 
 #[test]
 fn an_interruption_gives_the_encoder_a_moment() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
     let start = Instant::now();
     assert!(kill("-INT", &child.id().to_string()));
@@ -238,8 +220,7 @@ fn an_interruption_gives_the_encoder_a_moment() {
 #[cfg(feature = "verify")]
 #[test]
 fn a_verification_is_stopped_within_a_case_with_what_the_others_found() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let out = folder.path().to_str().unwrap();
     let arguments = ["verify", "--full", "--filter", "sod", "--out", out];
     let mut child = brisance(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
@@ -264,8 +245,7 @@ fn wait_for(what: &str, mut condition: impl FnMut() -> bool) {
 
 #[test]
 fn a_run_that_is_stopped_in_set_up_says_so_and_takes_no_name() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     let long = ["run", "bursting_shell_3d", "--no-expect", "--quiet", "--out", target.to_str().unwrap()];
     // kernels that no earlier run has left compiled
@@ -286,8 +266,7 @@ fn a_run_that_is_stopped_in_set_up_says_so_and_takes_no_name() {
 
 #[test]
 fn a_disk_that_is_full_is_told_with_what_was_written() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     // a limit on the size of files is met as a full disk is: pictures grow with what there is to see
     let run = "run sod --no-expect --quiet --set render.size=[1280,720] --out";
@@ -307,8 +286,7 @@ fn a_disk_that_is_full_is_told_with_what_was_written() {
 
 #[test]
 fn a_film_that_nobody_encodes_is_told_by_the_exit_code() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     let arguments = [&SHORT[..], &[target.to_str().unwrap(), "--video", "film.mp4"]].concat();
     let output = brisance(&arguments).env("PATH", folder.path()).output().unwrap();
@@ -321,8 +299,7 @@ fn a_film_that_nobody_encodes_is_told_by_the_exit_code() {
 /// Whoever sent the folder of a run may have put links into it.
 #[test]
 fn no_link_leads_out_of_a_foreign_run() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     let out = target.to_str().unwrap();
     succeeds(&[&SHORT[..], &[out, "--export", "states", "--set", "render.size=[64, 64]"]].concat());
@@ -345,8 +322,7 @@ fn no_link_leads_out_of_a_foreign_run() {
 #[test]
 #[cfg(target_os = "linux")]
 fn nohup_is_heeded() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("run");
     let long = "run sod --until 1000 --frames 100000 --no-expect --quiet --out";
     let script = format!("trap '' HUP; exec {} {long} {}", env!("CARGO_BIN_EXE_brisance"), target.display());

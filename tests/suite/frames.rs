@@ -8,7 +8,7 @@ use brisance::render::{Depth, Picture, Renderer};
 use brisance::scene::{Camera, Field};
 
 use crate::cli::{brisance, err, fails, run, succeeds, write_small_scene};
-use crate::common::gpu_or_skip;
+use crate::common::{contents_below, files_below, folder_or_skip, read_png};
 use crate::synthetic::{State, gpu, scene};
 
 /// The pictures of the synthetic state in full depth.
@@ -36,11 +36,8 @@ fn pictures_have_their_whole_depth_on_the_disk() {
         write(&mut ExrExporter::new(folder.path()), &pictures);
         let Picture { frame, layers, fine, .. } = &pictures[0];
 
-        let file = std::fs::File::open(folder.path().join("frames/0003.png")).unwrap();
-        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
-        assert_eq!(reader.info().bit_depth, png::BitDepth::Sixteen);
-        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
-        reader.next_frame(&mut bytes).unwrap();
+        let (info, bytes) = read_png(&folder.path().join("frames/0003.png"));
+        assert_eq!(info.bit_depth, png::BitDepth::Sixteen);
         let words: Vec<u16> = bytes.chunks_exact(2).map(|word| u16::from_be_bytes([word[0], word[1]])).collect();
         assert_eq!(words, fine.as_flattened());
         let coarse = frame.rgba.chunks_exact(4).flat_map(|pixel| &pixel[..3]);
@@ -120,8 +117,7 @@ fn layers_lead_back_to_the_particles() {
 /// Compositors get the plot alone, from the states of a run.
 #[test]
 fn states_are_converted_for_compositors() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let out = states_of_a_shell(folder.path());
     let run = out.to_str().unwrap();
     succeeds(&["convert", run, "--to", "exr,npz", "--frame", "1"]);
@@ -174,25 +170,6 @@ fn a_path_moves_the_camera_of_its_view_only() {
     assert_eq!(same.frame, later[1].frame);
 }
 
-/// All files below a folder, with their bytes.
-fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut found = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder_here) = folders.pop() {
-        for entry in std::fs::read_dir(folder_here).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let bytes = std::fs::read(&path).unwrap();
-                found.push((path.strip_prefix(folder).unwrap().to_owned(), bytes));
-            }
-        }
-    }
-    found.sort();
-    found
-}
-
 /// The folder of a run of [`write_shell`] that left its states alone.
 fn states_of_a_shell(folder: &Path) -> PathBuf {
     let (scene, out) = (folder.join("shell.toml"), folder.join("run"));
@@ -233,8 +210,7 @@ camera = { eye = [0.5, 0.5, 4.0], target = [0.5, 0.5, 0.5], up = [0.0, 1.0, 0.0]
 
 #[test]
 fn frames_drawn_again_are_the_same_to_the_byte() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let text = |path: &Path| path.to_str().unwrap().to_owned();
     let (small, shell) = (folder.path().join("small.toml"), folder.path().join("shell.toml"));
     write_small_scene(&small);
@@ -244,7 +220,7 @@ fn frames_drawn_again_are_the_same_to_the_byte() {
         succeeds(&["run", &name, "--frames", "2", "--no-expect", "--export", "states", "--out", &text(&out)]);
         let printed = succeeds(&["render", &text(&out)]);
         assert!(printed.starts_with("3 frames in "), "{printed}");
-        let (first, again) = (files(&out.join("frames")), files(&out.join("again/frames")));
+        let (first, again) = (contents_below(&out.join("frames")), contents_below(&out.join("again/frames")));
         assert_eq!(first.len(), count, "{name}");
         for ((path, bytes), (same, drawn)) in first.iter().zip(&again) {
             assert_eq!(path, same);
@@ -257,21 +233,17 @@ fn frames_drawn_again_are_the_same_to_the_byte() {
 
 #[test]
 fn frames_drawn_again_have_another_look() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let out = states_of_a_shell(folder.path());
     let run = out.to_str().unwrap();
     assert!(!out.join("frames").exists());
     let camera = "{ eye = [0.5, -3.0, 0.5], target = [0.5, 0.5, 0.5] }";
     let look = ["--camera", camera, "--size", "80x60", "--set", "render.colormap=inferno", "--field", "pressure"];
     succeeds(&[&["render", run, "--view", "main", "--frame", "1"], &look[..]].concat());
-    let drawn = files(&out.join("again"));
-    assert_eq!(drawn.len(), 1);
-    assert_eq!(drawn[0].0, Path::new("frames/0001.png"));
-    let reader = png::Decoder::new(std::io::Cursor::new(&drawn[0].1[..])).read_info().unwrap();
-    assert_eq!((reader.info().width, reader.info().height), (80, 60));
-    let chunks = &reader.info().uncompressed_latin1_text;
-    assert!(chunks.iter().any(|chunk| chunk.keyword == "Field" && chunk.text == "pressure"));
+    assert_eq!(files_below(&out.join("again")), [Path::new("frames/0001.png")]);
+    let (info, _) = read_png(&out.join("again/frames/0001.png"));
+    assert_eq!((info.width, info.height), (80, 60));
+    assert!(info.uncompressed_latin1_text.iter().any(|chunk| chunk.keyword == "Field" && chunk.text == "pressure"));
 
     for (options, parts) in [
         (&["--view", "side"][..], ["no view `side`", "main, top"]),
@@ -298,8 +270,7 @@ fn installed(program: &str) -> bool {
 
 #[test]
 fn a_film_is_made_where_there_is_ffmpeg() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let scene = folder.path().join("shell.toml");
     write_shell(&scene);
     let (out, film) = (folder.path().join("run"), folder.path().join("films/film.mp4"));

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use crate::common::gpu_or_skip;
+use crate::common::folder_or_skip;
 
 /// A tube of eight cells with a variant that does not do what it promises, and two that differ in the density.
 const SCENE: &str = r#"
@@ -45,8 +45,7 @@ fn printed(output: &Output) -> serde_json::Value {
 
 #[test]
 fn a_gallery_shows_every_variant_and_says_which_failed() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     std::fs::write(folder.path().join("tube.toml"), SCENE).unwrap();
     // the one that fails comes first: the other runs all the same
     let output = gallery(folder.path(), &["tube.toml:wrong", "tube.toml:dense", "--json"]);
@@ -71,8 +70,7 @@ fn a_gallery_shows_every_variant_and_says_which_failed() {
 
 #[test]
 fn a_gallery_takes_scenes_at_full_size_and_knows_its_names() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     std::fs::write(folder.path().join("tube.toml"), SCENE.split("[variants.wrong]").next().unwrap()).unwrap();
     let output = gallery(folder.path(), &["tube.toml", "--scale", "full", "-q"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
@@ -89,8 +87,7 @@ fn a_gallery_takes_scenes_at_full_size_and_knows_its_names() {
 
 #[test]
 fn a_gallery_runs_scenes_at_a_time_and_shows_them_in_order() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     std::fs::write(folder.path().join("tube.toml"), SCENE).unwrap();
     let names = ["tube.toml:long", "tube.toml:dense", "--json", "--jobs"];
     let line = |text: &str, wanted: &str| {

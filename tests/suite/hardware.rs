@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::cli::{brisance, err, out, succeeds};
-use crate::common::gpu_or_skip;
+use crate::common::{folder_or_skip, gpu_or_skip};
 
 /// Copies the shaders into a folder, one of them changed.
 fn shaders_with(folder: &Path, name: &str, from: &str, to: &str) {
@@ -19,8 +19,7 @@ fn shaders_with(folder: &Path, name: &str, from: &str, to: &str) {
 
 #[test]
 fn a_wrong_stage_fails_the_selftest_by_name() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let file = folder.path().join("found.json");
     let arguments = ["selftest", "--filter", "prefix sum", "--out", file.to_str().unwrap()];
     let text = succeeds(&arguments);
@@ -40,8 +39,7 @@ fn a_wrong_stage_fails_the_selftest_by_name() {
 
 #[test]
 fn nodes_and_order_of_particles_are_those_of_the_host() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let file = folder.path().join("found.json");
     let arguments = ["selftest", "--filter", "particles", "--out", file.to_str().unwrap()];
     assert!(succeeds(&arguments).contains("3 of 3 cases passed"));
@@ -86,8 +84,7 @@ fn the_environment_is_checked() {
 
 #[test]
 fn the_settings_of_hardware_give_the_same_within_rounding() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let file = folder.path().join("found.json");
     let arguments = ["selftest", "--filter", "both settings", "--out", file.to_str().unwrap()];
     assert!(succeeds(&arguments).contains("1 of 1 cases passed"));
@@ -97,8 +94,7 @@ fn the_settings_of_hardware_give_the_same_within_rounding() {
 
 #[test]
 fn kernels_are_written_for_other_compilers() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let text = succeeds(&["shaders", "riemann_2d", "--out", folder.path().to_str().unwrap()]);
     assert!(text.contains("kernels of 1 scenes"), "{text}");
     let files: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();

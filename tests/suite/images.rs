@@ -9,6 +9,8 @@ use brisance::simulation::Simulation;
 
 use crate::synthetic::{State, brightness, every_cell, gpu, pixel, render, scene};
 
+use crate::common::read_png;
+
 /// Mean difference of a channel that drivers may make, of 255.
 const MEAN_ERROR: f64 = 1.0;
 
@@ -52,14 +54,6 @@ fn stored(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/images").join(format!("{name}.png"))
 }
 
-fn read(path: &Path) -> Vec<u8> {
-    let file = std::fs::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    reader.next_frame(&mut pixels).unwrap();
-    pixels
-}
-
 /// Colours without alpha.
 fn colors(frame: &Frame) -> Vec<u8> {
     frame.rgba.chunks_exact(4).flat_map(|pixel| pixel[..3].to_vec()).collect()
@@ -83,7 +77,7 @@ fn error(name: &str, frame: &Frame, expected: &[u8]) -> f64 {
 fn pictures_are_those_stored() {
     let mut failures = Vec::new();
     for (name, dimension, field, look) in PICTURES {
-        let error = error(name, &draw(dimension, field, look).frame, &read(&stored(name)));
+        let error = error(name, &draw(dimension, field, look).frame, &read_png(&stored(name)).1);
         if error > MEAN_ERROR {
             failures.push(format!("{name}: mean error {error:.2} of 255, at most {MEAN_ERROR}"));
         }

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::common::{files_below, is_kind, report};
+
 /// Modules from the ground floor to the roof. A module may use lower floors only.
 const FLOORS: [&[&str]; 10] = [
     &["math", "error", "input", "riemann", "spelling", "structure", "explosive"],
@@ -32,26 +34,9 @@ const MAX_MAIN: usize = 150;
 
 /// Files with this extension below a folder of the project: path from the project's root, text.
 fn files(below: &str, extension: &str) -> Vec<(PathBuf, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut found = Vec::new();
-    let mut folders = vec![root.join(below)];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|found| found == extension) {
-                let text = std::fs::read_to_string(&path).unwrap();
-                found.push((path.strip_prefix(root).unwrap().to_owned(), text));
-            }
-        }
-    }
-    found.sort();
-    found
-}
-
-fn report(failures: &[String]) {
-    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(below);
+    let paths = files_below(&folder).into_iter().filter(|path| is_kind(path, extension));
+    paths.map(|path| (Path::new(below).join(&path), std::fs::read_to_string(folder.join(path)).unwrap())).collect()
 }
 
 fn floor(module: &str) -> Option<usize> {

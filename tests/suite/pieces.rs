@@ -5,7 +5,7 @@ use std::path::Path;
 use brisance::export::csv::Sheet;
 
 use crate::cli::succeeds;
-use crate::common::gpu_or_skip;
+use crate::common::folder_or_skip;
 
 /// Two halves of a bar that fly apart, in so many dimensions; they overlap, so that they are one piece at first.
 fn bar(dimension: usize) -> String {
@@ -37,8 +37,7 @@ fn table(run: &Path) -> Sheet {
 
 #[test]
 fn every_run_with_bodies_has_its_pieces() {
-    let Some(_) = gpu_or_skip() else { return };
-    let place = tempfile::tempdir().unwrap();
+    let Some(place) = folder_or_skip() else { return };
     for dimension in 1..=3 {
         let file = place.path().join(format!("bar{dimension}.toml"));
         std::fs::write(&file, bar(dimension)).unwrap();
@@ -74,8 +73,7 @@ fn every_run_with_bodies_has_its_pieces() {
 /// A run that goes on knows the pieces of the frame before: its rows are those of a run in one piece.
 #[test]
 fn pieces_know_their_parents_behind_a_checkpoint() {
-    let Some(_) = gpu_or_skip() else { return };
-    let place = tempfile::tempdir().unwrap();
+    let Some(place) = folder_or_skip() else { return };
     let file = place.path().join("bar.toml");
     std::fs::write(&file, bar(2)).unwrap();
     let path = |name: &str| place.path().join(name).display().to_string();

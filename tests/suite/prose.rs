@@ -2,9 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+
+use crate::common::{files_below, is_kind, report, slashed};
 
 /// Words a sentence may have.
 const MAX_SENTENCE: usize = 30;
@@ -57,27 +59,16 @@ struct Page {
     text: String,
 }
 
-fn add_pages(folder: &Path, pages: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            add_pages(&path, pages);
-        } else if path.extension().is_some_and(|end| end == "md") {
-            pages.push(path);
-        }
-    }
-}
-
 fn pages() -> Vec<Page> {
-    let mut paths: Vec<_> =
-        ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md"].iter().map(|name| root().join(name)).collect();
-    add_pages(&root().join("docs"), &mut paths);
-    paths.sort();
-    let read = |path: PathBuf| Page {
-        name: path.strip_prefix(root()).unwrap().to_string_lossy().replace('\\', "/"),
-        text: std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())),
+    let docs = files_below(&root().join("docs")).into_iter().filter(|path| is_kind(path, "md"));
+    let mut names: Vec<_> = docs.map(|path| format!("docs/{}", slashed(&path))).collect();
+    names.extend(["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md"].map(str::to_owned));
+    names.sort();
+    let read = |name: String| {
+        let text = std::fs::read_to_string(root().join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        Page { name, text }
     };
-    paths.into_iter().map(read).collect()
+    names.into_iter().map(read).collect()
 }
 
 fn events(text: &str) -> impl Iterator<Item = (Event<'_>, Range<usize>)> {
@@ -86,10 +77,6 @@ fn events(text: &str) -> impl Iterator<Item = (Event<'_>, Range<usize>)> {
 
 fn line_of(text: &str, at: usize) -> usize {
     text[..at].matches('\n').count() + 1
-}
-
-fn report(failures: &[String]) {
-    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
 }
 
 /// Paragraphs, headings, items and cells: the line where they begin, and their words; code and equations are one word.

@@ -10,6 +10,8 @@ use brisance::simulation::Simulation;
 
 use crate::synthetic::{State, brightness, every_cell, gpu, pixel, render, scene};
 
+use crate::common::read_png;
+
 #[test]
 fn slice_has_y_up_and_the_range_of_its_field() {
     let pictures = render(2, 48, [320, 200], "output.fields = [\"density\", \"schlieren\"]\nrender.particles = false");
@@ -288,13 +290,9 @@ fn png_tells_where_it_comes_from() {
     let (pictures, snapshot, stored) = (&pictures[..], None, None);
     let moment = Moment { index: 7, origin: &origin, time: 0.0125, step: 42, pictures, snapshot, stored };
     export::png::PngExporter::new(folder.path()).write(&moment).unwrap();
-    let file = std::fs::File::open(folder.path().join("frames/0007.png")).unwrap();
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    reader.next_frame(&mut pixels).unwrap();
+    let (info, pixels) = read_png(&folder.path().join("frames/0007.png"));
     let rgb: Vec<u8> = pictures[0].frame.rgba.chunks_exact(4).flat_map(|pixel| pixel[..3].to_vec()).collect();
     assert_eq!(pixels, rgb);
-    let info = reader.info();
     let text = |key: &str| {
         info.uncompressed_latin1_text.iter().find(|chunk| chunk.keyword == key).map(|chunk| chunk.text.clone())
     };

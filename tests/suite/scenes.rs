@@ -6,7 +6,7 @@ use std::path::Path;
 use brisance::expect;
 use brisance::scene::{Changes, Scene};
 
-use crate::common::gpu_or_skip;
+use crate::common::{files_below, gpu_or_skip, is_kind, slashed};
 
 /// Scenes that were not looked through for warnings: what is told of them may be right, or a fault.
 const UNJUDGED: &[&str] = &[
@@ -192,22 +192,10 @@ scenes! {
     ball_in_blast_3d: "demos/ball_in_blast_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
 }
 
-fn scene_files(folder: &Path, below: &str, found: &mut Vec<String>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = format!("{below}{}", path.file_name().unwrap().to_string_lossy());
-        if path.is_dir() {
-            scene_files(&path, &format!("{name}/"), found);
-        } else if name.ends_with(".toml") {
-            found.push(name);
-        }
-    }
-}
-
 #[test]
 fn every_scene_is_tested() {
-    let mut found = Vec::new();
-    scene_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"), "", &mut found);
+    let files = files_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"));
+    let mut found: Vec<_> = files.iter().filter(|path| is_kind(path, "toml")).map(|path| slashed(path)).collect();
     found.sort();
     let mut tested = TESTED.to_vec();
     tested.sort_unstable();

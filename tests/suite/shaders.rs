@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use brisance::gpu::{Compiled, Folder, SOURCES, Shader};
 use wgpu::naga;
 
+use crate::common::{files_below, is_kind, report, slashed};
+
 /// Shaders of the pictures; all others belong to the step.
 const PICTURES: [&str; 12] = [
     "picture/arrows.wgsl",
@@ -37,30 +39,13 @@ fn folder() -> PathBuf {
 
 /// All shader files on disk: path below `shaders/`, text.
 pub(crate) fn files() -> BTreeMap<String, String> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![folder()];
-    while let Some(path) = folders.pop() {
-        for entry in std::fs::read_dir(path).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "wgsl") {
-                let name = path.strip_prefix(folder()).unwrap().components();
-                let name = name.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
-                found.insert(name, std::fs::read_to_string(path).unwrap());
-            }
-        }
-    }
-    found
+    let paths = files_below(&folder()).into_iter().filter(|path| is_kind(path, "wgsl"));
+    paths.map(|path| (slashed(&path), std::fs::read_to_string(folder().join(path)).unwrap())).collect()
 }
 
 /// Files with entry points.
 pub(crate) fn stages() -> Vec<String> {
     files().into_iter().filter(|(_, text)| text.contains("\n@compute")).map(|(name, _)| name).collect()
-}
-
-fn report(failures: &[String]) {
-    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use brisance::render::{Plot, Style};
 use brisance::scene::Scene;
 use brisance::verify::{self, Head, Limit, Profile, Row, Suite, Verdict, muscl, muscl_plane};
 
-use crate::common::gpu_or_skip;
+use crate::common::{files_below, folder_or_skip};
 
 fn row(case: &'static str, ours: f64) -> Row {
     Row {
@@ -232,8 +232,7 @@ fn the_iteration_bound_is_that_of_conjugate_gradients() {
 
 #[test]
 fn a_verification_leaves_its_files() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let target = folder.path().join("deep");
     let run = |arguments: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_brisance"));
@@ -258,8 +257,7 @@ fn a_verification_leaves_its_files() {
 
 #[test]
 fn a_failed_gate_has_an_exit_code() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     copy_shaders(&Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders"), folder.path());
     // A table that mistakes the sign of the lowest pressure is what the gate on it must not let pass.
     let path = folder.path().join("step/diagnostics.wgsl");
@@ -281,14 +279,8 @@ fn a_failed_gate_has_an_exit_code() {
 }
 
 fn copy_shaders(from: &Path, to: &Path) {
-    std::fs::create_dir_all(to).unwrap();
-    for entry in std::fs::read_dir(from).unwrap() {
-        let path = entry.unwrap().path();
-        let target = to.join(path.file_name().unwrap());
-        if path.is_dir() {
-            copy_shaders(&path, &target);
-        } else {
-            std::fs::copy(&path, &target).unwrap();
-        }
+    for path in files_below(from) {
+        std::fs::create_dir_all(to.join(&path).parent().unwrap()).unwrap();
+        std::fs::copy(from.join(&path), to.join(&path)).unwrap();
     }
 }

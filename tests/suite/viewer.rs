@@ -12,7 +12,7 @@ use brisance::viewer::record;
 use brisance::viewer::session::Session;
 use brisance::viewer::worker::Worker;
 
-use crate::common::gpu_or_skip;
+use crate::common::{folder_or_skip, gpu_or_skip, read_png};
 
 const SPACE: &str = "title = \"Charge in a box\"\n\
     domain = { dimension = 3, cells = [12, 12, 12], size = [1.0, 1.0, 1.0] }\n\
@@ -130,10 +130,7 @@ fn states_of_frames_are_shown_and_the_scene_goes_on_before_them() {
     assert!(near(session.rewind(0.1).unwrap(), 0.1) && session.step_count() > 0);
     // the picture of the run to the byte
     let drawn = session.draw(&look).unwrap();
-    let frame = std::fs::File::open(run.join("frames/0002.png")).unwrap();
-    let mut reader = png::Decoder::new(std::io::BufReader::new(frame)).read_info().unwrap();
-    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut bytes).unwrap();
+    let (info, bytes) = read_png(&run.join("frames/0002.png"));
     let channels = info.color_type.samples();
     let same = drawn.frame.rgba.chunks_exact(4).zip(bytes.chunks_exact(channels)).all(|(a, b)| a[..3] == b[..3]);
     assert!(same, "the picture of the run");
@@ -191,8 +188,7 @@ fn wait(worker: &Worker, seen: &mut Outbox, what: &str, done: impl Fn(&Outbox) -
 
 #[test]
 fn the_worker_opens_steps_detonates_changes_and_saves() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let file = folder.path().join("charge.toml");
     std::fs::write(&file, SPACE).unwrap();
     let worker = Worker::start(GpuOptions::default(), || {});
@@ -258,8 +254,7 @@ fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
 /// A recording begins with the picture in the window and counts every picture of steps.
 #[test]
 fn a_recording_counts_its_pictures() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     // Recordings go to a folder of this name below `out`.
     let name = format!("recorded_{}", std::process::id());
     let file = folder.path().join(format!("{name}.toml"));
@@ -297,10 +292,7 @@ fn saved_pictures_hold_the_bytes_that_are_shown() {
     let second = record::save(folder.path(), &shown, &origin()).unwrap();
     assert_ne!(first, second);
     for path in [first, second, folder.path().join("recording_001/frames/0001.png")] {
-        let mut reader =
-            png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&path).unwrap())).read_info().unwrap();
-        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-        reader.next_frame(&mut pixels).unwrap();
+        let (_, pixels) = read_png(&path);
         let rgb: Vec<u8> = shown.picture.frame.rgba.chunks_exact(4).flat_map(|pixel| pixel[..3].to_vec()).collect();
         assert_eq!(pixels, rgb, "{}", path.display());
     }

@@ -7,7 +7,7 @@ use brisance::simulation::Simulation;
 use brisance::snapshot::kind;
 
 use crate::cli::{err, report, run};
-use crate::common::gpu_or_skip;
+use crate::common::{folder_or_skip, gpu_or_skip};
 
 #[test]
 fn the_table_of_the_docs_is_that_of_the_program() {
@@ -24,8 +24,7 @@ const LEAVING: &str = "title = \"leaving\"\n[domain]\ndimension = 2\ncells = [16
 
 #[test]
 fn a_body_that_leaves_is_told_and_the_budgets_keep_what_it_took() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     let go = |name: &str, text: &str, more: &[&str]| {
         std::fs::write(path(&format!("{name}.toml")), text).unwrap();

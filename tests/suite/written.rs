@@ -5,26 +5,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use crate::cli::{brisance, err, report, succeeds};
-use crate::common::gpu_or_skip;
+use crate::common::{contents_below, files_below, folder_or_skip, is_kind};
 use crate::folders::with_program;
-
-/// All files below a folder with what they hold, in order; those of a process at work begin with a dot.
-fn below(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let (mut found, mut folders) = (Vec::new(), vec![folder.to_owned()]);
-    while let Some(folder) = folders.pop() {
-        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if path.is_dir() { folders.push(path) } else { found.push((path.clone(), std::fs::read(&path).unwrap())) }
-        }
-    }
-    found.sort();
-    found
-}
 
 /// Pictures, page, tables and report of a tube, of a plane and of space are told within 30 %.
 #[test]
 fn what_a_run_will_write_is_told() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     for (scene, cells) in [
         ("sod", "400"),
         ("bursting_diaphragm_2d", "80"),
@@ -38,7 +25,7 @@ fn what_a_run_will_write_is_told() {
             serde_json::from_str(&succeeds(&[&["check", "--json"], &given[..]].concat())).unwrap();
         succeeds(&[&["run", "-q", "--no-expect", "--out", out.to_str().unwrap()], &given[..]].concat());
         let told = told["estimate"]["disk_bytes"].as_f64().unwrap();
-        let real: usize = below(&out).iter().map(|(_, bytes)| bytes.len()).sum();
+        let real: usize = contents_below(&out).iter().map(|(_, bytes)| bytes.len()).sum();
         let ratio = told / real as f64;
         eprintln!("{scene}: {told:.0} bytes told, {real} written, {ratio:.2} times");
         assert!((1.0 / 1.3..1.3).contains(&ratio), "{scene}: {told} bytes told, {real} written");
@@ -56,8 +43,7 @@ fn limited(kib: u32, arguments: &[&str]) -> Output {
 
 #[test]
 fn a_full_disk_costs_nothing_that_was_there() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let place = |name: &str| folder.path().join(name).display().to_string();
     let [run, out, again, sweep] = ["run", "out", "again", "sweep"].map(place);
     let short = ["--until", "0.01", "--frames", "1"];
@@ -69,7 +55,7 @@ fn a_full_disk_costs_nothing_that_was_there() {
     let sweep = [&["sweep", "sod"], &short[..], &["--no-frames", "-q"], &over].concat();
     for (verb, kib, file) in [(&convert[..], 4, "arrays/0000.npz"), (&render, 8, "frames/0000.png"), (&sweep, 2, "")] {
         succeeds(verb);
-        let before = below(folder.path());
+        let before = contents_below(folder.path());
         if verb[0] == "sweep" {
             // what is finished is not run again
             std::fs::remove_file(folder.path().join("sweep/0001/point.txt")).unwrap();
@@ -78,14 +64,14 @@ fn a_full_disk_costs_nothing_that_was_there() {
         let said = err(&output);
         assert_eq!(output.status.code(), Some(9), "{said}");
         assert!(said.contains(file) && said.contains("File too large") && said.contains("make room"), "{said}");
-        let kept = |(path, bytes): &&(PathBuf, Vec<u8>)| std::fs::read(path).is_ok_and(|now| now == *bytes);
+        let kept = |(path, bytes): &&(PathBuf, Vec<u8>)| {
+            std::fs::read(folder.path().join(path)).is_ok_and(|now| now == *bytes)
+        };
         // the table of a sweep has the runs that are there
-        let [all, first] = ["sweep", "sweep/0000"].map(|name| folder.path().join(name));
-        let own = |path: &Path| !path.starts_with(&all) || path.starts_with(&first);
+        let own = |path: &Path| !path.starts_with("sweep") || path.starts_with("sweep/0000");
         let lost = before.iter().filter(|file| own(&file.0) && !kept(file)).map(|(path, _)| path).collect::<Vec<_>>();
         assert!(lost.is_empty(), "{lost:?}");
-        let left = |path: &Path| path.extension().is_some_and(|end| end == "tmp");
-        assert!(!below(folder.path()).iter().any(|(path, _)| left(path)), "{}", verb[0]);
+        assert!(!files_below(folder.path()).iter().any(|path| is_kind(path, "tmp")), "{}", verb[0]);
         succeeds(verb);
     }
 }
@@ -95,8 +81,7 @@ const RAW: &str = "#!/bin/bash\n[ \"$1\" = -version ] && exit 0\ncat >\"${@: -1}
 
 #[test]
 fn a_film_goes_on_without_a_seam() {
-    let Some(_) = gpu_or_skip() else { return };
-    let folder = tempfile::tempdir().unwrap();
+    let Some(folder) = folder_or_skip() else { return };
     let path = with_program(folder.path(), "ffmpeg", RAW);
     let filmed = |arguments: &[&str]| {
         let output = brisance(arguments).env("PATH", &path).output().unwrap();
