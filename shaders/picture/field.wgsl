@@ -3,7 +3,7 @@
 // find_range: reads field; writes the least and largest value that each workgroup saw.
 // pack_corners: reads field; writes, per cube between eight cell centres, their fractions of the range in 8 bits each.
 // pack_glow: reads heat; writes the same cubes' places in the black-body ramp.
-// mark_bricks: reads corners, glow, visible; writes 1 for every brick of cubes that the ray march must enter.
+// pack_soot: reads species, cells; writes how much of the second gas is there, beside them.
 
 #include "shared/reduce.wgsl"
 #include "picture/view.wgsl"
@@ -14,11 +14,8 @@
 @group(0) @binding(4) var<storage, read_write> field: array<f32>;
 @group(0) @binding(5) var<storage, read_write> ranges: array<vec2f>;
 @group(0) @binding(6) var<storage, read_write> corners: array<vec2u>;
-@group(0) @binding(7) var<storage, read_write> bricks: array<u32>;
 @group(0) @binding(8) var<storage, read_write> heat: array<f32>;
 @group(0) @binding(9) var<storage, read_write> glow: array<vec2u>;
-// Per entry of the colour table, how many entries before it are not transparent; then the same of the black-body ramp.
-@group(0) @binding(10) var<storage, read> visible: array<u32>;
 // Mass and momentum that a slot owes; one entry alone where no slot inside the domain has a ledger.
 @group(0) @binding(11) var<storage, read> owed_flow: array<vec4f>;
 
@@ -246,46 +243,19 @@ fn pack_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
         let seen = heat[nearest_cell(corner_cell(cube, corner))];
         fractions[corner] = select(clamp(seen * view.heat_scale - view.heat_offset, 0.0, 1.0), -1.0, seen == NO_VALUE);
     }
-    glow[i] = packed_corners(fractions);
-}
-
-// Whether something between two entries of a table is not transparent; the bounds are 8-bit fractions.
-fn sees(low: f32, high: f32, table: u32) -> bool {
-    let first = u32(low * f32(COLOR_COUNT - 1u));
-    let last = min(u32(high * f32(COLOR_COUNT - 1u) + 1.0), COLOR_COUNT - 1u);
-    let start = table * (COLOR_COUNT + 1u);
-    return visible[start + last + 1u] > visible[start + first];
-}
-
-// Least and largest of eight packed fractions and what was seen before.
-fn widened(bounds: vec2f, packed: vec2u) -> vec2f {
-    let near = unpack4x8unorm(packed.x);
-    let far = unpack4x8unorm(packed.y);
-    let low = min(near, far);
-    let high = max(near, far);
-    return vec2f(min(bounds.x, min(min(low.x, low.y), min(low.z, low.w))),
-                 max(bounds.y, max(max(high.x, high.y), max(high.z, high.w))));
+    glow[glow_place(i)] = packed_corners(fractions);
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+fn pack_soot(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
-    let grid = (view.cells + BRICK) / BRICK;
-    if i >= grid.x * grid.y * grid.z { return; }
-    let cubes = view.cells + 1u;
-    let first = BRICK * vec3u(i % grid.x, (i / grid.x) % grid.y, i / (grid.x * grid.y));
-    let end = min(first + BRICK, cubes);
-    var bounds = vec2f(1.0, 0.0);
-    var hot = vec2f(1.0, 0.0);
-    for (var z = first.z; z < end.z; z++) {
-        for (var y = first.y; y < end.y; y++) {
-            for (var x = first.x; x < end.x; x++) {
-                let cube = x + cubes.x * (y + cubes.y * z);
-                bounds = widened(bounds, corners[cube]);
-                if view.heat_opacity > 0.0 { hot = widened(hot, glow[cube]); }
-            }
-        }
+    if i >= cube_count() { return; }
+    let cube = cube_of(i);
+    var fractions = array<f32, 8>();
+    for (var corner = 0u; corner < 8u; corner++) {
+        let slot = slot_of(clamp(corner_cell(cube, corner), vec3i(0), vec3i(view.cells) - 1));
+        let depth = view.soot * max(species[view.species_start + slot], 0.0) * view.spacing;
+        fractions[corner] = select(-1.0, sqrt(min(depth / SOOT_DEPTH, 1.0)), has_gas(slot));
     }
-    let shines = view.heat_opacity > 0.0 && sees(hot.x, hot.y, 1u);
-    bricks[i] = u32(sees(bounds.x, bounds.y, 0u) || shines);
+    glow[glow_place(i) + 1u] = packed_corners(fractions);
 }

@@ -1,7 +1,13 @@
 // The gas as the ray march and the light see it: reads corners, glow and colors.
 
-// Whether hot gas shines.
+// Whether hot gas shines, and whether the second gas absorbs light.
 override EMISSION: bool = true;
+override SOOT: bool = true;
+
+// Share of the light that soot scatters, by colour.
+const SOOT_COLOR: vec3f = vec3f(0.11, 0.10, 0.09);
+
+fn has_soot() -> bool { return SOOT && view.soot > 0.0; }
 
 // The packed values of the cube of eight cell centres around a place, and the place inside of it.
 struct Cube {
@@ -41,14 +47,27 @@ struct Optics {
     shining: f32,
 }
 
+// Soot absorbs, scatters a little, and shines as far as it is hot: clear gas then does not shine.
+fn with_soot(clear: Optics, cube: Cube) -> Optics {
+    let packed = interpolated(glow[glow_place(cube.index) + 1u], cube.inside);
+    let soot = SOOT_DEPTH * packed * packed / view.spacing;
+    var gas = clear;
+    gas.shining = soot * clear.shining / max(view.heat_opacity, 1e-20);
+    let dark = soot - gas.shining;
+    gas.extinction = clear.extinction + dark;
+    gas.color = (clear.extinction * clear.color + dark * SOOT_COLOR) / max(gas.extinction, 1e-20);
+    return gas;
+}
+
 fn optics_at(place: vec3f) -> Optics {
     let cube = cube_at(place);
     let look = table_color(interpolated(corners[cube.index], cube.inside));
     var gas = Optics(look.rgb, view.opacity * look.a, vec3f(0.0), 0.0);
     if EMISSION {
-        let hot = ramp_color(interpolated(glow[cube.index], cube.inside));
+        let hot = ramp_color(interpolated(glow[glow_place(cube.index)], cube.inside));
         gas.glow = hot.rgb;
         gas.shining = view.heat_opacity * hot.a;
     }
+    if has_soot() { return with_soot(gas, cube); }
     return gas;
 }

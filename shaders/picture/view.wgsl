@@ -128,3 +128,6 @@ fn domain_span(ray: Ray) -> vec2f {
     let high = max(a, b);
     return vec2f(max(max(low.x, max(low.y, low.z)), 0.0), min(high.x, min(high.y, high.z)));
 }
+
+// Where glow has a cube. With soot it has two entries of each: the second is the root of the optical depth of a cell over SOOT_DEPTH.
+fn glow_place(cube: u32) -> u32 { return select(cube, 2u * cube, view.soot > 0.0); }

@@ -99,7 +99,7 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Ga
     var gathered = before;
     if view.volume == 0u { return gathered; }
     // The light grid is read at its nearest cell, half a cell off at random: steps add up to the mean.
-    let light_start = in_light(ray.start) + 0.8 * (jitter - 0.5);
+    let light_start = in_light(ray.start) + select(0.8 * (jitter - 0.5), 0.0, has_soot());
     let light_step = in_light(ray.start + ray.direction) - in_light(ray.start);
     let clear = max(to_distance - CLEARANCE * view.spacing, from_distance);
     var s = from_distance + jitter * view.step;
@@ -109,7 +109,11 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Ga
         if s >= brick.end { brick = brick_at(ray, place, s); }
         var steps = 1.0;
         if brick.visible {
-            let lit = select(1.0, light_inside(light_start + s * light_step).y, view.shadows == 1u);
+            var lit = 1.0;
+            if view.shadows == 1u {
+                let at = light_start + s * light_step;
+                if has_soot() { lit = light_between(at); } else { lit = light_inside(at).y; }
+            }
             gathered = gas_light(gathered, place, lit);
         } else {
             // Steps are whole, so that leaping changes no sample.

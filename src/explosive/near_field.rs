@@ -135,8 +135,9 @@ pub struct Expansion {
 pub struct Profile {
     /// Outer radius of the last shell \[m\].
     pub radius: f64,
-    /// Density \[kg m^-3\], momentum outward \[kg m^-2 s^-1\], internal energy \[J m^-3\] of each shell.
-    pub shells: Vec<[f64; 3]>,
+    /// Density \[kg m^-3\], momentum outward \[kg m^-2 s^-1\], internal energy \[J m^-3\], density of products \[kg m^-3\] and their volume
+    /// fraction of each shell.
+    pub shells: Vec<[f64; 5]>,
 }
 
 impl Expansion {
@@ -283,14 +284,15 @@ impl Expansion {
     /// Means over `count` shells out to a radius \[m\].
     pub fn profile(&self, radius: f64, count: usize) -> Profile {
         let power = self.field.axes as i32;
-        let mut shells = vec![[0.0; 3]; count];
+        let mut shells = vec![[0.0; 5]; count];
         let thickness = radius / count as f64;
         let volume = |low: f64, high: f64| (high.powi(power) - low.powi(power)) / f64::from(power);
         for (index, zone) in self.zones.iter().enumerate() {
             let (low, high) = (self.nodes[index], self.nodes[index + 1].min(radius));
             let velocity = 0.5 * (self.velocities[index] + self.velocities[index + 1]);
             let density = zone.mass / zone.volume;
-            let state = [density, density * velocity, density * zone.energy];
+            let products = if index < CHARGE_ZONES { 1.0 } else { 0.0 };
+            let state = [density, density * velocity, density * zone.energy, density * products, products];
             let first = (low / thickness) as usize;
             for (shell, sums) in shells.iter_mut().enumerate().skip(first) {
                 let (inner, outer) = ((shell as f64 * thickness).max(low), ((shell + 1) as f64 * thickness).min(high));

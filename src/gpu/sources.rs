@@ -44,6 +44,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "numerics/scan.wgsl",
     "picture/area.wgsl",
     "picture/arrows.wgsl",
+    "picture/bricks.wgsl",
     "picture/color.wgsl",
     "picture/contour.wgsl",
     "picture/distance.wgsl",

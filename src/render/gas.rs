@@ -28,7 +28,7 @@ pub(super) struct Gas {
     ranges: Buffer<[f32; 2]>,
     /// Per cube between eight cell centres, their fractions of the range; empty in 2D.
     pub(super) corners: Buffer<[u32; 2]>,
-    /// The same cubes' places in the black-body ramp.
+    /// The same cubes' places in the black-body ramp; with soot, how much of it is there behind each.
     pub(super) glow: Buffer<[u32; 2]>,
     /// One word per brick of cubes: whether the ray march must enter it.
     pub(super) bricks: Buffer<u32>,
@@ -36,6 +36,7 @@ pub(super) struct Gas {
     find_range: Bound,
     pack_corners: Bound,
     pack_glow: Bound,
+    pack_soot: Bound,
     mark_bricks: Bound,
 }
 
@@ -52,7 +53,8 @@ impl Gas {
         let heat: Buffer<f32> = Buffer::new(gpu, "heat", grid.cell_count())?;
         let ranges: Buffer<[f32; 2]> = Buffer::new(gpu, "ranges", RANGE_GROUPS as usize)?;
         let corners: Buffer<[u32; 2]> = Buffer::new(gpu, "field corners", cube_count as usize)?;
-        let glow: Buffer<[u32; 2]> = Buffer::new(gpu, "heat corners", cube_count as usize)?;
+        let words = if sources.species.is_some() { 2 } else { 1 };
+        let glow: Buffer<[u32; 2]> = Buffer::new(gpu, "heat corners", words * cube_count as usize)?;
         let bricks: Buffer<u32> = Buffer::new(gpu, "bricks", brick_count)?;
 
         let shared = ("view", view.raw());
@@ -60,10 +62,11 @@ impl Gas {
         let (of_corners, of_glow) = (("corners", corners.raw()), ("glow", glow.raw()));
         let nothing: Buffer<[f32; 4]> = Buffer::new(gpu, "nothing owed or kept", 1)?;
         let owed = sources.owed.as_ref().unwrap_or(nothing.raw());
+        let species = ("species", sources.species.as_ref().map_or(&sources.energy, |(buffer, _)| buffer));
         let state = [
             ("conserved", &sources.conserved),
             ("energy", &sources.energy),
-            ("species", sources.species.as_ref().map_or(&sources.energy, |(buffer, _)| buffer)),
+            species,
             ("owed_flow", owed),
             ("maps", sources.maps.as_ref().unwrap_or(nothing.raw())),
             ("cells", &sources.cells),
@@ -75,7 +78,13 @@ impl Gas {
             find_range: bind("find_range", &[shared, of_field, ("ranges", ranges.raw())])?,
             pack_corners: bind("pack_corners", &[shared, of_field, of_corners])?,
             pack_glow: bind("pack_glow", &[shared, of_heat, of_glow])?,
-            mark_bricks: bind("mark_bricks", &[&bricks_and_tables[..], &[shared, of_corners, of_glow]].concat())?,
+            pack_soot: bind("pack_soot", &[shared, species, ("cells", &sources.cells), of_glow])?,
+            mark_bricks: self::bind(
+                gpu,
+                "picture/bricks.wgsl",
+                "mark_bricks",
+                &[&bricks_and_tables[..], &[shared, of_corners, of_glow]].concat(),
+            )?,
             cell_count: grid.cell_count() as u64,
             cube_count,
             view,
@@ -113,6 +122,9 @@ impl Gas {
             pass.dispatch(&self.pack_corners, &Extent::Threads(self.cube_count));
             if view.heat_opacity > 0.0 {
                 pass.dispatch(&self.pack_glow, &Extent::Threads(self.cube_count));
+            }
+            if view.soot > 0.0 {
+                pass.dispatch(&self.pack_soot, &Extent::Threads(self.cube_count));
             }
             pass.dispatch(&self.mark_bricks, &Extent::Threads(self.bricks.len() as u64));
         }

@@ -8,6 +8,8 @@ use crate::Result;
 use crate::gpu::{Bound, Constants, Gpu, Kernel};
 use crate::snapshot::kind;
 
+/// Optical depth of a cell at the largest packed value of soot; its square root is packed, for faint smoke has few values.
+const SOOT_DEPTH: f32 = 16.0;
 /// Cubes along each edge of a brick, the unit of empty space that the ray march leaps over.
 pub(super) const BRICK: u32 = 4;
 
@@ -41,7 +43,10 @@ pub fn constants() -> String {
     let _ = writeln!(text, "const KIND_GAS: u32 = {}u;\nconst KIND_SOLID: u32 = {}u;", kind::GAS, kind::SOLID);
     let _ = writeln!(text, "const KIND_WALL: u32 = {}u;", kind::WALL);
     let _ = writeln!(text, "const NO_VALUE: f32 = {NO_VALUE:e};\nconst SAMPLE_MARGIN: u32 = {SAMPLE_MARGIN}u;");
-    let _ = writeln!(text, "const COLOR_COUNT: u32 = {TABLE_LENGTH}u;\nconst BRICK: u32 = {BRICK}u;");
+    let _ = writeln!(
+        text,
+        "const COLOR_COUNT: u32 = {TABLE_LENGTH}u;\nconst BRICK: u32 = {BRICK}u;\nconst SOOT_DEPTH: f32 = {SOOT_DEPTH:?};"
+    );
     let _ = writeln!(text, "const LIGHT_CELLS: u32 = {LIGHT_CELLS}u;\nconst SHADOW_TEXELS: u32 = {SHADOW_TEXELS}u;");
     let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;\nconst BLOCK_CELLS: u32 = {BLOCK_CELLS}u;");
     let _ = writeln!(text, "const RANGE_GROUPS: u32 = {}u;", super::gas::RANGE_GROUPS);

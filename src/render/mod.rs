@@ -257,6 +257,9 @@ impl Renderer {
             view.heat_offset = (cold / (hot - cold)) as f32;
             view.heat_opacity = emission.optical_depth as f32 / longest(grid.extent());
         }
+        if self.sources.species.is_some() && grid.dimension == 3 && look.volume {
+            view.soot = look.soot.map_or(0.0, |soot| soot.extinction as f32);
+        }
         view
     }
 

@@ -97,6 +97,7 @@ struct Key {
     rays: [u32; 2],
     samples: [u32; 2],
     emission: bool,
+    soot: bool,
     slices: bool,
     smooth: bool,
     depth: Depth,
@@ -108,14 +109,15 @@ impl Key {
             rays: view.size,
             samples: [view.samples, view.supersampling],
             emission: view.heat_opacity > 0.0,
+            soot: view.soot > 0.0,
             slices: view.slice_count > 0,
             smooth: view.smooth_skin == 1,
             depth,
         }
     }
 
-    fn switches(&self) -> [(&'static str, bool); 3] {
-        [("EMISSION", self.emission), ("SLICES", self.slices), ("SMOOTH", self.smooth)]
+    fn switches(&self) -> [(&'static str, bool); 4] {
+        [("EMISSION", self.emission), ("SOOT", self.soot), ("SLICES", self.slices), ("SMOOTH", self.smooth)]
     }
 }
 

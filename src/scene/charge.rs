@@ -41,6 +41,13 @@ pub struct Charge {
     /// Whether its products burn on in the air, as long as the near field is computed apart.
     #[serde(default)]
     pub afterburn: bool,
+    /// Name of the second gas that its products are; without it they are the first gas.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<String>,
+    /// How uneven the ball of products is when it takes the place of the gas, as a share of its radius: real ones have jets, and an even one
+    /// grows lobes along the axes of the grid.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    pub roughness: f64,
     /// Radius up to which the near field is computed apart `[m]`; as far as nothing stands in its way, at most 8 cells or 1.6 m for a
     /// kilogram, when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -63,7 +70,17 @@ impl Charge {
     #[must_use]
     pub fn tnt(name: impl Into<String>, mass: f64, center: [f64; 3]) -> Self {
         let (name, explosive) = (name.into(), "tnt".to_owned());
-        Self { name, explosive, mass, center, time: 0.0, afterburn: false, near_field: None }
+        Self {
+            name,
+            explosive,
+            mass,
+            center,
+            time: 0.0,
+            afterburn: false,
+            species: None,
+            roughness: 0.0,
+            near_field: None,
+        }
     }
 
     /// What it is made of.
@@ -74,6 +91,14 @@ impl Charge {
 }
 
 impl Scene {
+    /// The charge of TNT that a click sets off: its products are those of the scene's charges, or the gas called `products`.
+    #[must_use]
+    pub fn clicked(&self, mass: f64, center: [f64; 3]) -> Charge {
+        let products = || self.gas.species.keys().find(|name| *name == "products").cloned();
+        let species = self.charges.iter().find_map(|own| own.species.clone()).or_else(products);
+        Charge { species, ..Charge::tnt("click", mass, center) }
+    }
+
     /// How a charge is put into the gas at the start; none if its explosive is unknown, or too little of it is gas.
     #[must_use]
     pub fn placed(&self, charge: &Charge) -> Option<Placed> {
@@ -107,8 +132,10 @@ impl Scene {
 
     /// The charge as a whole ball in the gas around it.
     pub(super) fn ball(&self, charge: &Charge, explosive: &'static Explosive) -> NearField {
-        let GasState { density, pressure, .. } = self.still_gas(charge.center, charge.center);
-        let (axes, gamma, afterburn) = (self.domain.axes(), self.gas.gamma, charge.afterburn);
+        let GasState { density, pressure, mass_fraction, .. } = self.still_gas(charge.center, charge.center);
+        let gases = self.gas.equation_of_state();
+        let (axes, afterburn) = (self.domain.axes(), charge.afterburn);
+        let gamma = gases.gamma_at(gases.volume_fraction(mass_fraction));
         NearField { explosive, mass: charge.mass, axes, density, pressure, gamma, afterburn }
     }
 

@@ -23,6 +23,7 @@ mod fracture;
 mod gauge;
 mod geometry;
 mod integrator;
+mod light;
 mod look;
 mod noise;
 mod numerics;
@@ -78,15 +79,16 @@ pub use geometry::cut::{CutCell, CutGeometry};
 pub use geometry::mesh::{Mesh, Up};
 pub use geometry::named::Named;
 pub use geometry::polyhedron::Part;
+pub(crate) use geometry::sample::random;
 pub use geometry::sample::{Overlap, Seed, ThinBody, ThinObstacle};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
+pub use light::{Emission, Light, Soot};
 pub use look::Look;
 pub use numerics::{Expert, Numerics, Obstacles, Pair, Paper, Preconditioner, Transfer};
 pub use radial_flow::RadialFlow;
 pub use region::Region;
 pub use render::{
-    Colormap, Contours, Emission, Field, Light, Overlays, ParticleColor, RenderMode, RenderSettings, Slice, Surface,
-    ToneMap,
+    Colormap, Contours, Field, Overlays, ParticleColor, RenderMode, RenderSettings, Slice, Surface, ToneMap,
 };
 pub use settings::{Output, Time};
 pub use shape::Shape;

@@ -1,5 +1,6 @@
 //! What pictures show and how: fields, camera, colours.
 
+use super::light::{Emission, Light, Soot};
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
@@ -120,6 +121,8 @@ pub struct RenderSettings {
     /// Light of hot gas; none when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub emission: Option<Emission>,
+    /// Second gas that absorbs light, in 3D.
+    pub soot: Option<Soot>,
     /// Light from outside.
     pub light: Light,
     /// From light to pixels, in 3D.
@@ -176,6 +179,7 @@ impl Default for RenderSettings {
             opacity: Vec::new(),
             optical_depth: None,
             emission: None,
+            soot: None,
             light: Light::default(),
             tone: ToneMap::default(),
             exposure: 1.0,
@@ -231,44 +235,6 @@ pub enum Colormap {
     Gray,
     /// Blue, white, red; for ranges with a middle.
     RedBlue,
-}
-
-/// Light of hot gas: a black body whose temperature is that of the gas, p / rho, in units of the ambient one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Emission {
-    /// Temperature of the ambient gas \[K\]: hotter gas shines by its ratio to this.
-    pub ambient_kelvin: f64,
-    /// Factor on the light.
-    pub strength: f64,
-    /// Optical depth of the whole domain filled with white-hot gas.
-    pub optical_depth: f64,
-}
-
-impl Default for Emission {
-    fn default() -> Self {
-        Emission { ambient_kelvin: 300.0, strength: 1.0, optical_depth: 20.0 }
-    }
-}
-
-/// Light from outside, in 3D.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Light {
-    /// Direction towards the light.
-    pub direction: [f64; 3],
-    /// Brightness of the light itself.
-    pub strength: f64,
-    /// Brightness of the sky around.
-    pub ambient: f64,
-    /// Gas, bodies, obstacles cast shadows.
-    pub shadows: bool,
-}
-
-impl Default for Light {
-    fn default() -> Self {
-        Light { direction: [-0.3, -0.55, 0.9], strength: 1.0, ambient: 0.35, shadows: true }
-    }
 }
 
 /// From light to pixels.

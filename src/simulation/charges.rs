@@ -8,7 +8,7 @@ use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
 use crate::explosive::Profile;
 use crate::gpu::readback;
-use crate::scene::{Charge, CutGeometry, Scene};
+use crate::scene::{Charge, Conserved, CutGeometry, Scene, random};
 use crate::snapshot::kind;
 use crate::state::Grid;
 use crate::state::cut::gas_shares;
@@ -43,6 +43,9 @@ pub(super) struct Due {
     /// When it takes the place of the gas \[s\].
     time: f64,
     charge: Charge,
+    /// Mass fraction and volume fraction of the second gas in products and around them.
+    fractions: [[f64; 2]; 2],
+    surface: Unevenness,
     /// Energy of the charge \[J\].
     energy: f64,
     profile: Profile,
@@ -67,7 +70,51 @@ fn near_field(scene: &Scene, charge: &Charge) -> Result<Due> {
     let burnt = placed.ball.afterburnt(expansion.time);
     let energy = charge.mass * (placed.ball.explosive.specific_energy() + burnt);
     let profile = expansion.profile(placed.reach, SHELLS);
-    Ok(Due { time: charge.time + expansion.time, charge: charge.clone(), energy, profile })
+    let around = scene.still_gas(charge.center, charge.center).mass_fraction;
+    let of = |share: f64| [share, scene.gas.equation_of_state().volume_fraction(share)];
+    let fractions = [of(if charge.species.is_some() { 1.0 } else { 0.0 }), of(around)];
+    Ok(Due {
+        time: charge.time + expansion.time,
+        charge: charge.clone(),
+        fractions,
+        surface: Unevenness::new(),
+        energy,
+        profile,
+    })
+}
+
+/// Waves over the directions around a charge, the same ones for all.
+#[derive(Clone, Debug)]
+struct Unevenness {
+    /// Wave vector of each, and its phase \[rad\].
+    waves: Vec<([f64; 3], f64)>,
+}
+
+/// Waves of an uneven ball, and their lengths: so many radians along a radius.
+const WAVES: usize = 48;
+const WAVE_NUMBERS: [f64; 2] = [4.0, 12.0];
+
+impl Unevenness {
+    fn new() -> Self {
+        let wave = |index: usize| {
+            let of = |part: usize| random(5 * index + part);
+            let vector: [f64; 3] = std::array::from_fn(of);
+            let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-9);
+            let number = WAVE_NUMBERS[0] + 0.5 * (1.0 + of(3)) * (WAVE_NUMBERS[1] - WAVE_NUMBERS[0]);
+            (vector.map(|x| number * x / length), std::f64::consts::PI * of(4))
+        };
+        Self { waves: (0..WAVES).map(wave).collect() }
+    }
+
+    /// Height in a direction, 1 in the quadratic mean and not above 3 in size.
+    fn height(&self, arm: [f64; 3], away: f64) -> f64 {
+        let part = |(vector, phase): &([f64; 3], f64)| {
+            let along = (0..3).map(|d| vector[d] * arm[d]).sum::<f64>() / away.max(f64::MIN_POSITIVE);
+            (along + phase).cos()
+        };
+        let sum: f64 = self.waves.iter().map(part).sum();
+        (sum * (2.0 / WAVES as f64).sqrt()).clamp(-3.0, 3.0)
+    }
 }
 
 /// The near field in a cell.
@@ -76,8 +123,8 @@ struct Mapped {
     slot: usize,
     /// Part of the cell within the near field.
     covered: f64,
-    /// Density, momentum and energy per volume, mean of that part.
-    state: [f64; 5],
+    /// What is conserved, mean of that part; in the place of the second gas, products.
+    state: Conserved,
 }
 
 impl Due {
@@ -85,7 +132,7 @@ impl Due {
     fn cells(&self, scene: &Scene, simulation: &Simulation, words: &[u32]) -> Vec<Mapped> {
         let domain = &scene.domain;
         let (axes, grid, spacing) = (domain.axes(), &simulation.state.grid, domain.spacing());
-        let (center, radius) = (self.charge.center, self.profile.radius);
+        let (center, radius) = (self.charge.center, self.profile.radius * (1.0 + 3.0 * self.charge.roughness));
         let range = |d: usize| {
             let cell = |x: f64| ((x - domain.origin[d]) / spacing).floor().clamp(0.0, f64::from(domain.cells[d] - 1));
             if d < axes { cell(center[d] - radius) as u32..cell(center[d] + radius) as u32 + 1 } else { 0..1 }
@@ -104,7 +151,8 @@ impl Due {
     fn mapped(&self, scene: &Scene, cell: [u32; 3], slot: usize) -> Option<Mapped> {
         let (axes, spacing) = (scene.domain.axes(), scene.domain.spacing());
         let middle = scene.domain.cell_center(cell);
-        let (mut sum, mut inside) = ([0.0; 5], 0.0);
+        let (mut sum, mut inside) = ([0.0; 7], 0.0);
+        let [[_, products], [_, around]] = self.fractions;
         let samples = SAMPLES[axes - 1];
         let count = samples.pow(axes as u32);
         for point in 0..count {
@@ -114,14 +162,17 @@ impl Due {
                 if d < axes { middle[d] + offset * spacing - self.charge.center[d] } else { 0.0 }
             });
             let away = arm.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let shell = (away / self.profile.radius * self.profile.shells.len() as f64 + EDGE) as usize;
-            let Some(&[density, outward, internal]) = self.profile.shells.get(shell) else { continue };
+            let even = away / (1.0 + self.charge.roughness * self.surface.height(arm, away));
+            let shell = (even / self.profile.radius * self.profile.shells.len() as f64 + EDGE) as usize;
+            let Some(&[density, outward, internal, part, volume]) = self.profile.shells.get(shell) else { continue };
             inside += 1.0;
             sum[0] += density;
             for d in 0..3 {
                 sum[d + 1] += outward * arm[d] / away.max(f64::MIN_POSITIVE);
             }
             sum[4] += internal + 0.5 * outward * outward / density;
+            sum[5] += part;
+            sum[6] += volume * products + (1.0 - volume) * around;
         }
         (inside > 0.0).then(|| Mapped { slot, covered: inside / count as f64, state: sum.map(|part| part / inside) })
     }
@@ -171,6 +222,8 @@ impl Simulation {
         let mut flow = readback::read(gpu, &self.state.gas.conserved)?;
         let mut energy = readback::read_range(gpu, &self.state.gas.energy, 0, self.state.grid.slots())?;
         let words = readback::read(gpu, &self.state.interface.cells)?;
+        let slots = self.state.grid.slots();
+        let mut species = self.state.gas.read_species(gpu, slots)?;
         let geometry = scene.cut_geometry();
         let shares = gas_shares(&self.state.grid, &geometry);
         let volume = scene.domain.cell_volume();
@@ -180,17 +233,20 @@ impl Simulation {
             cells.iter().map(|cell| volume * shares[cell.slot] * cell.covered * value(cell)).sum::<f64>()
         };
         let old = [sum(&|cell| f64::from(flow[cell.slot][0])), sum(&|cell| f64::from(energy[cell.slot]))];
-        let new = [sum(&|cell| cell.state[0]), sum(&|cell| cell.state[4])];
-        if new[0] <= 0.0 {
+        let new = [sum(&|cell| cell.state[5]), sum(&|cell| cell.state[0] - cell.state[5]), sum(&|cell| cell.state[4])];
+        if new[0] <= 0.0 || new[1] <= 0.0 {
             let text =
                 format!("charge `{}` goes off where there is no gas; move it, or set it off earlier", due.charge.name);
             return Err(Error::Usage(text));
         }
-        let (denser, hotter) = ((due.charge.mass + old[0]) / new[0], (due.energy + old[1]) / new[1]);
+        // of the products is there what the charge had, of the gas around what was there
+        let [products, around, hotter] = [due.charge.mass / new[0], old[0] / new[1], (due.energy + old[1]) / new[2]];
         let mut gained = [0.0; 5];
         for cell in &cells {
             let before = flow[cell.slot].map(f64::from);
             let left = 1.0 - cell.covered;
+            let own = [products * cell.state[5], around * (cell.state[0] - cell.state[5])];
+            let denser = (own[0] + own[1]) / cell.state[0];
             let after: [f64; 4] = std::array::from_fn(|k| left * before[k] + cell.covered * denser * cell.state[k]);
             let heat = left * f64::from(energy[cell.slot]) + cell.covered * hotter * cell.state[4];
             let room = volume * shares[cell.slot];
@@ -200,9 +256,17 @@ impl Simulation {
             }
             gained[4] += room * (f64::from(heat as f32) - f64::from(energy[cell.slot]));
             energy[cell.slot] = heat as f32;
+            if !species.is_empty() {
+                let part = own[0] * due.fractions[0][0] + own[1] * due.fractions[1][0];
+                let parts = [(cell.slot, part), (slots + cell.slot, cell.state[6])];
+                for (place, part) in parts {
+                    species[place] = (left * f64::from(species[place]) + cell.covered * part) as f32;
+                }
+            }
         }
         self.state.gas.conserved.write(gpu, 0, &flow);
         self.state.gas.energy.write(gpu, 0, &energy);
+        self.state.gas.write_species(gpu, slots, &species);
         self.book(gained);
         self.gpu.check()
     }

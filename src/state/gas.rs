@@ -57,6 +57,13 @@ impl GasState {
         }
         readback::read_range(gpu, &self.energy, arrays::SPECIES_DENSITY * slots, 2 * slots)
     }
+
+    /// Puts back what [`GasState::read_species`] has read.
+    pub fn write_species(&self, gpu: &Gpu, slots: usize, species: &[f32]) {
+        if !species.is_empty() {
+            self.energy.write(gpu, arrays::SPECIES_DENSITY * slots, species);
+        }
+    }
 }
 
 /// Whether only the ring has a ledger: without bodies and obstacles nothing else collects gas.

@@ -11,7 +11,7 @@ use crate::expect::{self, Budget, Ending, Summary, Warning};
 use crate::export::states;
 use crate::gpu::{Detail, Gpu};
 use crate::render::{Picture, Renderer, SceneBuffers, Stored};
-use crate::scene::{Camera, Charge, Field, RenderSettings, Scene};
+use crate::scene::{Camera, Field, RenderSettings, Scene};
 use crate::simulation::{Blast, Saved, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -342,7 +342,7 @@ impl Session {
         let before = records.len();
         let energy = match strike.source {
             Source::Energy(energy, radius) => self.simulation.detonate(&Blast { center, radius, energy }, records)?,
-            Source::Tnt(mass) => self.simulation.set_off(&Charge::tnt("click", mass, center), records)?,
+            Source::Tnt(mass) => self.simulation.set_off(&self.scene.clicked(mass, center), records)?,
         };
         self.summary.add(&records[before..]);
         Ok((center, energy))

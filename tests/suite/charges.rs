@@ -51,6 +51,27 @@ fn mass_and_energy_grow_by_those_of_the_charge() {
 }
 
 #[test]
+fn products_are_a_second_gas_where_the_charge_says_so() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for dimension in 1..=3 {
+        let text = toml::to_string(&scene(dimension, "")).unwrap();
+        let set = ["gas.species.products.gamma=1.3".to_owned(), "charges[0].species=\"products\"".to_owned()];
+        let scene = Scene::parse(&text, "charge.toml", &set[..]).unwrap_or_else(|error| panic!("{error}"));
+        let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+        let records = simulation.advance_to(2e-3).unwrap();
+        let held = records.last().unwrap().species_mass;
+        // 1e-5: the sum of single precision
+        assert!((f64::from(held[0] + held[1]) / 0.5 - 1.0).abs() < 1e-5, "{dimension}: {held:?}");
+        let snapshot = simulation.snapshot().unwrap();
+        let middle = snapshot.cell_at([1.2; 3]).unwrap();
+        assert!(snapshot.mass_fraction_at(middle) > 0.9, "{dimension}: {:?}", snapshot.species[middle]);
+        let far = snapshot.cell_at([0.05; 3]).unwrap();
+        assert!(snapshot.mass_fraction_at(far).abs() < 1e-4, "{dimension}: {:?}", snapshot.species[far]);
+        assert!((simulation.blasts() / (0.5 * TNT) - 1.0).abs() < 1e-6, "{dimension}: {}", simulation.blasts());
+    }
+}
+
+#[test]
 fn a_saved_state_knows_which_charges_have_gone_off() {
     let Some(gpu) = gpu_or_skip() else { return };
     let second = "[[charges]]\nname = \"d\"\nexplosive = \"c4\"\nmass = 0.1\ncenter = [0.6, 0.6]\ntime = 1e-3\n";
@@ -83,6 +104,7 @@ fn what_is_no_charge_is_refused() {
         ("charges[0].mass=-1.0", "out of range"),
         ("charges[0].mass=1e6", "all of the domain would be products"),
         ("charges[0].time=-1.0", "give a time from 0 on"),
+        ("charges[0].species=\"products\"", "add a table [gas.species.products]"),
         ("charges[0].center=[5.0, 1.0]", "lies outside the domain"),
         ("charges[0].center=[2.3, 1.2]", "nearer to an open or periodic side"),
         ("charges[0].center=[0.4, 0.4]", "lies inside obstacle `box`"),

@@ -129,6 +129,26 @@ fn hot_gas_shines_and_transparent_gas_is_not_there() {
     assert_eq!(cold.frame, nothing.frame, "cold gas does not shine");
 }
 
+#[test]
+fn soot_is_dark_casts_a_shadow_and_shines_where_it_is_hot() {
+    let seen = "gas.species.smoke = { gamma = 1.4 }\nrender.camera = { eye = [0.5, 0.5, 4], target = [0.5, 0.5, 0], up = [0, 1, 0], height = 1.4 }\n\
+                render.ground = true\nrender.particles = false\nrender.overlays = { color_bar = false }\n\
+                render.light = { direction = [-1, 0, 1] }\nrender.opacity = [[0, 0], [1, 0]]\n";
+    let [clear, smoke, hot] = [
+        "",
+        "render.soot = { extinction = 20 }",
+        "render.soot = { extinction = 20 }\nrender.emission = { ambient_kelvin = 1200 }",
+    ]
+    .map(|more| draw(3, Field::Density, &format!("{seen}{more}")));
+    // the blob is seen from above; its shadow on the floor lies half a length to the right of it
+    let places = [(66..80, 44..58), (100..120, 44..58)];
+    let [[blob, floor], [dark, shaded], [bright, _]] =
+        [&clear, &smoke, &hot].map(|picture| places.clone().map(|(columns, rows)| mean(picture, columns, rows)));
+    assert!(dark < 0.95 * blob, "{blob} without smoke, {dark} with it");
+    assert!(shaded < 0.5 * floor, "shadow: {shaded} of {floor}");
+    assert!(bright > dark + 60.0, "{dark} cold, {bright} hot");
+}
+
 /// Brightness of the floor below the shell, seen from above, where only hot gas shines: behind the shell and below its gap.
 fn floor_in_glow(shadows: bool) -> [f64; 2] {
     let light = format!("render.light = {{ strength = 0, ambient = 0, shadows = {shadows} }}\n");

@@ -14,6 +14,8 @@ pub(crate) struct State {
     pub(crate) grid: Grid,
     pub(crate) conserved: Buffer<[f32; 4]>,
     pub(crate) energy: Buffer<f32>,
+    /// Of scenes with a second gas: all of the blob is of it.
+    species: Option<Buffer<f32>>,
     pub(crate) cells: Buffer<u32>,
     particles: u32,
     position: Buffer<[f32; 4]>,
@@ -46,6 +48,7 @@ impl State {
         let ring: [i32; 3] = grid.padding().map(|n| n as i32);
         let (mut conserved, mut energy, mut cells) =
             (vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()], vec![2.5; grid.slots()], vec![2_u32; grid.slots()]);
+        let mut species = vec![0.0; 2 * grid.slots()];
         for (slot, cell) in every_cell(&grid, ring) {
             let inside = (0..3).all(|axis| cell[axis] >= 0 && cell[axis] < grid.cells[axis] as i32);
             let centre = grid.centre(cell);
@@ -58,6 +61,9 @@ impl State {
             let velocity = [speed, 0.5 * speed * centre[2], -0.5 * speed * centre[1]];
             let [u, v, w] = velocity.map(|v| density * v);
             conserved[slot] = [density, u, v, w];
+            if r < 0.2 {
+                (species[slot], species[grid.slots() + slot]) = (density, 1.0);
+            }
             energy[slot] = 2.5 * density.powf(1.4) + 0.5 * (u * u + v * v + w * w) / density;
         }
         let points = shell(&grid);
@@ -72,6 +78,7 @@ impl State {
             grid,
             conserved: four(conserved, "conserved"),
             energy: Buffer::from_slice(gpu, "energy", &energy).unwrap(),
+            species: (!scene.gas.species.is_empty()).then(|| Buffer::from_slice(gpu, "species", &species).unwrap()),
             cells: Buffer::from_slice(gpu, "cells", &cells).unwrap(),
             particles: points.len() as u32,
             position: four(points.iter().map(|&[x, y, z]| [x, y, z, 1.0]).collect(), "position"),
@@ -90,7 +97,7 @@ impl State {
             grid: self.grid,
             conserved: self.conserved.raw(),
             energy: self.energy.raw(),
-            species: None,
+            species: self.species.as_ref().map(|own| (own.raw(), 0)),
             owed: None,
             maps: None,
             cells: self.cells.raw(),

@@ -7,6 +7,8 @@ use crate::spelling::did_you_mean;
 
 /// Charges of a scene at most.
 const MOST_CHARGES: usize = 100;
+/// Share of its radius by which a ball is uneven at most.
+const MOST_ROUGHNESS: f64 = 0.3;
 /// Masses \[kg\] that are taken for masses.
 const MASSES: [f64; 2] = [1e-9, 1e9];
 
@@ -45,6 +47,17 @@ impl Check<'_> {
         }
         if !(charge.time >= 0.0 && charge.time.is_finite()) {
             self.out_of_range(format!("{path}.time"), charge.time, "give a time from 0 on [s]");
+        }
+        if let Some(name) = charge.species.as_ref().filter(|name| !self.scene.gas.species.contains_key(*name)) {
+            let help = match self.scene.gas.species.keys().next() {
+                Some(own) => format!("give \"{own}\", or leave it out"),
+                None => format!("add a table [gas.species.{name}] with gamma; products of TNT have 1.3"),
+            };
+            self.wrong_value(format!("{path}.species"), format!("there is no gas `{name}`"), help);
+        }
+        if !(0.0..=MOST_ROUGHNESS).contains(&charge.roughness) {
+            let help = format!("give a share of the radius from 0 to {MOST_ROUGHNESS}");
+            self.out_of_range(format!("{path}.roughness"), charge.roughness, help);
         }
         if let Some(reach) = charge.near_field {
             self.positive(format!("{path}.near_field"), reach, "[m]");

@@ -77,6 +77,16 @@ impl Check<'_> {
         if let Some(depth) = render.optical_depth {
             self.positive(key("optical_depth"), depth, "");
         }
+        if let Some(soot) = render.soot {
+            self.positive(key("soot.extinction"), soot.extinction, "[m^2 kg^-1]");
+            if self.scene.gas.species.is_empty() {
+                self.add(
+                    key("soot"),
+                    "there is no second gas",
+                    "add a table such as [gas.species.products] with gamma",
+                );
+            }
+        }
         if let Some(emission) = render.emission {
             self.positive(key("emission.ambient_kelvin"), emission.ambient_kelvin, "[K]");
             self.not_negative(key("emission.strength"), emission.strength);
