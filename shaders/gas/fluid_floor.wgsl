@@ -52,8 +52,9 @@ fn borrow(number: u32, value: f32) {
 }
 
 // What a gas cell has lost.
-fn ledger_loss(slot: u32, momentum: vec3f, heat: f32) {
+fn ledger_loss(slot: u32, phi: f32, momentum: vec3f, heat: f32) {
     if !RING_LEDGER {
+        if SPECIES { owed_energy[ledger_part(OWED_SPECIES_ENERGY) + slot] += energy_share_of(phi) * heat; }
         owed_flow[slot] += vec4f(0.0, momentum);
         owed_energy[slot] += heat;
         return;
@@ -86,7 +87,7 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     let counted = select(1.0, ARS_RETURNED, ARS && control.stage == 0u) * cell_volume() * gas_share(slot);
     atomicAdd(&control.floored, 1u);
     let left = flow.yzw * select(0.0, sqrt((total - least) / kinetic), total > least);
-    ledger_loss(slot, (flow.yzw - left) * counted, min(total - least, 0.0) * counted);
+    ledger_loss(slot, phi, (flow.yzw - left) * counted, min(total - least, 0.0) * counted);
     energy[slot] = max(total, least);
     conserved[slot] = vec4f(flow.x, left);
 }

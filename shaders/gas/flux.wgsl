@@ -22,8 +22,13 @@ fn shock_spread() -> f32 { return select(0.6, 1.2, QUADRATIC && CONSISTENT); }
 //   spread   least speed of the dissipation
 struct Stencil { a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas, even: f32, level: f32, spread: f32 }
 
-// Of four cells, where others beyond them are no gas. Of two gases a contact must keep its pressure there, too.
-fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil { return Stencil(b, b, c, d, e, e, 0.0, select(0.0, 1.0, SPECIES), 0.0); }
+// Of four cells, where others beyond them are no gas. Where two gases meet, their contact must keep its pressure there, too.
+fn narrow(b: Gas, c: Gas, d: Gas, e: Gas) -> Stencil {
+    let phi = vec4f(b.species.y, c.species.y, d.species.y, e.species.y);
+    let most = max(max(phi.x, phi.y), max(phi.z, phi.w));
+    let least = min(min(phi.x, phi.y), min(phi.z, phi.w));
+    return Stencil(b, b, c, d, e, e, 0.0, select(0.0, 1.0, SPECIES && most - least > PURE), 0.0);
+}
 
 fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
     let sound = sound_between(c, d);
@@ -266,10 +271,10 @@ fn reflected(n: u32, f: Fluxes) -> Fluxes {
     return Fluxes(Gas(normal * f.high_order.flow, 0.0, vec2f(0.0)), Gas(normal * f.first_order.flow, 0.0, vec2f(0.0)), 0.0, 0.0, 0.0);
 }
 
-// What collects gas gets the pressure times the volume of the second one, of which there is a sum [interface/ledger.wgsl].
-fn with_owed(f: Fluxes, pressure: f32) -> Fluxes {
+// What collects gas gets the energy of the second one, of which there is a sum [interface/ledger.wgsl]: a share of that which passes.
+fn with_owed(f: Fluxes, share: f32) -> Fluxes {
     var out = f;
-    out.high_order.species.y *= pressure;
-    out.first_order.species.y *= pressure;
+    out.high_order.species.y = share * f.high_order.energy;
+    out.first_order.species.y = share * f.first_order.energy;
     return out;
 }

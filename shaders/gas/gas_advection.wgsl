@@ -72,7 +72,7 @@ fn add_faces(change: ptr<function, Change>, slot: u32, limited: bool, gives: boo
             var share = 1.0;
             if limited { share = min(theta[slot], theta[slot_of(other)]); }
             var f = face_fluxes(slot, c, n, up, r);
-            if SPECIES && !is_gas { f = with_owed(f, pressure_of(chosen(r.d.gas, r.c.gas, up))); }
+            if SPECIES && !is_gas { f = with_owed(f, energy_share_of(chosen(r.d.gas, r.c.gas, up).species.y)); }
             let sign = select(1.0, -1.0, up) * aperture(select(slot_of(other), slot, is_gas), n, up == is_gas);
             add_face(&along, f, share, sign);
             if is_gas && gives && !inside(other) { give(slot_of(other), with_owed(f, 0.0), share, -sign); }

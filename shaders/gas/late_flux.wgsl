@@ -18,7 +18,7 @@ fn late_flux(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     let c = cell_of(slot);
     var flow = vec4f(0.0);
     var heat = 0.0;
-    var species = vec2f(0.0);   // density, and pressure times volume fraction
+    var species = vec2f(0.0);   // density and energy of the second gas
     for (var face = 0u; face < 2u * DIM; face++) {
         let n = face / 2u;
         let up = (face & 1u) == 1u;
@@ -29,7 +29,7 @@ fn late_flux(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
         heat += share * energy[slot_of(other)];
         if SPECIES {
             let there = gas_at(slot_of(other));
-            species += share * vec2f(1.0, pressure_of(there)) * there.species;
+            species += share * vec2f(there.species.x, energy_share_of(there.species.y) * there.energy);
         }
     }
     conserved[slot] += flow;

@@ -39,6 +39,12 @@ const ENCLOSED = Bounds(0.25, 0.1);
 
 struct Sum { flow: vec4f, energy: f32, species: vec2f, count: f32 }
 
+// What a SOLID slot holds of the second gas. One that has just been covered has the volume fraction of its gas still.
+fn covered_species(slot: u32) -> vec2f {
+    if SPECIES && previous_kind_of(cells[slot]) == GAS { return summed_species(gas_at(slot)); }
+    return species_now(slot);
+}
+
 fn add_if_old_gas(sum: ptr<function, Sum>, c: vec3i) {
     if !inside(c) { return; }
     let slot = slot_of(c);
@@ -189,7 +195,7 @@ fn handed_by_gas(slot: u32, c: vec3i) -> Handed {
 fn handed_by_solid(slot: u32, c: vec3i) -> Handed {
     let flow = conserved[slot] * cell_volume() + owed_flow[slot];
     let heat = energy[slot] * cell_volume() + owed_energy[slot];
-    let species = species_now(slot) * cell_volume() + owed_species(slot);
+    let species = covered_species(slot) * cell_volume() + owed_species(slot);
     let gas = neighbours_of_kind(c, GAS);
     if gas > 0u {
         let part = 1.0 - HELD_AT_SURFACE * density_beside(slot) * cell_volume() / max(abs(flow.x), 1e-30);
@@ -216,7 +222,7 @@ fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     energy[part(HANDED_ENERGY, slot)] = out.energy;
     if SPECIES {
         energy[part(HANDED_SPECIES_MASS, slot)] = out.species.x;
-        energy[part(HANDED_SPECIES_WORK, slot)] = out.species.y;
+        energy[part(HANDED_SPECIES_ENERGY, slot)] = out.species.y;
     }
     if kind == SOLID { energy[part(RECEIVERS, slot)] = out.receivers; }
 }
@@ -237,7 +243,7 @@ fn incoming(slot: u32, kind: u32) -> Sum {
             if !takes { continue; }
             sum.flow += work[part(HANDED_FLOW, other)];
             sum.energy += energy[part(HANDED_ENERGY, other)];
-            sum.species += species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_WORK, other);
+            sum.species += species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_ENERGY, other);
         }
     }
     return sum;
@@ -266,7 +272,7 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     if kind == SOLID {
         flow += conserved[slot] * cell_volume();
         heat += energy[slot] * cell_volume();
-        species += species_now(slot) * cell_volume();
+        species += covered_species(slot) * cell_volume();
     }
     let handed_on = any(work[part(HANDED_FLOW, slot)] != vec4f(0.0)) || energy[part(HANDED_ENERGY, slot)] != 0.0;
     for (var turn = 0u; turn < when(handed_on); turn++) {
@@ -274,7 +280,7 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         let count = f32(neighbours_of_kind(c, GAS));
         flow = select(vec4f(0.0), flow - count * work[part(HANDED_FLOW, slot)], keeps);
         heat = select(0.0, heat - count * energy[part(HANDED_ENERGY, slot)], keeps);
-        species = select(vec2f(0.0), species - count * species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_WORK, slot), keeps);
+        species = select(vec2f(0.0), species - count * species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_ENERGY, slot), keeps);
     }
     let more = incoming(slot, kind);
     flow += more.flow;

@@ -1,5 +1,5 @@
-// The second gas among what is owed: amounts that add up. These are its mass, and the pressure times its volume: from that and the internal
-// energy follow pressure and volume fraction of what parts become together, so that a debt of the same pressure changes none.
+// The second gas among what is owed: amounts that add up. These are its mass, and its share of the energy: from both follows the volume
+// fraction of what parts become together. Owed gas of the same pressure changes none, and where fractions are even they stay so.
 // Needs the bindings energy and owed_energy, and gas_at.
 
 // How far the mass of one of two gases may fall below 0 when a debt is settled, over that of both.
@@ -7,13 +7,13 @@ const DEBT_SLACK = 1e-6;
 
 fn owed_species(slot: u32) -> vec2f {
     if !SPECIES { return vec2f(0.0); }
-    return vec2f(owed_energy[part(OWED_SPECIES_MASS, slot)], owed_energy[part(OWED_SPECIES_WORK, slot)]);
+    return vec2f(owed_energy[part(OWED_SPECIES_MASS, slot)], owed_energy[part(OWED_SPECIES_ENERGY, slot)]);
 }
 
 fn owe_species(slot: u32, species: vec2f) {
     if !SPECIES { return; }
     owed_energy[part(OWED_SPECIES_MASS, slot)] = species.x;
-    owed_energy[part(OWED_SPECIES_WORK, slot)] = species.y;
+    owed_energy[part(OWED_SPECIES_ENERGY, slot)] = species.y;
 }
 
 fn hold_species(slot: u32, species: vec2f) {
@@ -22,19 +22,18 @@ fn hold_species(slot: u32, species: vec2f) {
     energy[part(SPECIES_VOLUME, slot)] = species.y;
 }
 
-// Density, and pressure times volume fraction, of a GAS cell.
+// Density and energy of the second gas in a GAS cell.
 fn summed_species(gas: Gas) -> vec2f {
     if !SPECIES { return vec2f(0.0); }
-    return gas.species * vec2f(1.0, pressure_of(gas));
+    return vec2f(gas.species.x, energy_share_of(gas.species.y) * gas.energy);
 }
 
 // Gas of a density, momentum, energy and sums of the second gas.
 fn gas_of_sums(flow: vec4f, total: f32, sums: vec2f) -> Gas {
     if !SPECIES { return Gas(flow, total, vec2f(0.0)); }
-    let heat = internal_energy(Gas(flow, total, vec2f(0.0)));
-    let first = 1.0 / (params.gamma - 1.0);
-    let pressure = (heat - sums.y * (1.0 / (params.species_gamma - 1.0) - first)) / first;
-    return Gas(flow, total, vec2f(sums.x, clamp(sums.y / max(pressure, 1e-30), 0.0, 1.0)));
+    let share = clamp(sums.y / max(total, 1e-30), 0.0, 1.0);
+    let volumes = vec2f(share * (params.species_gamma - 1.0), (1.0 - share) * (params.gamma - 1.0));
+    return Gas(flow, total, vec2f(sums.x, volumes.x / (volumes.x + volumes.y)));
 }
 
 // Least p / rho^gamma of gas that a debt may leave.

@@ -168,11 +168,11 @@ const KEPT_ENERGY = 4u; // energy: what the first solve started from [J m^-3]
 const START_HEAT = 5u; // energy: internal energy at the start of the step [J m^-3]
 const COLD_ENERGY = 6u; // energy: what the next solve starts from, without the part that it carries [J m^-3]
 const SPECIES_DENSITY = 7u; // energy: density of the second gas, with the slots of conserved [kg m^-3]
-const SPECIES_VOLUME = 8u; // energy: its volume fraction; in bodies that times the pressure [1, Pa]
+const SPECIES_VOLUME = 8u; // energy: its volume fraction; in bodies its share of the energy [1, J m^-3]
 const HANDED_SPECIES_MASS = 9u; // energy: mass of the second gas that the ledger hands on to each receiver [kg]
 const HALFWAY_SPECIES_DENSITY = 9u; // energy: halfway through the advection [kg m^-3]
 const FILTER_SPECIES_DENSITY = 9u; // energy: what the filter changes [kg m^-3]
-const HANDED_SPECIES_WORK = 10u; // energy: its pressure times volume [J]
+const HANDED_SPECIES_ENERGY = 10u; // energy: its share of the energy [J]
 const HALFWAY_SPECIES_VOLUME = 10u; // energy: halfway through the advection [1]
 const FILTER_SPECIES_VOLUME = 10u; // energy: what the filter changes [1]
 const ADVECTED_SPECIES_DENSITY = 11u; // energy: of the advected state [kg m^-3]
@@ -198,7 +198,7 @@ const ELASTIC_ACCELERATION = 0u; // elastic: of nodes at the start of the step [
 const START_VELOCITY = 1u; // elastic: velocity and mass of nodes at the start of the step [m s^-1, kg]
 const PASSED_ON = 1u; // elastic: velocity that nodes which have grown lighter pass on [m s^-1]
 const OWED_SPECIES_MASS = 1u; // owed_energy: the same of the second gas [kg]
-const OWED_SPECIES_WORK = 2u; // owed_energy: its pressure times volume [J]
+const OWED_SPECIES_ENERGY = 2u; // owed_energy: its share of the energy [J]
 const LISTED_SLOTS = 1u; // extra: slots that are not deep inside the gas; from the end the frontier, the slots whose nodes they need
 const LENGTHS = 2u; // extra: lengths of both lists: LENGTH_LISTED, LENGTH_FRONTIER
 const APART = 1u; // vectors: h, then Q of vertices that carry them apart; then what each vertex asks of the gas around it [Pa]
@@ -237,7 +237,6 @@ fn kinetic_energy(flow: vec4f) -> f32 { return 0.5 * dot(flow.yzw, flow.yzw) / f
 fn internal_energy(gas: Gas) -> f32 { return gas.energy - kinetic_energy(gas.flow); }
 // Where one gas has less than this share of the volume, the other counts as pure.
 const PURE = 1e-3;
-
 // gamma - 1 at a volume fraction: its inverse is linear in it, so the pressure at a contact stays as it is. [Abgrall 1996; Shyue 1998]
 fn grueneisen_of(phi: f32) -> f32 {
     if !SPECIES { return params.gamma - 1.0; }
@@ -247,6 +246,8 @@ fn gamma_of(phi: f32) -> f32 {
     if !SPECIES { return params.gamma; }
     return 1.0 + grueneisen_of(phi);
 }
+// Share of the second gas in the internal energy, at a volume fraction, and back.
+fn energy_share_of(phi: f32) -> f32 { return phi * grueneisen_of(phi) / (params.species_gamma - 1.0); }
 fn pressure_of(gas: Gas) -> f32 { return grueneisen_of(gas.species.y) * internal_energy(gas); }
 fn sound_speed(gamma: f32, density: f32, pressure: f32) -> f32 { return sqrt(gamma * max(pressure, 0.0) / density); }
 fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32, species: vec2f) -> Gas {

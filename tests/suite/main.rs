@@ -56,6 +56,7 @@ mod scenes;
 mod shaders;
 mod skin;
 mod solids;
+mod species;
 mod still;
 mod stream;
 mod supports;
