@@ -1,7 +1,7 @@
 // interface, the ledger: what happens to the gas of cells that a body covers or uncovers.
 // A SOLID slot of the gas state keeps the gas of the cell it covers plus all fluxes through its faces: owed gas, not pressurised.
 // `owed` is what a GAS cell still owes (negative: it was filled with more than it holds). Gas plus owed gas is conserved.
-// A GAS cell settles a debt that it can stand, so much per step that its state changes little, and passes the rest on to its gas
+// A GAS cell settles what it owes if it can stand that, so much per step that its state changes little, and passes the rest on to its gas
 // neighbours. A SOLID cell at the surface holds as much as it covered, and gives it off through its faces while the body goes on to the
 // next cell; what is beyond goes to its gas neighbours. A buried one passes all that it has back to the surface, if that is next to it,
 // or to all its neighbours: through the body gas would leak to its lee.
@@ -21,15 +21,15 @@
 // Largest relative change of density and internal energy that a cell settles in one step.
 const SETTLED_PER_STEP = 0.1;
 
-// Share of its entropy p / rho^gamma that a cell keeps when it settles a debt, once it is colder than all gas of the start.
+// Share of its entropy p / rho^gamma that a cell keeps when it settles what it owes, once it is colder than all gas of the start.
 const KEPT_ENTROPY = 0.9999;
 
 // What a SOLID cell at the surface holds at most, in gas of the density beside it.
 const HELD_AT_SURFACE = 1.1;
 
-// Debts of either sign meet on their way, and what is left of their mass, momentum and energy need not belong together. `left` is the
-// share of density and internal energy that a cell must keep were all of its debt settled. It may be negative: the debt may exceed what
-// the cell holds, for the rest goes on to its neighbours before it is due. (Below a density of zero the energy of a debt bounds nothing.)
+// Owed gas of either sign meets on its way, and what is left of their mass, momentum and energy need not belong together. `left` is the
+// share of density and internal energy that a cell must keep were all settled. It may be negative: what is owed may exceed what
+// the cell holds, for the rest goes on to its neighbours before it is due. (Below a density of zero its energy bounds nothing.)
 // `speed` is the largest change of velocity per step, in speeds of sound.
 struct Bounds { left: f32, speed: f32 }
 const IN_THE_OPEN = Bounds(-0.5, 0.3);
@@ -123,7 +123,7 @@ fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
     return count;
 }
 
-// Gas with a part of a debt.
+// Gas with a part of what is owed.
 fn with_part(gas: Gas, slot: u32, part: f32) -> Gas {
     let each = part / cell_volume();
     return gas_of_sums(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot], summed_species(gas) + each * owed_species(slot));
@@ -154,7 +154,7 @@ fn density_beside(slot: u32) -> f32 {
     return sum.y / max(sum.x, 1.0);
 }
 
-// Part of its debt that a gas cell with so many gas neighbours settles now.
+// Part of what it owes that a gas cell with so many gas neighbours settles now.
 fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     let gas = Gas(conserved[slot], energy[slot], species_now(slot));
     let before = internal_energy(gas);
@@ -162,7 +162,7 @@ fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     var bounds = ENCLOSED;
     if gas_neighbours + 1u >= 2u * DIM { bounds = IN_THE_OPEN; }
     if all.flow.x < bounds.left * gas.flow.x || internal_energy(all) < bounds.left * before { return 0.0; }
-    // No debt takes the entropy below what the floor keeps, nor further down where it is there: the floor would give it back.
+    // Settling takes the entropy not below what the floor keeps, nor further down where it is there: the floor would give it back.
     let gamma = gamma_of(gas.species.y);
     let coldest = min(KEPT_ENTROPY * pressure_of(gas) / pow(gas.flow.x, gamma), least_entropy_of(gas.species.y));
     let kick = bounds.speed * bounds.speed * gamma * grueneisen_of(gas.species.y) * before / gas.flow.x;

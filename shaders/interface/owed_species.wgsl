@@ -2,8 +2,8 @@
 // fraction of what parts become together. Owed gas of the same pressure changes none, and where fractions are even they stay so.
 // Needs the bindings energy and owed_energy, and gas_at.
 
-// How far the mass of one of two gases may fall below 0 when a debt is settled, over that of both.
-const DEBT_SLACK = 1e-6;
+// How far the mass of one of two gases may fall below 0 when a cell settles what it owes, over that of both.
+const SETTLED_SLACK = 1e-6;
 
 fn owed_species(slot: u32) -> vec2f {
     if !SPECIES { return vec2f(0.0); }
@@ -36,14 +36,14 @@ fn gas_of_sums(flow: vec4f, total: f32, sums: vec2f) -> Gas {
     return Gas(flow, total, vec2f(sums.x, volumes.x / (volumes.x + volumes.y)));
 }
 
-// Least p / rho^gamma of gas that a debt may leave.
+// Least p / rho^gamma that settling may leave.
 fn least_entropy_of(phi: f32) -> f32 {
     if SPECIES && phi > 0.5 { return params.species_least_entropy; }
     return params.least_entropy;
 }
 
-// Whether a debt would take more of one gas than there is.
+// Whether settling has taken more of one gas than there was.
 fn lacks_a_gas(gas: Gas) -> bool {
-    let slack = DEBT_SLACK * gas.flow.x;
+    let slack = SETTLED_SLACK * gas.flow.x;
     return SPECIES && (gas.species.x < -slack || gas.species.x > gas.flow.x + slack);
 }
