@@ -77,13 +77,15 @@ impl Snapshot {
     pub fn piece_of_each(&self) -> Vec<u32> {
         let (places, roots) = self.groups();
         let root = |particle: &ParticleSample| places.binary_search(&self.place(particle)).ok().map(|at| roots[at]);
+        let own: Vec<Option<usize>> = self.particles.par_iter().map(root).collect();
         let mut smallest = vec![u32::MAX; places.len()];
-        for particle in &self.particles {
-            if let Some(root) = root(particle) {
+        for (particle, root) in self.particles.iter().zip(&own) {
+            if let Some(root) = *root {
                 smallest[root] = particle.index.min(smallest[root]);
             }
         }
-        self.particles.par_iter().map(|particle| root(particle).map_or(particle.index, |root| smallest[root])).collect()
+        let particles = self.particles.iter().zip(own);
+        particles.map(|(particle, root)| root.map_or(particle.index, |root| smallest[root])).collect()
     }
 
     /// Body and cell of a particle.
@@ -101,12 +103,16 @@ impl Snapshot {
         places.par_sort_unstable();
         places.dedup();
         let mut groups = Groups::of(places.len());
+        // The 13 neighbours that come before a cell in the order of `places`; each goes through that order as the cell does.
+        let mut others = [0; 13];
         for (index, &(body, [z, y, x])) in places.iter().enumerate() {
-            for offset in 0..13 {
-                // The 13 neighbours that come before a cell in the order of `places`.
-                let near = [z + offset / 9 - 1, y + offset / 3 % 3 - 1, x + offset % 3 - 1];
-                if let Ok(other) = places.binary_search(&(body, near)) {
-                    groups.join(index, other);
+            for (offset, other) in (0..).zip(&mut others) {
+                let near = (body, [z + offset / 9 - 1, y + offset / 3 % 3 - 1, x + offset % 3 - 1]);
+                while places[*other] < near {
+                    *other += 1;
+                }
+                if places[*other] == near {
+                    groups.join(index, *other);
                 }
             }
         }

@@ -167,7 +167,6 @@ impl Snapshot {
     }
 }
 
-#[cfg(test)]
 impl Snapshot {
     /// Particles alone, without a cell of gas.
     pub(crate) fn of_particles((time, step): (f64, u64), grid: Grid, particles: Vec<ParticleSample>) -> Snapshot {
@@ -186,6 +185,11 @@ impl Snapshot {
             maps: Vec::new(),
             particles,
         }
+    }
+
+    /// The same from arrays in the layout of the device.
+    pub(crate) fn of_rows(grid: Grid, gases: EquationOfState, moment: (f64, u64), rows: &ParticleRows) -> Snapshot {
+        Snapshot { gases, ..Self::of_particles(moment, grid, rows.samples(&grid)) }
     }
 }
 

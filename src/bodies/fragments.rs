@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DMat3, DVec3};
+use rayon::prelude::*;
 
 use crate::snapshot::{ParticleSample, Snapshot};
 
@@ -44,7 +45,7 @@ impl Snapshot {
         }
         let fastest = self.fastest();
         all.retain(|_, own| own.iter().any(|index| self.particles[*index].damage < 1.0));
-        all.into_iter().map(|(piece, own)| self.fragment(piece, own, fastest)).collect()
+        all.into_par_iter().map(|(piece, own)| self.fragment(piece, own, fastest)).collect()
     }
 
     /// Largest speed of any particle \[m s^-1\].

@@ -54,8 +54,8 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
         if interrupt::wish() {
             return Err(Error::Interrupted);
         }
-        let (hash, stored) = states::read(path, most)?;
-        belongs(path, (&hash, &scene_hash), &stored, &grid)?;
+        let (hash, stored) = states::read(path, most, needs.cells)?;
+        belongs(path, (&hash, &scene_hash), &stored, needs.cells.then_some(&grid))?;
         let snapshot = states::snapshot(stored, grid, scene.gas.equation_of_state());
         let (time, step) = (snapshot.time, snapshot.step);
         let snapshot = Some(&snapshot);

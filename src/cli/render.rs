@@ -108,10 +108,14 @@ fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli)
 ///
 /// # Errors
 /// [`Error::Usage`] with the file, and the array that is wrong.
-pub(super) fn belongs(path: &Path, (hash, scene): (&str, &str), stored: &Stored, grid: &Grid) -> Result<()> {
-    let why = match (stored.wrong_length(grid), hash == scene) {
+pub(super) fn belongs(path: &Path, (hash, scene): (&str, &str), stored: &Stored, grid: Option<&Grid>) -> Result<()> {
+    let wrong = grid.map_or_else(|| stored.wrong_particles(), |grid| stored.wrong_length(grid));
+    let why = match (wrong, hash == scene) {
         (_, false) => "it is a state of another scene than report.json".to_owned(),
-        (Some(name), _) => format!("array `{name}` has a wrong length: its scene has {} slots", grid.slots()),
+        (Some(name), _) => {
+            let slots = grid.map_or(String::new(), |grid| format!(": its scene has {} slots", grid.slots()));
+            format!("array `{name}` has a wrong length{slots}")
+        }
         (None, _) => match stored.not_finite() {
             Some(name) => format!("array `{name}` holds numbers that are not finite"),
             None => return Ok(()),
@@ -255,8 +259,8 @@ struct Drawing {
 impl Drawing {
     fn draw(&mut self, index: u32, path: &Path) -> Result<FrameToWrite> {
         let grid = Grid::of(&self.scene.domain);
-        let (hash, stored) = states::read(path, states::most_bytes(grid.slots() as u64, self.particles))?;
-        belongs(path, (&hash, &self.hash), &stored, &grid)?;
+        let (hash, stored) = states::read(path, states::most_bytes(grid.slots() as u64, self.particles), true)?;
+        belongs(path, (&hash, &self.hash), &stored, Some(&grid))?;
         let map = self.shots.iter().flat_map(|shot| &shot.fields).find(|field| field.is_map());
         if let Some(map) = map.filter(|_| stored.maps.is_empty()) {
             let (path, name) = (path.display(), map.keyword());

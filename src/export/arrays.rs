@@ -37,7 +37,7 @@ impl Exporter for ArrayExporter {
     }
 
     fn needs(&self) -> Needs {
-        Needs { snapshot: true, ..Needs::default() }
+        Needs { snapshot: true, cells: true, ..Needs::default() }
     }
 }
 
@@ -57,7 +57,8 @@ fn arrays(snapshot: &Snapshot) -> impl IndexedParallelIterator<Item = Array> {
         real("spacing", &[1], &[grid.spacing], "edge of a cell [m]"),
         real("particle_position", &[particles.len(), 3], &position, "position [m]"),
     ];
-    let quantities: Vec<&Quantity> = all(snapshot, Place::Cell).chain(all(snapshot, Place::Particle)).collect();
+    let mut quantities: Vec<&Quantity> = all(snapshot, Place::Cell).chain(all(snapshot, Place::Particle)).collect();
+    quantities.sort_by_key(|quantity| std::cmp::Reverse(quantity.components)); // the long ones are not to be waited for at the end
     places.into_par_iter().chain(quantities.into_par_iter().map(|quantity| array(snapshot, quantity)))
 }
 

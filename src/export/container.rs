@@ -25,8 +25,13 @@ pub const VERSION: u32 = scene::FORM;
 const HEAD: &str = "head.json";
 /// Member with the scene.
 pub const SCENE: &str = "scene.toml";
-/// Speed before size: a run waits for it.
-const LEVEL: i64 = 1;
+/// How hard deflation tries: a run waits for a full state, the many light ones are to be small.
+const fn level(form: Form) -> i64 {
+    match form {
+        Form::Fields => 2,
+        Form::Full | Form::Arrays => 1,
+    }
+}
 /// Bytes that one thread copies at least.
 const CHUNK: usize = 1 << 18;
 /// Texts of a file at most.
@@ -191,7 +196,7 @@ pub fn write(
     let packed = arrays
         .into_par_iter()
         .with_max_len(1)
-        .map(|array| packed(&array).map(|packed| (array.name, array.about, packed)));
+        .map(|array| packed(&array, level(form)).map(|packed| (array.name, array.about, packed)));
     let packed: Vec<_> = packed.collect::<io::Result<_>>().map_err(|source| Error::io(path, source))?;
     let arrays = packed.iter().map(|(name, about, _)| (name.clone(), about.clone())).collect();
     let source = source.clone();
@@ -199,7 +204,7 @@ pub fn write(
     let head = Head { format: FORMAT.to_owned(), version: VERSION, form, source, time, step, arrays };
     atomic::write(path, |out| {
         let mut zip = ZipWriter::new_stream(out);
-        let options = deflated();
+        let options = deflated(level(form));
         zip.start_file(HEAD, options)?;
         serde_json::to_writer_pretty(&mut zip, &head)?;
         for (name, text) in [(SCENE, scene.as_str())].iter().chain(texts) {
@@ -213,15 +218,15 @@ pub fn write(
     })
 }
 
-fn deflated() -> SimpleFileOptions {
-    SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).compression_level(Some(LEVEL))
+fn deflated(level: i64) -> SimpleFileOptions {
+    SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).compression_level(Some(level))
 }
 
 /// An array as an archive of its own, of which files take over what is deflated.
-fn packed(array: &Array) -> io::Result<Vec<u8>> {
+fn packed(array: &Array, level: i64) -> io::Result<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let large = array.bytes.len() as u64 >= u64::from(u32::MAX);
-    zip.start_file(format!("{}.npy", array.name), deflated().large_file(large))?;
+    zip.start_file(format!("{}.npy", array.name), deflated(level).large_file(large))?;
     zip.write_all(&npy::head(array.kind, &array.shape))?;
     zip.write_all(&array.bytes)?;
     Ok(zip.finish()?.into_inner())
@@ -232,8 +237,13 @@ fn packed(array: &Array) -> io::Result<Vec<u8>> {
 /// # Errors
 /// [`Error::Io`] if it cannot be read or is no whole state.
 pub fn read(path: &Path, most: u64) -> Result<Contents> {
+    read_some(path, most, |_| true)
+}
+
+/// The same with those arrays alone whose names are wanted.
+pub(super) fn read_some(path: &Path, most: u64, wanted: impl Fn(&str) -> bool) -> Result<Contents> {
     let bytes = input::bytes(path, most.saturating_add(ROOM)).map_err(|source| Error::io(path, source))?;
-    parse(&bytes, most).map_err(|reason| broken(path, &reason))
+    parse(&bytes, most, wanted).map_err(|reason| broken(path, &reason))
 }
 
 /// Reads the head and the texts of a file, without its arrays.
@@ -309,10 +319,11 @@ fn texts<R: Read + Seek>(archive: &mut ZipArchive<R>) -> std::result::Result<BTr
     Ok(found)
 }
 
-fn parse(bytes: &[u8], most: u64) -> std::result::Result<Contents, String> {
+fn parse(bytes: &[u8], most: u64, wanted: impl Fn(&str) -> bool) -> std::result::Result<Contents, String> {
     let mut archive = opened(Cursor::new(bytes))?;
     let (head, texts) = (head(&mut archive)?, texts(&mut archive)?);
-    let names: Vec<String> = names(&mut archive)?.into_iter().filter(|name| name.ends_with(".npy")).collect();
+    let is_wanted = |name: &String| name.strip_suffix(".npy").is_some_and(&wanted);
+    let names: Vec<String> = names(&mut archive)?.into_iter().filter(is_wanted).collect();
     let mut promised = 0u64;
     for name in &names {
         let size = archive.by_name(name).map_err(|error| format!("{name}: {error}"))?.size();
@@ -328,7 +339,7 @@ fn parse(bytes: &[u8], most: u64) -> std::result::Result<Contents, String> {
         left = left.checked_sub(array.bytes.len() as u64).ok_or_else(|| too_many(&array.name, most))?;
         array.about = head.arrays.get(&array.name).cloned().unwrap_or_default();
     }
-    let missing = head.arrays.keys().find(|name| arrays.iter().all(|array| array.name != **name));
+    let missing = head.arrays.keys().find(|name| wanted(name) && arrays.iter().all(|array| array.name != **name));
     match missing {
         Some(name) => Err(format!("array `{name}` is missing")),
         None => Ok(Contents { head, texts, arrays }),

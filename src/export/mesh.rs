@@ -127,7 +127,7 @@ impl Exporter for MeshExporter {
         let parents = self.parents(&fragments, &now, &self.folder.join(&name).with_extension("npy"))?;
         let parts: Vec<Part> = fragments.par_iter().map(|one| part(one, snapshot)).collect();
         ply::write(&self.folder.join(&name).with_extension("ply"), &about(moment), &parts)?;
-        let volumes = parts.iter().map(|part| part.surface.volume());
+        let volumes: Vec<f64> = parts.par_iter().map(|part| part.surface.volume()).collect();
         let rows: Vec<_> = fragments.into_iter().zip(parents).zip(volumes).map(|((a, b), c)| (a, b, c)).collect();
         self.table(&self.folder.join(name).with_extension("csv"), &rows, &moment.origin.source.bodies)
     }

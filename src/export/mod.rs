@@ -135,8 +135,10 @@ impl Moment<'_> {
 /// What an exporter wants of every frame: reading the whole state back has a price, and so has depth.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Needs {
-    /// [`Moment::snapshot`].
+    /// [`Moment::snapshot`], with its particles at least.
     pub snapshot: bool,
+    /// The cells of [`Moment::snapshot`], too.
+    pub cells: bool,
     /// [`Moment::stored`].
     pub stored: bool,
     /// [`Origin::obstacles`] with their meshes read.
@@ -151,6 +153,7 @@ impl Needs {
     pub fn of(exporters: &[Box<dyn Exporter>]) -> Self {
         exporters.iter().map(|exporter| exporter.needs()).fold(Self::default(), |a, b| Self {
             snapshot: a.snapshot || b.snapshot,
+            cells: a.cells || b.cells,
             stored: a.stored || b.stored,
             obstacles: a.obstacles || b.obstacles,
             depth: Depth { layers: a.depth.layers || b.depth.layers, fine: a.depth.fine || b.depth.fine },

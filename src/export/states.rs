@@ -99,13 +99,23 @@ pub fn write(path: &Path, source: &Source, state: &Stored) -> Result<()> {
     if !state.maps.is_empty() {
         arrays.push(("maps", Kind::F32, 4, cast_slice(&state.maps)));
     }
+    let affine = state.particles.as_ref().map_or(Vec::new(), |own| turning_alone(&own.affine));
     if let Some(particles) = &state.particles {
-        let own = particles.arrays();
+        let own = particles.arrays().map(|(name, values)| (name, if name == "affine" { &affine } else { values }));
         arrays.extend(own.map(|(name, values)| (name, Kind::F32, 4, cast_slice(values))));
     }
     let rows =
         arrays.into_par_iter().map(|(name, kind, columns, bytes)| Array::rows(name, kind, columns, bytes.to_vec()));
     container::write(path, (Form::Fields, source), (state.time, state.step), &[], rows)
+}
+
+/// The affine matrices without what nobody asks for: the differences that turn are kept to the bit, the rest is zero.
+fn turning_alone(affine: &[[f32; 4]]) -> Vec<[f32; 4]> {
+    let turning = |[a, b, c]: &[[f32; 4]; 3]| {
+        let [x, y, z] = [b[2] - c[1], c[0] - a[2], a[1] - b[0]];
+        [[0.0, z, 0.0, a[3]], [0.0, 0.0, x, b[3]], [y, 0.0, 0.0, c[3]]]
+    };
+    affine.as_chunks().0.par_iter().flat_map_iter(turning).collect()
 }
 
 /// Bytes that the arrays of a state have at most, in a scene of so many slots and particles.
@@ -114,22 +124,31 @@ pub fn most_bytes(slots: u64, particles: u64) -> u64 {
     SLOT * slots + PARTICLE * particles
 }
 
-/// Reads one state and the hash of its scene; its arrays may have `most` bytes in all.
+/// Arrays of cells.
+const OF_CELLS: [&str; 6] = ["conserved", "energy", "species", "kind", "owed", "maps"];
+
+/// Reads one state and the hash of its scene; its arrays may have `most` bytes in all. Without `cells` theirs stay
+/// unread.
 ///
 /// # Errors
 /// [`Error::Io`] if the file cannot be read or is no whole state.
-pub fn read(path: &Path, most: u64) -> Result<(String, Stored)> {
-    let contents = container::read(path, most)?;
+pub fn read(path: &Path, most: u64, cells: bool) -> Result<(String, Stored)> {
+    let contents = container::read_some(path, most, |name| cells || !OF_CELLS.contains(&name))?;
     let scene = contents.head.source.scene_hash.clone();
-    let stored = stored(contents).map_err(|reason| container::broken(path, &reason))?;
+    let stored = stored(contents, cells).map_err(|reason| container::broken(path, &reason))?;
     Ok((scene, stored))
 }
 
-/// A state as tables and exporters see it, of a grid and gas.
+/// A state as tables and exporters see it, of a grid and gas; of one that was read without its cells the particles alone.
 #[must_use]
 pub fn snapshot(stored: Stored, grid: Grid, gases: EquationOfState) -> Snapshot {
     let rows = stored.particles.unwrap_or_default();
     let StoredParticles { position, velocity, affine, deformation, stress } = rows;
+    let rows = ParticleRows { position, velocity, affine, deformation, stress };
+    let moment = (stored.time, stored.step);
+    if stored.kind.is_empty() {
+        return Snapshot::of_rows(grid, gases, moment, &rows);
+    }
     let cells = CellRows {
         conserved: stored.conserved,
         energy: stored.energy,
@@ -138,51 +157,56 @@ pub fn snapshot(stored: Stored, grid: Grid, gases: EquationOfState) -> Snapshot 
         maps: stored.maps,
         kind: stored.kind,
     };
-    let rows = ParticleRows { position, velocity, affine, deformation, stress };
-    Snapshot::of(grid, gases, (stored.time, stored.step), &cells, &rows)
+    Snapshot::of(grid, gases, moment, &cells, &rows)
 }
 
-/// What a file of either form holds of a state.
-fn stored(mut contents: Contents) -> std::result::Result<Stored, String> {
-    let conserved: Vec<[f32; 4]> = take(&mut contents, "conserved")?;
-    let mut energy: Vec<f32> = take(&mut contents, "energy")?;
-    let species =
-        if has(&contents, "species") { take(&mut contents, "species")? } else { species_of(&energy, conserved.len()) };
-    energy.truncate(conserved.len()); // a full state has scratch behind it
-    let kind = match take::<u8>(&mut contents, "kind") {
-        Ok(kind) => kind,
-        Err(_) => take::<u32>(&mut contents, "cells")?.into_iter().map(|word| word as u8 & kind::MASK).collect(),
+/// What a file of either form holds of a state, with its cells or without.
+fn stored(mut contents: Contents, cells: bool) -> std::result::Result<Stored, String> {
+    let (time, step) = (contents.head.time, contents.head.step);
+    let empty = Stored {
+        time,
+        step,
+        conserved: Vec::new(),
+        energy: Vec::new(),
+        species: Vec::new(),
+        owed: Vec::new(),
+        maps: Vec::new(),
+        kind: Vec::new(),
+        particles: None,
     };
-    let owed =
-        if has(&contents, "owed") { take(&mut contents, "owed")? } else { owed_of(&mut contents, conserved.len())? };
-    let maps = if has(&contents, "maps") { take(&mut contents, "maps")? } else { Vec::new() };
-    let position: Vec<[f32; 4]> =
-        if has(&contents, "position") { take(&mut contents, "position")? } else { Vec::new() };
-    let particles = if position.is_empty() {
-        None
-    } else {
-        Some(StoredParticles {
-            position,
-            velocity: take(&mut contents, "velocity")?,
-            affine: take(&mut contents, "affine")?,
-            deformation: take(&mut contents, "deformation")?,
-            stress: take(&mut contents, "stress")?,
-        })
-    };
+    let without = if cells { with_cells(&mut contents, empty)? } else { empty };
+    let particles = if has(&contents, "position") { of_particles(&mut contents)? } else { None };
     if let Some(array) = contents.arrays.first().filter(|_| contents.head.form == Form::Fields) {
         return Err(format!("array `{}` is none of a state", array.name));
     }
-    Ok(Stored {
-        time: contents.head.time,
-        step: contents.head.step,
-        conserved,
-        energy,
-        species,
-        owed,
-        maps,
-        kind,
-        particles,
-    })
+    Ok(Stored { particles, ..without })
+}
+
+/// A state with the cells that a file has.
+fn with_cells(contents: &mut Contents, state: Stored) -> std::result::Result<Stored, String> {
+    let conserved: Vec<[f32; 4]> = take(contents, "conserved")?;
+    let mut energy: Vec<f32> = take(contents, "energy")?;
+    let species =
+        if has(contents, "species") { take(contents, "species")? } else { species_of(&energy, conserved.len()) };
+    energy.truncate(conserved.len()); // a full state has scratch behind it
+    let kind = match take::<u8>(contents, "kind") {
+        Ok(kind) => kind,
+        Err(_) => take::<u32>(contents, "cells")?.into_iter().map(|word| word as u8 & kind::MASK).collect(),
+    };
+    let owed = if has(contents, "owed") { take(contents, "owed")? } else { owed_of(contents, conserved.len())? };
+    let maps = if has(contents, "maps") { take(contents, "maps")? } else { Vec::new() };
+    Ok(Stored { conserved, energy, species, owed, maps, kind, ..state })
+}
+
+/// The particles that a file has, if there are any.
+fn of_particles(contents: &mut Contents) -> std::result::Result<Option<StoredParticles>, String> {
+    let position: Vec<[f32; 4]> = take(contents, "position")?;
+    if position.is_empty() {
+        return Ok(None);
+    }
+    let [velocity, affine] = [take(contents, "velocity")?, take(contents, "affine")?];
+    let [deformation, stress] = [take(contents, "deformation")?, take(contents, "stress")?];
+    Ok(Some(StoredParticles { position, velocity, affine, deformation, stress }))
 }
 
 /// Density and volume fraction of the second gas, of a full state with so many slots; empty without one.
@@ -215,7 +239,8 @@ mod tests {
 
     fn state() -> Stored {
         let rows = |count: usize| (0..count).map(|k| [k as f32, -0.0, f32::NAN, 1e-40]).collect::<Vec<_>>();
-        let particles = StoredParticles::of([1, 1, 3, 3, 2].map(|n| rows(5 * n)));
+        let mut particles = StoredParticles::of([1, 1, 3, 3, 2].map(|n| rows(5 * n)));
+        particles.affine = turning_alone(&particles.affine);
         let (energy, kind) = ((0..27).map(|k| 1.0 / k as f32).collect(), (0..27).map(|k| k % 4).collect());
         Stored {
             time: 0.1 + 0.2,
@@ -254,8 +279,11 @@ mod tests {
         for particles in [state().particles, None] {
             let state = Stored { particles, ..state() };
             write(&path, &source(), &state).unwrap();
-            let (scene, again) = read(&path, 1 << 20).unwrap();
+            let (scene, again) = read(&path, 1 << 20, true).unwrap();
             assert_eq!((scene.as_str(), text(&again)), ("cafe", text(&state)));
+            let (_, without) = read(&path, 1 << 20, false).unwrap();
+            assert_eq!(format!("{:?}", without.particles), format!("{:?}", state.particles));
+            assert!(without.conserved.is_empty() && without.kind.is_empty() && without.wrong_particles().is_none());
             let whole = container::read(&path, 1 << 20).unwrap();
             assert_eq!(whole.texts[container::SCENE], source().scene);
             assert_eq!((whole.head.time, whole.head.step, whole.head.form), (0.1 + 0.2, 7, Form::Fields));
@@ -263,6 +291,25 @@ mod tests {
         }
         assert_eq!(list(folder.path()).unwrap(), [(3, path)]);
         assert_eq!(list(&folder.path().join("none")).unwrap(), []);
+    }
+
+    /// What samples of particles say of the affine motion is the same to the bit.
+    #[test]
+    fn the_turning_of_particles_is_kept() {
+        let affine: Vec<[f32; 4]> = (0..9).map(|k| [1.0, 0.3, -7.0, 0.5].map(|x| x * (k as f32 + 0.1).sin())).collect();
+        let rows = |affine: Vec<[f32; 4]>| ParticleRows {
+            position: vec![[0.5; 4]; 3],
+            velocity: vec![[0.5; 4]; 3],
+            affine,
+            deformation: vec![[0.0, 0.0, 0.0, 1.0]; 9],
+            stress: vec![[0.0; 4]; 6],
+        };
+        let grid = Grid { dimension: 3, cells: [1; 3], origin: [0.0; 3], spacing: 1.0 };
+        let [whole, kept] = [affine.clone(), turning_alone(&affine)].map(|affine| {
+            let sample = |p| rows(affine.clone()).sample(&grid, p);
+            [0, 1, 2].map(sample).map(|own| (own.vorticity, own.ghost_pressure, own.plastic_strain, own.material))
+        });
+        assert_eq!(whole, kept);
     }
 
     #[test]
@@ -273,7 +320,7 @@ mod tests {
         let whole = std::fs::read(&path).unwrap();
         let told = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
-            read(&path, 1 << 20).unwrap_err().to_string()
+            read(&path, 1 << 20, true).unwrap_err().to_string()
         };
         assert!(told(b"P6 2 2").contains("no state of brisance"));
         assert!(told(&whole[..whole.len() - 9]).contains("the file is cut"));
@@ -284,6 +331,6 @@ mod tests {
         let message = told(&broken);
         assert!(message.contains("energy"), "{message}");
         std::fs::write(&path, &whole).unwrap();
-        assert!(read(&path, 100).unwrap_err().to_string().contains("at most"));
+        assert!(read(&path, 100, true).unwrap_err().to_string().contains("at most"));
     }
 }

@@ -3,31 +3,25 @@
 //! Space is cut into blocks of cells, of which only those near the surface are looked at. Each is meshed by naive surface nets
 //! [Gibson 1998; crate `fast-surface-nets`]; what neighbours have both is one vertex.
 
-use std::collections::{BTreeMap, HashMap};
+mod field;
+mod parts;
 
+use fast_surface_nets::SurfaceNetsBuffer;
 use fast_surface_nets::ndshape::{ConstShape, ConstShape3u32};
-use fast_surface_nets::{SurfaceNetsBuffer, surface_nets};
 use rayon::prelude::*;
 
-use crate::bodies::Groups;
+use field::{FINENESS, Field, REACHED};
+use parts::{Part, joined};
 
 /// Cells of a block along an axis, and its nodes with those that it shares.
 const BLOCK: i32 = 16;
 const NODES: u32 = BLOCK as u32 + 2;
 type Shape = ConstShape3u32<NODES, NODES, NODES>;
 
-/// Reach of a particle, in distances of particles. With it the surface of a plane layer of particles is plane, and lies half
-/// a distance above it, however many layers there are.
-const REACH: f32 = 1.75;
-/// Distance from the mean of the near particles to the surface.
-const RADIUS: f32 = 0.5;
-/// Farthest that a particle may be from the inside: without it there are specks half way between particles that part.
-const FARTHEST: f32 = 1.1;
-/// Distances of particles in a cell of the mesh.
-const FINENESS: f32 = 0.5;
-
 /// Volume of what is no part, over that of a particle: cells where the field only just changes its sign.
 const SPECK: f64 = 0.02;
+/// Triangles that are summed by one thread.
+const TOGETHER: usize = 1 << 14;
 
 /// A surface of triangles, counterclockwise from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,35 +34,28 @@ pub struct Surface {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// What is known at the nodes of a block: distance over the edge of a cell, negative inside, and the nearest particle.
-struct Field {
-    distance: Vec<f32>,
-    nearest: Vec<u32>,
-}
-
 impl Surface {
     /// That of particles with this distance from each other, by the distance from their weighted mean. [Zhu and Bridson 2005]
     #[must_use]
     pub fn of_particles(places: &[[f32; 3]], distance: f32) -> Self {
         let cell = FINENESS * distance;
-        let reach = REACH / FINENESS;
         let scaled: Vec<[f32; 3]> = places.iter().map(|place| place.map(|x| x / cell)).collect();
-        let mut blocks: BTreeMap<[i32; 3], Vec<u32>> = BTreeMap::new();
-        for (index, place) in scaled.iter().enumerate() {
-            let low = place.map(|x| ((x - reach).floor() as i32 - NODES as i32 + 1).div_euclid(BLOCK));
-            let high = place.map(|x| ((x + reach).ceil() as i32).div_euclid(BLOCK));
-            for z in low[2]..=high[2] {
-                for y in low[1]..=high[1] {
-                    for x in low[0]..=high[0] {
-                        blocks.entry([x, y, z]).or_default().push(index as u32);
-                    }
-                }
-            }
-        }
-        let blocks: Vec<_> = blocks.into_iter().collect();
-        let field = |(block, own): &([i32; 3], Vec<u32>)| (*block, around(*block, own, &scaled));
-        let surface = joined(blocks.par_iter().map(field).map(meshed).collect(), cell);
-        surface.without_specks(SPECK * f64::from(distance).powi(3))
+        let at = |place: &[f32; 3]| place.map(|x| (x.floor() as i32).div_euclid(BLOCK));
+        let mut sorted: Vec<([i32; 3], u32)> = scaled.par_iter().map(at).zip(0..scaled.len() as u32).collect();
+        sorted.par_sort_unstable();
+        let homes: Vec<_> = sorted.chunk_by(|one, two| one.0 == two.0).collect();
+        let mut blocks: Vec<[i32; 3]> = homes.iter().flat_map(|home| around(home[0].0)).collect();
+        blocks.sort_unstable();
+        blocks.dedup();
+        let home = |block| homes.binary_search_by_key(&block, |home| home[0].0).map_or(&[][..], |at| homes[at]);
+        let start = || (Field::new(), SurfaceNetsBuffer::default());
+        let meshed = |(field, buffer): &mut (Field, SurfaceNetsBuffer), block: &[i32; 3]| {
+            let near = around(*block).flat_map(home);
+            let is_reached = field.fill(*block, near.map(|(_, index)| (*index, scaled[*index as usize])));
+            is_reached.then(|| Part::of(*block, &field.distance, |cell| field.nearest(cell), buffer))
+        };
+        let parts: Vec<Part> = blocks.par_iter().map_init(start, meshed).flatten_iter().collect();
+        joined(&parts, cell, SPECK * f64::from(FINENESS).powi(-3))
     }
 
     /// That of what has a negative distance between two corners, by cells of this edge \[m\].
@@ -88,19 +75,23 @@ impl Surface {
         let near = |block: &[i32; 3]| {
             distance(block.map(|x| (f64::from(x * BLOCK) + half) * cell)).abs() <= 3.0_f64.sqrt() * half * cell
         };
-        let field = |block: &[i32; 3]| {
+        let meshed = |buffer: &mut SurfaceNetsBuffer, block: &[i32; 3]| {
             let at =
                 |node: [u32; 3]| std::array::from_fn(|axis| f64::from(block[axis] * BLOCK + node[axis] as i32) * cell);
             let values = (0..Shape::SIZE).map(|node| (distance(at(Shape::delinearize(node))) / cell) as f32);
-            (*block, Field { distance: values.collect(), nearest: vec![0; Shape::USIZE] })
+            Part::of(*block, &values.collect::<Vec<_>>(), |_| 0, buffer)
         };
-        joined(blocks.par_iter().filter(|block| near(block)).map(field).map(meshed).collect(), cell as f32)
+        let parts: Vec<Part> =
+            blocks.par_iter().filter(|block| near(block)).map_init(SurfaceNetsBuffer::default, meshed).collect();
+        joined(&parts, cell as f32, 0.0)
     }
 
     /// Volume inside \[m^3\].
     #[must_use]
     pub fn volume(&self) -> f64 {
-        self.triangles.iter().map(|three| self.beneath(three)).sum()
+        let beneath = |some: &[[u32; 3]]| some.iter().map(|three| self.beneath(three)).sum::<f64>();
+        let all: Vec<f64> = self.triangles.par_chunks(TOGETHER).map(beneath).collect();
+        all.iter().sum() // in order
     }
 
     /// Volume between a triangle and the first corner \[m^3\].
@@ -109,113 +100,18 @@ impl Surface {
         let [a, b, c] = three.map(|index| corner(index) - corner(0));
         a.dot(b.cross(c)) / 6.0
     }
-
-    /// Without parts that hang together and enclose, or leave out, no more than a volume \[m^3\].
-    fn without_specks(&self, least: f64) -> Self {
-        let mut groups = Groups::of(self.points.len());
-        for [a, b, c] in &self.triangles {
-            groups.join(*a as usize, *b as usize);
-            groups.join(*a as usize, *c as usize);
-        }
-        let mut volumes = vec![0.0; self.points.len()];
-        for three in &self.triangles {
-            volumes[groups.root(three[0] as usize)] += self.beneath(three);
-        }
-        let (mut kept, mut numbers) = (Self::default(), vec![u32::MAX; self.points.len()]);
-        for (index, number) in numbers.iter_mut().enumerate() {
-            if volumes[groups.root(index)].abs() > least {
-                *number = kept.points.len() as u32;
-                kept.points.push(self.points[index]);
-                kept.nearest.push(self.nearest[index]);
-            }
-        }
-        let triangles = self.triangles.iter().map(|three| three.map(|corner| numbers[corner as usize]));
-        kept.triangles = triangles.filter(|three| three[0] != u32::MAX).collect();
-        kept
-    }
 }
 
-/// The field of a block from the particles that reach into it; lengths are in cells.
-fn around(block: [i32; 3], own: &[u32], places: &[[f32; 3]]) -> Field {
-    let scale = 1.0 / FINENESS;
-    let reach = REACH * scale;
-    let mut sums = vec![[0.0_f32; 4]; Shape::USIZE];
-    let mut near = vec![(f32::INFINITY, 0); Shape::USIZE];
-    for &index in own {
-        let place: [f32; 3] = std::array::from_fn(|axis| places[index as usize][axis] - (block[axis] * BLOCK) as f32);
-        let low = place.map(|x| (x - reach).ceil().max(0.0) as u32);
-        let high = place.map(|x| (x + reach).floor().min((NODES - 1) as f32));
-        if high.iter().any(|x| *x < 0.0) {
-            continue;
-        }
-        for z in low[2]..=high[2] as u32 {
-            for y in low[1]..=high[1] as u32 {
-                for x in low[0]..=high[0] as u32 {
-                    let apart: [f32; 3] = std::array::from_fn(|axis| [x, y, z][axis] as f32 - place[axis]);
-                    let square: f32 = apart.iter().map(|part| part * part).sum();
-                    let node = Shape::linearize([x, y, z]) as usize;
-                    let weight = (1.0 - square / (reach * reach)).max(0.0).powi(3);
-                    for axis in 0..3 {
-                        sums[node][axis] += weight * apart[axis];
-                    }
-                    sums[node][3] += weight;
-                    if square < near[node].0 {
-                        near[node] = (square, index);
-                    }
-                }
-            }
-        }
-    }
-    let value = |(sum, (square, _)): (&[f32; 4], &(f32, u32))| {
-        let [x, y, z] = [sum[0], sum[1], sum[2]].map(|part| part / sum[3].max(f32::MIN_POSITIVE));
-        let farthest = square.sqrt().min(reach) - FARTHEST * scale;
-        ((x * x + y * y + z * z).sqrt() - RADIUS * scale).max(farthest)
-    };
-    let distance = sums.iter().zip(&near).map(value).collect();
-    Field { distance, nearest: near.into_iter().map(|(_, index)| index).collect() }
-}
-
-/// The mesh of a block: corners with their cells, in cells from the block's corner, and their nearest particles.
-struct Part {
-    block: [i32; 3],
-    points: Vec<([f32; 3], [i32; 3], u32)>,
-    triangles: Vec<[u32; 3]>,
-}
-
-fn meshed((block, field): ([i32; 3], Field)) -> Part {
-    let mut buffer = SurfaceNetsBuffer::default();
-    surface_nets(&field.distance, &Shape {}, [0; 3], [NODES - 1; 3], &mut buffer);
-    let places = buffer.positions.iter().zip(&buffer.surface_points);
-    let points = places.map(|(place, cell)| {
-        let nearest = field.nearest[Shape::linearize(*cell) as usize];
-        (*place, std::array::from_fn(|axis| block[axis] * BLOCK + cell[axis] as i32), nearest)
-    });
-    let points = points.collect();
-    let triangles = buffer.indices.chunks_exact(3).map(|three| [three[0], three[1], three[2]]).collect();
-    Part { block, points, triangles }
-}
-
-/// One surface of all parts: a corner for each cell. Cells in the outermost layers of blocks are those of neighbours, too.
-fn joined(parts: Vec<Part>, cell: f32) -> Surface {
-    let (mut surface, mut known) = (Surface::default(), HashMap::new());
-    for Part { block, points, triangles } in parts {
-        let mut numbers = Vec::with_capacity(points.len());
-        for (place, own, nearest) in points {
-            let mut new = || {
-                surface.points.push(std::array::from_fn(|axis| (place[axis] + (block[axis] * BLOCK) as f32) * cell));
-                surface.nearest.push(nearest);
-                surface.points.len() as u32 - 1
-            };
-            let is_shared = (0..3).any(|axis| own[axis].rem_euclid(BLOCK) == 0);
-            numbers.push(if is_shared { *known.entry(own).or_insert_with(new) } else { new() });
-        }
-        surface.triangles.extend(triangles.iter().map(|three| three.map(|corner| numbers[corner as usize])));
-    }
-    surface
+/// A block and its neighbours: a particle reaches no further.
+fn around([x, y, z]: [i32; 3]) -> impl Iterator<Item = [i32; 3]> {
+    const _: () = assert!(REACHED < (BLOCK - 1) as f32);
+    (0..27).map(move |k| [x + k / 9 - 1, y + k / 3 % 3 - 1, z + k % 3 - 1])
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashMap;
+
     use super::*;
 
     /// Whether each edge has two triangles, which go along it in opposite directions; four where two parts touch in an edge.

@@ -72,7 +72,7 @@ impl Exporter for UsdExporter {
     }
 
     fn needs(&self) -> Needs {
-        Needs { snapshot: true, ..Needs::default() }
+        Needs { snapshot: true, cells: true, ..Needs::default() }
     }
 }
 

@@ -56,7 +56,7 @@ impl Exporter for VdbExporter {
     }
 
     fn needs(&self) -> Needs {
-        Needs { snapshot: true, ..Needs::default() }
+        Needs { snapshot: true, cells: true, ..Needs::default() }
     }
 }
 

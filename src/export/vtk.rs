@@ -75,7 +75,7 @@ impl Exporter for VtkExporter {
     }
 
     fn needs(&self) -> Needs {
-        Needs { snapshot: true, ..Needs::default() }
+        Needs { snapshot: true, cells: true, ..Needs::default() }
     }
 }
 

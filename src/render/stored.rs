@@ -145,20 +145,29 @@ impl Stored {
     /// The array whose length does not belong to a grid.
     #[must_use]
     pub fn wrong_length(&self, grid: &Grid) -> Option<&'static str> {
+        self.wrong_cells(grid).or_else(|| self.wrong_particles())
+    }
+
+    /// The array of cells whose length does not belong to a grid.
+    fn wrong_cells(&self, grid: &Grid) -> Option<&'static str> {
         let slots = grid.slots();
         let cells = [("conserved", self.conserved.len()), ("energy", self.energy.len()), ("kind", self.kind.len())];
         let optional = [("owed", self.owed.len()), ("maps", self.maps.len()), ("species", self.species.len() / 2)];
-        let particles = self.particles.as_ref().and_then(|own| {
-            let count = own.position.len();
-            let mut arrays = own.arrays().into_iter().zip(ROWS);
-            arrays.find(|((_, array), rows)| array.len() != rows * count).map(|((name, _), _)| name)
-        });
         let cells = cells.iter().find(|(_, len)| *len != slots);
         let optional = optional.iter().find(|(_, len)| ![0, slots].contains(len));
-        cells.or(optional).map(|(name, _)| *name).or(particles)
+        cells.or(optional).map(|(name, _)| *name)
     }
 
-    /// The array that holds something else than finite numbers where it has meaning: in gas, at particles.
+    /// The array of particles that has not a row, or its rows, for each of them.
+    #[must_use]
+    pub fn wrong_particles(&self) -> Option<&'static str> {
+        let own = self.particles.as_ref()?;
+        let mut arrays = own.arrays().into_iter().zip(ROWS);
+        arrays.find(|((_, array), rows)| array.len() != rows * own.position.len()).map(|((name, _), _)| name)
+    }
+
+    /// The array that holds something else than finite numbers where it has meaning: in gas, at particles, those inside the domain for what
+    /// lies in several rows.
     #[must_use]
     pub fn not_finite(&self) -> Option<&'static str> {
         let finite = |row: &[f32; 4]| row.iter().all(|value| value.is_finite());
@@ -168,11 +177,22 @@ impl Stored {
         let particles = self.particles.as_ref();
         let rows =
             |rows: fn(&StoredParticles) -> &Vec<[f32; 4]>| particles.is_none_or(|own| rows(own).par_iter().all(finite));
+        // the fourth numbers are bits of indices, too
+        let inside = |rows: fn(&StoredParticles) -> &Vec<[f32; 4]>, each: usize| {
+            let finite = |row: &[f32; 4]| row[..3].iter().all(|value| value.is_finite());
+            particles.is_none_or(|own| {
+                let all = rows(own).par_chunks(each).zip(own.deformation.par_chunks(3));
+                all.all(|(own, about)| about.get(1).is_none_or(|row| row[3] <= 0.0) || own.iter().all(finite))
+            })
+        };
         let checks = [
             ("conserved", gas(&|slot| finite(&self.conserved[slot]))),
             ("energy", gas(&|slot| self.energy[slot].is_finite())),
             ("position", rows(|own| &own.position)),
             ("velocity", rows(|own| &own.velocity)),
+            ("affine", inside(|own| &own.affine, 3)),
+            ("deformation", inside(|own| &own.deformation, 3)),
+            ("stress", inside(|own| &own.stress, 2)),
         ];
         checks.iter().find(|(_, finite)| !finite).map(|(name, _)| *name)
     }
@@ -279,4 +299,43 @@ impl Loaded {
 pub(super) fn elements<T: bytemuck::Pod>(gpu: &Gpu, buffer: &wgpu::Buffer, len: usize) -> Result<Vec<T>> {
     let bytes = readback::read_bytes(gpu, buffer, 0, (len * size_of::<T>()) as u64)?;
     Ok(bytemuck::pod_collect_to_vec(&bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of one slot of gas and two particles, of which the second has left the domain.
+    fn state() -> Stored {
+        let mut particles = StoredParticles::of(ROWS.map(|rows| vec![[0.5; 4]; 2 * rows]));
+        particles.deformation[4][3] = 0.0;
+        Stored {
+            time: 0.0,
+            step: 0,
+            conserved: vec![[1.0; 4]],
+            energy: vec![1.0],
+            species: Vec::new(),
+            owed: Vec::new(),
+            maps: Vec::new(),
+            kind: vec![kind::GAS],
+            particles: Some(particles),
+        }
+    }
+
+    #[test]
+    fn arrays_with_numbers_that_are_not_finite_are_named() {
+        assert_eq!(state().not_finite(), None);
+        let spoilt = |name: &str, row: usize| {
+            let mut own = state().particles.unwrap();
+            let arrays = [&mut own.position, &mut own.affine, &mut own.deformation, &mut own.stress];
+            let at = ["position", "affine", "deformation", "stress"].iter().position(|own| *own == name).unwrap();
+            arrays.into_iter().nth(at).unwrap()[row][2] = f32::NAN;
+            Stored { particles: Some(own), ..state() }.not_finite()
+        };
+        for (name, row) in [("position", 0), ("affine", 2), ("deformation", 1), ("stress", 1)] {
+            assert_eq!(spoilt(name, row), Some(name));
+        }
+        assert_eq!(spoilt("deformation", 5), None, "what has left is nowhere");
+        assert_eq!(Stored { energy: vec![f32::NAN], ..state() }.not_finite(), Some("energy"));
+    }
 }

@@ -65,7 +65,7 @@ impl Kept {
             Place::File(path, host) => {
                 Found::Whole(Box::new(Saved { host: (**host).clone(), ..checkpoint::read(path, most)? }))
             }
-            Place::Light(path) => Found::Light(Box::new(states::read(path, most)?.1)),
+            Place::Light(path) => Found::Light(Box::new(states::read(path, most, true)?.1)),
         })
     }
 

@@ -85,7 +85,7 @@ fn vtk_files_hold_the_snapshot() {
             let origin = Origin { title: "t".to_owned(), hash: String::new(), ..Origin::default() };
             let snapshot = Some(&snapshot);
             let moment = Moment { index, origin: &origin, time, step: 3, pictures: &[], snapshot, stored: None };
-            assert_eq!(Needs::of(&exporters), Needs { snapshot: true, ..Needs::default() });
+            assert_eq!(Needs::of(&exporters), Needs { snapshot: true, cells: true, ..Needs::default() });
             exporters[0].write(&moment).unwrap();
         }
         let fields = folder.join("fields/0001.vti");

@@ -18,6 +18,7 @@ fn what_a_run_will_write_is_told() {
         ("fig03_elastic_shell_2d", "48"),
         ("kelvin_helmholtz", "48"),
         ("bursting_shell_3d", "16"),
+        ("hot_bubble", "80"),
     ] {
         let given = [scene, "--resolution", cells, "--set", "time.frames=4"];
         let out = folder.path().join(scene);
@@ -30,6 +31,20 @@ fn what_a_run_will_write_is_told() {
         eprintln!("{scene}: {told:.0} bytes told, {real} written, {ratio:.2} times");
         assert!((1.0 / 1.3..1.3).contains(&ratio), "{scene}: {told} bytes told, {real} written");
     }
+}
+
+/// What pictures and converters need of a state has half the bytes of all that a run goes on from.
+#[test]
+fn a_light_state_has_half_the_bytes() {
+    let Some(folder) = folder_or_skip() else { return };
+    let out = folder.path().join("run");
+    let written = ["--no-frames", "--export", "fields", "--checkpoint", "1000000steps", "--frames", "1"];
+    let scene = ["run", "bursting_shell_3d", "--resolution", "24", "--no-expect", "-q", "--out", out.to_str().unwrap()];
+    succeeds(&[&scene[..], &written[..]].concat());
+    let last = |kind: &str| contents_below(&out.join(kind)).pop().unwrap().1.len();
+    let (light, full) = (last("states"), last("checkpoints"));
+    eprintln!("{light} bytes of {full}, {:.3}", light as f64 / full as f64);
+    assert!(2 * light <= full, "{light} bytes of {full}");
 }
 
 /// A program that may write files of so many KiB: it meets the limit as it meets a full disk.

@@ -10,6 +10,8 @@ const PNG: [f64; 3] = [0.022, 0.185, 0.30];
 const MOVING: [f64; 3] = [1.8, 1.4, 0.67];
 /// What a plane without bodies, where less is torn up, takes of that.
 const GAS_ALONE: f64 = 0.57;
+/// What gas alone takes of that where it stays far below the speed of its sound.
+const QUIET_GAS: f64 = 0.65;
 /// Pixels beside and above a plane, for bar and letters.
 const MARGINS: [f64; 2] = [220.0, 70.0];
 /// Pictures in the moving one at most, and pixels of a row of it at most.
@@ -21,7 +23,7 @@ const PNG16: f64 = 4.0;
 const EXR: f64 = 9.0;
 /// Bytes that a frame takes for each cell and each particle, by format.
 const STORED: [(&str, f64, f64); 5] =
-    [("fields", 15.0, 100.0), ("vtk", 23.0, 40.0), ("usd", 0.0, 36.0), ("npz", 23.0, 38.0), ("mesh", 0.0, 490.0)];
+    [("fields", 13.0, 85.0), ("vtk", 23.0, 40.0), ("usd", 0.0, 36.0), ("npz", 23.0, 38.0), ("mesh", 0.0, 490.0)];
 /// The same of volumes, by axes: leaves of fewer axes hold few cells.
 const VOLUMES: [f64; 3] = [25.0, 25.0, 6.0];
 /// Bytes of a number in tables, by axes: zeros are short.
@@ -79,7 +81,8 @@ impl Scene {
         let room = [wide - MARGINS[0], high - MARGINS[1]].map(|side| side.max(1.0));
         let width = room[0].min(room[1] * aspect);
         let bodies = if self.bodies.is_empty() { GAS_ALONE } else { 1.0 };
-        all * bodies * width * (width / aspect) / (wide * high)
+        let quiet = if self.is_quiet() { QUIET_GAS } else { 1.0 };
+        all * bodies * quiet * width * (width / aspect) / (wide * high)
     }
 
     /// Of cells and particles of a frame.
