@@ -64,7 +64,7 @@ pub const TABLE: &[Quantity] = &[
     quantity(Place::Cell, "pressure", "Pa", "pressure [Pa]", 1, |s| gas(s, |i| [s.pressure[i]])),
     quantity(Place::Cell, "velocity", "m s^-1", "speed [m/s]", 3, |s| gas(s, |i| s.velocity[i])),
     quantity(Place::Cell, "energy", "J m^-3", "total energy [J/m\u{b3}]", 1, |s| gas(s, |i| [s.energy[i]])),
-    quantity(Place::Cell, "temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [temperature(s, i)])),
+    quantity(Place::Cell, "temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [s.thermal_energy_at(i)])),
     quantity(Place::Cell, "mach", "1", "Mach number", 1, |s| gas(s, |i| [mach(s, i)])),
     quantity(Place::Cell, "schlieren", "kg m^-4", "density gradient [kg/m\u{2074}]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
     quantity(Place::Cell, "vorticity", "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
@@ -151,14 +151,8 @@ fn length([x, y, z]: [f32; 3]) -> f32 {
     (x * x + y * y + z * z).sqrt()
 }
 
-/// p / rho, over the gas constant of a mixture times that of the first gas.
-fn temperature(snapshot: &Snapshot, i: usize) -> f32 {
-    let ratio = snapshot.gases.constant_ratio(snapshot.mass_fraction_at(i).into()) as f32;
-    snapshot.pressure[i] / snapshot.density[i] / ratio
-}
-
 fn mach(snapshot: &Snapshot, i: usize) -> f32 {
-    length(snapshot.velocity[i]) / (snapshot.gamma_at(i) as f32 * snapshot.pressure[i] / snapshot.density[i]).sqrt()
+    length(snapshot.velocity[i]) / snapshot.sound_speed_at(i) as f32
 }
 
 /// Of the Cauchy stress: sqrt(3/2 s:s).

@@ -1,11 +1,15 @@
 //! A CPU copy of the state at one time: what tests, tables and exporters see.
 
+mod cell_rows;
+
 use rayon::prelude::*;
 
 use crate::error::Result;
 use crate::gpu::{Gpu, readback};
-use crate::scene::EquationOfState;
+use crate::scene::{Conserved, EquationOfState};
 use crate::state::{Grid, State};
+
+pub use cell_rows::CellRows;
 
 /// Kind of a cell, bits 0..1 of a cell word.
 pub mod kind {
@@ -44,8 +48,8 @@ pub struct Snapshot {
     pub pressure: Vec<f32>,
     /// Total gas energy per volume \[J m^-3\].
     pub energy: Vec<f32>,
-    /// Mass fraction of the second gas and its volume fraction; empty without one.
-    pub species: Vec<[f32; 2]>,
+    /// Mass fraction of the second gas, its volume fraction, and the share of an explosive that has burned; empty without one.
+    pub species: Vec<[f32; 3]>,
     /// Gas that cells owe, and in covered cells all that they hold \[kg m^-3\].
     pub owed: Vec<f32>,
     /// Of each cell since the start: largest pressure \[Pa\], integral over time of the pressure above ambient \[Pa s\], largest plastic
@@ -153,6 +157,38 @@ impl Snapshot {
         self.gases.gamma_at(self.species.get(cell).map_or(0.0, |own| own[1].into()))
     }
 
+    /// Speed of sound in a cell \[m s^-1\].
+    #[must_use]
+    pub fn sound_speed_at(&self, cell: usize) -> f64 {
+        if self.gases.products().is_none() {
+            return (self.gamma_at(cell) * f64::from(self.pressure[cell]) / f64::from(self.density[cell])).sqrt();
+        }
+        let (state, burned) = self.conserved_at(cell);
+        self.gases.sound_speed(state, burned)
+    }
+
+    /// Temperature times the gas constant of the first gas in a cell \[J kg^-1\]: p / rho of it.
+    #[must_use]
+    pub fn thermal_energy_at(&self, cell: usize) -> f32 {
+        let plain = || {
+            let constant = self.gases.constant_ratio(self.mass_fraction_at(cell).into()) as f32;
+            self.pressure[cell] / self.density[cell] / constant
+        };
+        if self.gases.products().is_none() {
+            return plain();
+        }
+        let (state, burned) = self.conserved_at(cell);
+        plain() * (1.0 - self.gases.cold_pressure(state, burned) as f32 / self.pressure[cell])
+    }
+
+    /// What is conserved in a cell, and the share of the explosive that has burned.
+    fn conserved_at(&self, cell: usize) -> (Conserved, f64) {
+        let [share, phi, burned] = self.species.get(cell).map_or([0.0, 0.0, 1.0], |own| own.map(f64::from));
+        let density = f64::from(self.density[cell]);
+        let [u, v, w] = self.velocity[cell].map(|speed| density * f64::from(speed));
+        ([density, u, v, w, self.energy[cell].into(), share * density, phi], burned)
+    }
+
     /// Mass fraction of the second gas in a cell.
     #[must_use]
     pub fn mass_fraction_at(&self, cell: usize) -> f32 {
@@ -231,15 +267,7 @@ impl Snapshot {
         rows: &ParticleRows,
     ) -> Snapshot {
         let flow = &cells.conserved;
-        let pressure = |slot: usize| {
-            let u = flow[slot];
-            let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
-            let grueneisen = match cells.species.get(grid.slots() + slot) {
-                Some(phi) => gases.grueneisen((*phi).into()) as f32,
-                None => gases.gamma as f32 - 1.0,
-            };
-            grueneisen * (cells.energy[slot] - kinetic)
-        };
+        let pressure = |slot: usize| cells.pressure(&grid, &gases, slot);
         let velocity = |slot: usize| [1, 2, 3].map(|axis| flow[slot][axis] / flow[slot][0]);
         Snapshot {
             time,
@@ -256,52 +284,6 @@ impl Snapshot {
             maps: cells.kept_maps(&grid),
             particles: rows.samples(&grid),
         }
-    }
-}
-
-/// The cells in the layout of the device, ring included.
-#[derive(Debug, Clone, Default)]
-pub struct CellRows {
-    /// Density and momentum per volume.
-    pub conserved: Vec<[f32; 4]>,
-    /// Total energy per volume.
-    pub energy: Vec<f32>,
-    /// Density of the second gas of all slots, then its volume fraction; empty without one.
-    pub species: Vec<f32>,
-    /// Mass owed \[kg\]; empty where only the ring has a ledger.
-    pub owed: Vec<f32>,
-    /// Maps, see [`State::maps`]; empty where none are kept.
-    pub maps: Vec<[f32; 4]>,
-    /// Kinds.
-    pub kind: Vec<u8>,
-}
-
-impl CellRows {
-    /// Maps of the cells without what rounding took.
-    fn kept_maps(&self, grid: &Grid) -> Vec<[f32; 3]> {
-        if self.maps.is_empty() {
-            return Vec::new();
-        }
-        let kept = |[peak, impulse, _, strain]: [f32; 4]| [peak, impulse, strain];
-        grid.unpadded_by(|slot| kept(self.maps[slot]))
-    }
-
-    fn species_fractions(&self, grid: &Grid) -> Vec<[f32; 2]> {
-        if self.species.is_empty() {
-            return Vec::new();
-        }
-        let (density, volume) = self.species.split_at(grid.slots());
-        grid.unpadded_by(|slot| [density[slot] / self.conserved[slot][0], volume[slot]])
-    }
-
-    /// What cells owe per volume, and in covered cells all that they hold.
-    fn owed_density(&self, grid: &Grid) -> Vec<f32> {
-        if self.owed.is_empty() {
-            return vec![0.0; grid.cell_count()];
-        }
-        let volume = grid.spacing.powi(grid.dimension as i32);
-        let held = |slot: usize| if self.kind[slot] == kind::SOLID { self.conserved[slot][0] } else { 0.0 };
-        grid.unpadded_by(|slot| self.owed[slot] / volume + held(slot))
     }
 }
 

@@ -99,8 +99,8 @@ fn surplus_beyond(c: vec3i, slot: u32) -> vec4f {
     let face = OpenFace(energy[part(OPEN_VELOCITY, slot)], energy[part(OPEN_PRESSURE, slot)]);
     if dot(away, away) != 1 || kind_of(cells[slot_of(near)]) != GAS || face.reference <= 0.0 { return vec4f(0.0); }
     let n = u32(away.y != 0) + 2u * u32(away.z != 0);
-    let y = admittance_of(opening_of(cells[slot]), face, gamma_at(slot_of(near)), conserved[slot_of(near)].x,
-        energy[part(PREDICTED_PRESSURE, slot_of(near))]);
+    let predicted = energy[part(PREDICTED_PRESSURE, slot_of(near))];
+    let y = admittance_of(opening_of(cells[slot]), face, gamma_at(slot_of(near), predicted), conserved[slot_of(near)].x, predicted);
     let solved = face.velocity + f32(away[n]) * y * (open_part_pressure(near, n, away[n] > 0) - face.reference);
     return select(vec4f(0.0), vec4f(solved - average(near, slot_of(near))[n]), vec4<bool>(along(n), false));
 }

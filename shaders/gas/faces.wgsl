@@ -20,6 +20,10 @@ fn seen(slot: u32, c: vec3i, n: u32, offset: i32) -> Seen {
     return Seen(word, gas);
 }
 
+fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
+    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first), select(b.species, a.species, first), select(b.unburned, a.unburned, first));
+}
+
 // Seven cells in a row along an axis, d being the slot itself.
 struct Row { a: Seen, b: Seen, c: Seen, d: Seen, e: Seen, f: Seen, g: Seen }
 
@@ -186,12 +190,14 @@ fn plus(a: Change, b: Change) -> Change {
     let low = rounded4(b.first_order.flow);
     let slip = rounded4(vec4f(b.slip, b.first_order.energy));
     let species = rounded4(vec4f(b.high_order.species, b.first_order.species));
-    return Change(Gas(a.high_order.flow + high, a.high_order.energy + rest.x, a.high_order.species + species.xy),
-        Gas(a.first_order.flow + low, a.first_order.energy + slip.w, a.first_order.species + species.zw), a.velocity,
+    return Change(Gas(a.high_order.flow + high, a.high_order.energy + rest.x, a.high_order.species + species.xy,
+            a.high_order.unburned + rounded(b.high_order.unburned)),
+        Gas(a.first_order.flow + low, a.first_order.energy + slip.w, a.first_order.species + species.zw,
+            a.first_order.unburned + rounded(b.first_order.unburned)), a.velocity,
         a.lost_density + rest.z, a.lost_energy + rest.w, a.slip + slip.xyz, a.heat + rest.y, a.phi, a.lost_species + b.lost_species);
 }
 
-fn times(share: f32, gas: Gas) -> Gas { return Gas(share * gas.flow, share * gas.energy, share * gas.species); }
+fn times(share: f32, gas: Gas) -> Gas { return Gas(share * gas.flow, share * gas.energy, share * gas.species, share * gas.unburned); }
 
 fn scaled(c: Change, share: f32) -> Change {
     return Change(times(share, c.high_order), times(share, c.first_order), c.velocity,
@@ -218,7 +224,9 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
     (*change).high_order.energy += scale * (total - implicit);
     (*change).first_order.flow += scale * f.first_order.flow;
     (*change).first_order.energy += scale * (f.first_order.energy - implicit);
-    add_excess(change, scale * (f.high_order.flow - f.first_order.flow), scale * (f.high_order.energy - f.first_order.energy));
+    var heat = f.high_order.energy - f.first_order.energy;
+    if PRODUCTS { heat -= params.chemical_energy * (f.high_order.unburned - f.first_order.unburned); }
+    add_excess(change, scale * (f.high_order.flow - f.first_order.flow), scale * heat);
     if SPECIES { add_species(change, f, vec2f(first, high), scale); }
 }
 
@@ -229,6 +237,8 @@ fn add_species(change: ptr<function, Change>, f: Fluxes, share: vec2f, scale: f3
     let through = scale * (share.x * (f.first_order.species + share.y * beyond - carried));
     (*change).high_order.species += vec2f(whole(through.x, f.unit), through.y);
     (*change).first_order.species += scale * (f.first_order.species - carried);
+    (*change).high_order.unburned += scale * share.x * mix(f.first_order.unburned, f.high_order.unburned, share.y);
+    (*change).first_order.unburned += scale * f.first_order.unburned;
     let excess = scale * vec3f(beyond, f.high_order.flow.x - f.first_order.flow.x);
     (*change).lost_species += max(vec4f(-excess.x, excess.x - excess.z, -excess.y, excess.y), vec4f(0.0));
 }
@@ -240,7 +250,7 @@ fn drained_share(before: Gas, change: Change) -> f32 {
     for (var k = 0; k < 12; k++) {
         let flow = before.flow + share * change.first_order.flow;
         let total = before.energy + share * change.first_order.energy;
-        if flow.x > KEPT * before.flow.x && internal_energy(Gas(flow, total, before.species)) > least { return share - 1.0; }
+        if flow.x > KEPT * before.flow.x && internal_energy(Gas(flow, total, before.species, before.unburned)) > least { return share - 1.0; }
         share *= 0.5;
     }
     return -1.0;
@@ -261,7 +271,8 @@ fn species_share(low: Gas, change: Change) -> f32 {
 // Where bodies recede on several sides even that would drain the cell: then -1 + the share of the first-order change that
 // leaves KEPT of what is there.
 fn allowed_share(before: Gas, change: Change) -> f32 {
-    let low = Gas(before.flow + change.first_order.flow, before.energy + change.first_order.energy, before.species + change.first_order.species);
+    let low = Gas(before.flow + change.first_order.flow, before.energy + change.first_order.energy, before.species + change.first_order.species,
+        before.unburned + change.first_order.unburned);
     if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) {
         if ARS && RUNGE_KUTTA > 0u { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
         return drained_share(before, change);

@@ -73,14 +73,17 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     if (kind == GHOST || kind == WALL) && !(ARS && control.stage == 0u) { keep_crossed(slot); }
     if kind != GAS { return; }
     let flow = in_space(conserved[slot]);
-    let total = energy[slot];
+    let silent = chemical_energy_of(gas_at(slot));
+    let total = energy[slot] - silent;
     if is_unsound(flow.x, total) {
         atomicMin(&control.fault, (STAGE_FLUID_UPDATE << 27u) | slot);
         return;
     }
-    let phi = species_now(slot).y;
-    let before = 1.0 / (gamma_of(phi) * fill[slot].y * grueneisen_of(phi));
-    let least = least_energy(flow.x, phi, total, before);
+    let species = species_now(slot);
+    let phi = species.y;
+    var before = 1.0 / (gamma_of(phi) * fill[slot].y * grueneisen_of(phi));
+    if PRODUCTS { before = energy[part(PREDICTED_PRESSURE, slot)] / grueneisen_of(phi) + cold_energy_of(gas_at(slot)); }
+    let least = least_energy(flow.x, species, total, before);
     let kinetic = kinetic_energy(flow);
     if total - kinetic >= least { return; }
     // What the first of two solves loses counts more than once in the second [shared/state.wgsl].
@@ -88,6 +91,6 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     atomicAdd(&control.floored, 1u);
     let left = flow.yzw * select(0.0, sqrt((total - least) / kinetic), total > least);
     ledger_loss(slot, phi, (flow.yzw - left) * counted, min(total - least, 0.0) * counted);
-    energy[slot] = max(total, least);
+    energy[slot] = max(total, least) + silent;
     conserved[slot] = vec4f(flow.x, left);
 }

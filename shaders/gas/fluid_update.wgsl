@@ -134,7 +134,7 @@ fn face_power(c: vec3i, slot: u32, here: vec4f, n: u32, up: bool) -> f32 {
     if CONSISTENT && face.reference > 0.0 { return p * (node[slot][n] + node[far][n]); }
     var density = here.x;   // that of the solve: gas that followed a body has left since
     if LATE_FLUX && has(cells[slot], NODE_SOLID) { density /= 1.0 - late_share_of(c); }
-    let y = admittance_of(opening_of(cells[far]), face, gamma_at(slot), density, energy[part(PREDICTED_PRESSURE, slot)]);
+    let y = admittance_of(opening_of(cells[far]), face, gamma_at(slot, energy[part(PREDICTED_PRESSURE, slot)]), density, energy[part(PREDICTED_PRESSURE, slot)]);
     return p * (face.velocity + select(-1.0, 1.0, up) * y * (p - face.reference));
 }
 
@@ -171,9 +171,11 @@ fn least_predicted() -> f32 { return select(0.98, 0.5, ARS); }
 // Whether the floor may have to act on a cell deep inside the gas: never false where it would, for the pressure of the predictor tells
 // nearly what internal energy there was before.
 fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
-    let phi = species_now(slot).y;
-    let before = energy[part(PREDICTED_PRESSURE, slot)] / (least_predicted() * grueneisen_of(phi));
-    return is_unsound(flow.x, total) || total - kinetic_energy(flow) < least_energy(flow.x, phi, total, before);
+    let species = species_now(slot);
+    var before = energy[part(PREDICTED_PRESSURE, slot)] / (least_predicted() * grueneisen_of(species.y));
+    if PRODUCTS { before += cold_energy_of(gas_at(slot)); }
+    let own = total - chemical_energy_of(gas_at(slot));
+    return is_unsound(flow.x, own) || own - kinetic_energy(flow) < least_energy(flow.x, species, own, before);
 }
 
 @compute @workgroup_size(WORKGROUP)

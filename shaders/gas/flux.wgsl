@@ -4,7 +4,7 @@
 // - elsewhere (`even` 1), fifth order from a to e: three parabolas with the linear weights 0.1, 0.6 and 0.3, times
 //   1 + (tau / (beta + epsilon))^2, tau the difference of the outer two beta. It keeps waves and contacts [Borges et al. 2008].
 // All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
-// Needs ARS, RUNGE_KUTTA and the bindings control and energy.
+// Needs ARS, RUNGE_KUTTA, carried_heat() and the bindings control and energy.
 
 // Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/notes/reconstruction.md].
 const WENO_EPSILON = 7e-4;
@@ -49,7 +49,8 @@ fn most_spread() -> f32 { return params.spacing / (3.0 * max(stage_span(), 1e-30
 
 fn sound_between(c: Gas, d: Gas) -> f32 {
     if SPECIES {
-        let square = gamma_of(c.species.y) * pressure_of(c) / c.flow.x + gamma_of(d.species.y) * pressure_of(d) / d.flow.x;
+        let p = vec2f(pressure_of(c), pressure_of(d));
+        let square = stiffness_ratio(c, p.x) * p.x / c.flow.x + stiffness_ratio(d, p.y) * p.y / d.flow.x;
         return sqrt(max(0.5 * square, 1e-30));
     }
     let energy = 0.5 * (internal_energy(c) / c.flow.x + internal_energy(d) / d.flow.x);
@@ -142,41 +143,45 @@ fn unit_between(c: Gas, d: Gas) -> f32 {
 // Internal energy at the face between two slots at the start of the step, by the mean of both.
 fn heat_between(s: Stencil, low: u32, high: u32) -> f32 {
     if !ARS { return 0.0; }
-    if RUNGE_KUTTA == 0u { return 0.5 * (internal_energy(s.c) + internal_energy(s.d)); }
+    if RUNGE_KUTTA == 0u { return 0.5 * (carried_heat(s.c) + carried_heat(s.d)); }
     return 0.5 * (energy[part(START_HEAT, low)] + energy[part(START_HEAT, high)]);
 }
 
 fn packed(gas: Gas) -> vec4f { return select(gas.flow, vec4f(gas.flow.xyz, gas.energy), vec4<bool>(DIM < 3u)); }
 
 // What does not fit beside the flow.
-fn packed_rest(gas: Gas) -> vec4f { return vec4f(gas.energy, gas.energy, gas.species); }
+fn packed_rest(gas: Gas) -> vec4f { return vec4f(gas.energy, gas.unburned, gas.species); }
 
 fn unpacked(flux: vec4f, rest: vec4f) -> Gas {
-    if DIM < 3u { return Gas(vec4f(flux.xyz, 0.0), flux.w, rest.zw); }
-    return Gas(flux, rest.x, rest.zw);
-}
-
-// Two parts of a slot, of the second gas; 0 without one.
-fn species_at(density: u32, volume: u32, slot: u32) -> vec2f {
-    if !SPECIES { return vec2f(0.0); }
-    return vec2f(energy[part(density, slot)], energy[part(volume, slot)]);
+    if DIM < 3u { return Gas(vec4f(flux.xyz, 0.0), flux.w, rest.zw, rest.y); }
+    return Gas(flux, rest.x, rest.zw, rest.y);
 }
 
 // Density, velocity and internal energy in the places of a state, and back. Of two gases: density, velocity, pressure, mass fraction and
-// volume fraction.
+// volume fraction; with products the density of each gas in its own volume, for the pressure is not linear in them.
 fn primitive_of(gas: Gas) -> Gas {
     let flow = vec4f(gas.flow.x, velocity_of(gas.flow));
-    if SPECIES { return Gas(flow, pressure_of(gas), vec2f(gas.species.x / gas.flow.x, gas.species.y)); }
-    return Gas(flow, internal_energy(gas), vec2f(0.0));
+    if PRODUCTS {
+        let parts = max(vec2f(gas.species.x, gas.flow.x - gas.species.x), vec2f(0.0)) + TRACE * gas.flow.x;
+        let densities = parts / (max(vec2f(gas.species.y, 1.0 - gas.species.y), vec2f(0.0)) + TRACE);
+        return Gas(vec4f(densities.y, flow.yzw), pressure_of(gas), vec2f(densities.x, gas.species.y), gas.unburned / max(gas.species.x, 1e-30));
+    }
+    if SPECIES { return Gas(flow, pressure_of(gas), vec2f(gas.species.x / gas.flow.x, gas.species.y), 0.0); }
+    return Gas(flow, internal_energy(gas), vec2f(0.0), 0.0);
 }
 fn conserved_of(primitive: Gas) -> Gas {
-    let density = primitive.flow.x;
     let velocity = primitive.flow.yzw;
+    if PRODUCTS {
+        let own = primitive.species.y * primitive.species.x;
+        let both = own + (1.0 - primitive.species.y) * primitive.flow.x;
+        return gas_from_primitive(both, velocity, primitive.energy, vec2f(own, primitive.species.y), clamp(primitive.unburned, 0.0, 1.0) * own);
+    }
+    let density = primitive.flow.x;
     let flow = vec4f(density, density * velocity);
     let kinetic = 0.5 * density * dot(velocity, velocity);
-    if !SPECIES { return Gas(flow, primitive.energy + kinetic, vec2f(0.0)); }
+    if !SPECIES { return Gas(flow, primitive.energy + kinetic, vec2f(0.0), 0.0); }
     let phi = primitive.species.y;
-    return Gas(flow, primitive.energy / grueneisen_of(phi) + kinetic, vec2f(density * primitive.species.x, phi));
+    return Gas(flow, primitive.energy / grueneisen_of(phi) + kinetic, vec2f(density * primitive.species.x, phi), 0.0);
 }
 
 // Both values of a state at a face.
@@ -191,8 +196,20 @@ fn values_at(even: f32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Value
     return Values(unpacked(flow.low, rest.low), unpacked(flow.high, rest.high));
 }
 
+// A face value on the way from that of its cell, as far as densities, pressure and volumes of both gases keep a tenth of what they are there.
+// At the foot of a jump by a factor of a thousand they would be negative.
+fn kept_from(own: Gas, face: Gas) -> Gas {
+    let here = vec4f(own.flow.x, own.energy, own.species.x, own.species.y + TRACE);
+    let there = vec4f(face.flow.x, face.energy, face.species.x, face.species.y + TRACE);
+    let room = 0.9 * max(here, vec4f(0.0)) / max(here - there, vec4f(1e-30));
+    let other = 0.9 * max(1.0 + TRACE - own.species.y, 0.0) / max(face.species.y - own.species.y, 1e-30);
+    let share = min(min(min(room.x, room.y), min(room.z, room.w)), min(other, 1.0));
+    return Gas(mix(own.flow, face.flow, share), mix(own.energy, face.energy, share), mix(own.species, face.species, share), face.unburned);
+}
+
 fn sum_of(up: f32, low: Gas, down: f32, high: Gas) -> Gas {
-    return Gas(up * low.flow + down * high.flow, up * low.energy + down * high.energy, up * low.species + down * high.species);
+    return Gas(up * low.flow + down * high.flow, up * low.energy + down * high.energy, up * low.species + down * high.species,
+        up * low.unburned + down * high.unburned);
 }
 
 // With one velocity `carried` for the face: a value from each side of the state itself, and dissipation by `alpha`, at least upwind.
@@ -203,13 +220,14 @@ fn carried_fluxes(s: Stencil, carried: f32, alpha: f32, held: f32) -> Fluxes {
     let up = 0.5 * (carried + spread);
     let down = 0.5 * (carried - spread);
     var out: Fluxes;
-    let primitive = values_at(s.even, primitive_of(s.a), primitive_of(s.b), primitive_of(s.c), primitive_of(s.d), primitive_of(s.e), primitive_of(s.f));
+    var primitive = values_at(s.even, primitive_of(s.a), primitive_of(s.b), primitive_of(s.c), primitive_of(s.d), primitive_of(s.e), primitive_of(s.f));
+    if PRODUCTS { primitive = Values(kept_from(primitive_of(s.c), primitive.low), kept_from(primitive_of(s.d), primitive.high)); }
     out.high_order = sum_of(up, conserved_of(primitive.low), down, conserved_of(primitive.high));
     if s.level < 1.0 {
         let values = values_at(s.even, s.a, s.b, s.c, s.d, s.e, s.f);
         let steep = sum_of(up, values.low, down, values.high);
         out.high_order = Gas(mix(steep.flow, out.high_order.flow, s.level), mix(steep.energy, out.high_order.energy, s.level),
-            mix(steep.species, out.high_order.species, s.level));
+            mix(steep.species, out.high_order.species, s.level), mix(steep.unburned, out.high_order.unburned, s.level));
     }
     out.unit = unit_between(s.c, s.d);
     out.heat = held * carried;
@@ -254,7 +272,7 @@ fn face_fluxes_of(n: u32, s: Stencil, held: f32) -> Fluxes {
     out.high_order = unpacked(flow, vec4f(energy));
     out.unit = unit_between(s.c, s.d);
     if ARS { out.heat = held * (s.c.flow[n + 1u] + s.d.flow[n + 1u]) / (s.c.flow.x + s.d.flow.x); }
-    out.first_order = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy, vec2f(0.0));
+    out.first_order = Gas(u.z * s.c.flow + y.x * s.d.flow, u.z * s.c.energy + y.x * s.d.energy, vec2f(0.0), 0.0);
     return out;
 }
 
@@ -268,7 +286,7 @@ fn image(n: u32, gas: Gas) -> Gas {
 // What passes a plane of symmetry: momentum across it, as the dissipation has it. All else is zero but for rounding.
 fn reflected(n: u32, f: Fluxes) -> Fluxes {
     let normal = vec4f(0.0, vec3f(axis(n)));
-    return Fluxes(Gas(normal * f.high_order.flow, 0.0, vec2f(0.0)), Gas(normal * f.first_order.flow, 0.0, vec2f(0.0)), 0.0, 0.0, 0.0);
+    return Fluxes(Gas(normal * f.high_order.flow, 0.0, vec2f(0.0), 0.0), Gas(normal * f.first_order.flow, 0.0, vec2f(0.0), 0.0), 0.0, 0.0, 0.0);
 }
 
 // What collects gas gets the energy of the second one, of which there is a sum [interface/ledger.wgsl]: a share of that which passes.

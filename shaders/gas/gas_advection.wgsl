@@ -27,13 +27,31 @@ override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 
+// Two parts of a slot, of the second gas; 0 without one.
+fn species_at(density: u32, volume: u32, slot: u32) -> vec2f {
+    if !SPECIES { return vec2f(0.0); }
+    return vec2f(energy[part(density, slot)], energy[part(volume, slot)]);
+}
+
+fn unburned_at(which: u32, slot: u32) -> f32 {
+    if !PRODUCTS { return 0.0; }
+    return energy[part(which, slot)];
+}
+
+// What velocity carries of the internal energy at one pressure: G rho c^2 - p.
+fn carried_heat(gas: Gas) -> f32 {
+    if !PRODUCTS { return internal_energy(gas); }
+    return internal_energy(gas) - cold_energy_of(gas) + cold_stiffness_of(gas) / grueneisen_of(gas.species.y);
+}
+
 // State of a slot at the start of the stage's solve.
-fn start(slot: u32) -> Gas { return Gas(in_space(conserved[slot]), energy[slot], species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot)); }
+fn start(slot: u32) -> Gas { return Gas(in_space(conserved[slot]), energy[slot], species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot), unburned_at(UNBURNED, slot)); }
 
 // State of a slot that this stage carries, see the table above.
 fn source(slot: u32) -> Gas {
     if RUNGE_KUTTA == select(1u, 2u, ARS) {
-        return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)], species_at(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, slot));
+        return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)], species_at(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, slot),
+            unburned_at(HALFWAY_UNBURNED, slot));
     }
     return start(slot);
 }
@@ -124,36 +142,39 @@ fn start_of(slot: u32, here: Gas) -> Gas {
     let factor = select(ARS_MIDDLE, ARS_RETURNED, RUNGE_KUTTA == 2u);
     let gained = in_space(conserved[slot]) - in_space(work[part(KEPT_FLOW, slot)]);
     return Gas(in_space(work[part(START_FLOW, slot)]) + factor * gained,
-        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]), species_at(START_SPECIES_DENSITY, START_SPECIES_VOLUME, slot));
+        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]), species_at(START_SPECIES_DENSITY, START_SPECIES_VOLUME, slot),
+        unburned_at(START_UNBURNED, slot));
 }
 
-fn write_species(density: u32, volume: u32, slot: u32, species: vec2f) {
+fn write_species(density: u32, volume: u32, unburned: u32, slot: u32, species: vec3f) {
     if !SPECIES { return; }
     energy[part(density, slot)] = species.x;
     energy[part(volume, slot)] = species.y;
+    if PRODUCTS { energy[part(unburned, slot)] = species.z; }
 }
 
 fn write_result(slot: u32, before: Gas, all: Change) {
     let change = all.high_order;
-    let species = before.species + change.species;
+    let species = vec3f(before.species + change.species, before.unburned + change.unburned);
     if ARS && RUNGE_KUTTA != 1u {
-        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, slot, species);
+        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, ADVECTED_UNBURNED, slot, species);
         work[part(ADVECTED_FLOW, slot)] = before.flow + change.flow;
         energy[part(ADVECTED_ENERGY, slot)] = before.energy + change.energy;
         energy[part(COLD_ENERGY, slot)] = before.energy + change.energy - all.heat;
         if RUNGE_KUTTA == 2u { return; }
-        write_species(START_SPECIES_DENSITY, START_SPECIES_VOLUME, slot, before.species);
+        write_species(START_SPECIES_DENSITY, START_SPECIES_VOLUME, START_UNBURNED, slot, vec3f(before.species, before.unburned));
         work[part(START_FLOW, slot)] = before.flow;
         work[part(KEPT_FLOW, slot)] = before.flow + change.flow;
         energy[part(START_ENERGY, slot)] = before.energy;
         energy[part(KEPT_ENERGY, slot)] = before.energy + change.energy - all.heat;
-        energy[part(START_HEAT, slot)] = internal_energy(before);
+        energy[part(START_HEAT, slot)] = carried_heat(before);
     } else if !ARS && RUNGE_KUTTA == 1u {
-        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, slot, 0.5 * (species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot) + species));
+        let start = vec3f(species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot), unburned_at(UNBURNED, slot));
+        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, ADVECTED_UNBURNED, slot, 0.5 * (start + species));
         work[part(ADVECTED_FLOW, slot)] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
         energy[part(ADVECTED_ENERGY, slot)] = 0.5 * (energy[slot] + before.energy + change.energy);
     } else {
-        write_species(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, slot, species);
+        write_species(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, HALFWAY_UNBURNED, slot, species);
         work[part(HALFWAY_FLOW, slot)] = before.flow + change.flow;
         energy[part(HALFWAY_ENERGY, slot)] = before.energy + change.energy;
     }

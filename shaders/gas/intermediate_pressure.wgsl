@@ -14,7 +14,18 @@
 @group(0) @binding(7) var<storage, read> node: array<vec4f>;
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
 
-fn advected(slot: u32) -> Gas { return Gas(in_space(work[part(ADVECTED_FLOW, slot)]), energy[part(ADVECTED_ENERGY, slot)], species_at(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, slot)); }
+fn advected(slot: u32) -> Gas {
+    let species = species_at(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, slot);
+    return Gas(in_space(work[part(ADVECTED_FLOW, slot)]), energy[part(ADVECTED_ENERGY, slot)], species, left_unburned(slot, species.x));
+}
+
+// What has not burned when the solve ends: a detonation passes a cell at its own speed, whatever the gas does.
+fn left_unburned(slot: u32, density: f32) -> f32 {
+    if !PRODUCTS { return 0.0; }
+    let then = control.time + select(control.dt, control.duration, ARS && control.stage == 1u);
+    let burned = clamp((then - energy[part(BURN_TIME, slot)]) * params.burn_rate, 0.0, 1.0);
+    return clamp(energy[part(ADVECTED_UNBURNED, slot)], 0.0, (1.0 - burned) * max(density, 0.0));
+}
 
 // Velocity beyond a face: the neighbour's, or what the boundary prescribes.
 fn face_velocity(c: vec3i, n: u32, up: bool, here: Gas) -> f32 {
@@ -107,7 +118,9 @@ fn predicted(c: vec3i, slot: u32, here: Gas, p: f32) -> f32 {
     change = change * control.dt / params.spacing;
     let smooth_share = select(max(0.0, 1.0 - COMPRESSION_SWITCH * abs(change)), 1.0, change >= 0.0);
     // without what is unseen never below 0.99 p
-    return p * (1.0 + smooth_share * change - gamma_of(here.species.y) * unseen * control.dt / params.spacing);
+    let ratio = stiffness_ratio(here, p);
+    if PRODUCTS { change *= ratio - grueneisen_of(here.species.y); }
+    return p * (1.0 + smooth_share * change - ratio * unseen * control.dt / params.spacing);
 }
 
 // The solve changes neither of the two.
@@ -115,6 +128,7 @@ fn keep_species(slot: u32, here: Gas) {
     if !SPECIES { return; }
     energy[part(SPECIES_DENSITY, slot)] = here.species.x;
     energy[part(SPECIES_VOLUME, slot)] = here.species.y;
+    if PRODUCTS { energy[part(UNBURNED, slot)] = here.unburned; }
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -140,7 +154,7 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     if here.flow.x <= 0.0 || p <= 0.0 || is_broken(p) {
         atomicMin(&control.fault, (STAGE_GAS_ADVECTION << 27u) | slot);
     }
-    fill[slot].y = 1.0 / (gamma_of(here.species.y) * p);
+    fill[slot].y = 1.0 / (stiffness_ratio(here, p) * p);
     var total = here.energy;
     if ARS { total = energy[part(COLD_ENERGY, slot)]; }     // what the solve carries anew is not in it
     energy[part(PREDICTED_PRESSURE, slot)] = predicted(cell_of(slot), slot, here, p);

@@ -22,7 +22,7 @@ fn sign_of(corner: vec3i) -> f32 { return f32(1 - 2 * ((corner.x + corner.y + co
 
 fn gas_beside(v: vec3i, corner: u32) -> Gas {
     let slot = slot_of(v - reach() + corner_offset(corner));
-    return Gas(conserved[slot], energy[slot], species_now(slot));
+    return Gas(conserved[slot], energy[slot], species_now(slot), unburned_at(slot));
 }
 
 // Whether of each of two gases KEPT is left, by density and by volume.
@@ -36,14 +36,14 @@ fn has_both(gas: Gas, left: Gas) -> bool {
 // Whether a cell with one sign can give that much at all of its vertices.
 fn stands(gas: Gas, taken: Gas, sign: f32) -> bool {
     let all = sign * f32(corner_count());
-    let left = Gas(gas.flow - all * taken.flow, gas.energy - all * taken.energy, gas.species - all * taken.species);
+    let left = Gas(gas.flow - all * taken.flow, gas.energy - all * taken.energy, gas.species - all * taken.species, gas.unburned);
     return left.flow.x >= KEPT * gas.flow.x && internal_energy(left) >= KEPT * internal_energy(gas) && has_both(gas, left);
 }
 
 // What the filter takes from a cell beside a vertex, up to the sign: positive for the one below it on all axes or an even number of
 // cells away.
 fn taken_at(v: vec3i) -> Gas {
-    let nothing = Gas(vec4f(0.0), 0.0, vec2f(0.0));
+    let nothing = Gas(vec4f(0.0), 0.0, vec2f(0.0), 0.0);
     var sum = nothing;
     var densest = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
@@ -60,7 +60,7 @@ fn taken_at(v: vec3i) -> Gas {
     let flow = share * sum.flow;
     let unit = LAST_PLACE * power_of_two(densest);
     let species = share * sum.species;
-    let taken = Gas(vec4f(whole(flow.x, unit), flow.yzw), share * sum.energy, vec2f(whole(species.x, unit), species.y));
+    let taken = Gas(vec4f(whole(flow.x, unit), flow.yzw), share * sum.energy, vec2f(whole(species.x, unit), species.y), 0.0);
     for (var k = 0u; k < corner_count(); k++) {
         if !stands(gas_beside(v, k), taken, sign_of(corner_offset(k))) { return nothing; }
     }
@@ -91,7 +91,7 @@ fn mixing_count(v: vec3i) -> f32 {
 
 // What a cell takes from the others at a vertex: towards the mean, by pairs, so that what one gives is what the other takes.
 fn mixed_at(v: vec3i, c: vec3i, slot: u32) -> Gas {
-    var sum = Gas(vec4f(0.0), 0.0, vec2f(0.0));
+    var sum = Gas(vec4f(0.0), 0.0, vec2f(0.0), 0.0);
     let count = mixing_count(v);
     if count == 0.0 || !mixes(v, c) { return sum; }
     let share = FILTER / (f32(corner_count()) * count);
@@ -113,7 +113,7 @@ fn mixed_at(v: vec3i, c: vec3i, slot: u32) -> Gas {
 fn odd_even_find(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
-    var change = Gas(vec4f(0.0), 0.0, vec2f(0.0));
+    var change = Gas(vec4f(0.0), 0.0, vec2f(0.0), 0.0);
     if kind_of(cells[slot]) == GAS {
         let c = cell_of(slot);
         for (var k = 0u; k < corner_count(); k++) {

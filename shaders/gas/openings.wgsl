@@ -31,7 +31,7 @@ fn openings_now(@builtin(local_invocation_index) lane: u32) {
     let mass_fraction = openings[lane].species_density / openings[lane].flow.x;
     let species = vec2f(mass_fraction * density, openings[lane].species_volume);
     let gas = gas_from_primitive(density, mix(before.velocity, after.velocity, share),
-        mix(before.pressure, after.pressure, share), species);
+        mix(before.pressure, after.pressure, share), species, 0.0);
     openings[lane].species_density = species.x;
     openings[lane].flow = gas.flow;
     openings[lane].energy = gas.energy;

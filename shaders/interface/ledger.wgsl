@@ -81,7 +81,7 @@ fn trapped_gas(c: vec3i, slot: u32) -> Gas {
     for (var k = 0u; k < corner_count(); k++) { pressure += ghost[slot_of(c + corner_offset(k))]; }
     pressure = max(pressure / f32(corner_count()), 1e-3 * params.ambient_pressure);
     let density = params.ambient_density * pow(pressure / params.ambient_pressure, 1.0 / gamma_of(params.ambient_volume));
-    return gas_from_primitive(density, node[slot].xyz, pressure, vec2f(density * params.ambient_share, params.ambient_volume));
+    return gas_from_primitive(density, node[slot].xyz, pressure, vec2f(density * params.ambient_share, params.ambient_volume), 0.0);
 }
 
 // At the start bodies cover no gas.
@@ -103,7 +103,7 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     let c = cell_of(slot);
     let sum = fill_from_neighbours(c);
     let count = max(sum.count, 1.0);
-    var filled = gas_of_sums(sum.flow / count, sum.energy / count, sum.species / count);
+    var filled = gas_of_sums(sum.flow / count, sum.energy / count, sum.species / count, 0.0);
     if sum.count == 0.0 { filled = trapped_gas(c, slot); }
     owed_flow[slot] += (conserved[slot] - filled.flow) * cell_volume();
     owed_energy[slot] += (energy[slot] - filled.energy) * cell_volume();
@@ -126,7 +126,7 @@ fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
 // Gas with a part of what is owed.
 fn with_part(gas: Gas, slot: u32, part: f32) -> Gas {
     let each = part / cell_volume();
-    return gas_of_sums(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot], summed_species(gas) + each * owed_species(slot));
+    return gas_of_sums(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot], summed_species(gas) + each * owed_species(slot), gas.unburned);
 }
 
 fn at_surface(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && neighbours_of_kind(cell_of(slot), GAS) > 0u; }
@@ -156,7 +156,7 @@ fn density_beside(slot: u32) -> f32 {
 
 // Part of what it owes that a gas cell with so many gas neighbours settles now.
 fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
-    let gas = Gas(conserved[slot], energy[slot], species_now(slot));
+    let gas = Gas(conserved[slot], energy[slot], species_now(slot), unburned_at(slot));
     let before = internal_energy(gas);
     let all = with_part(gas, slot, 1.0);
     var bounds = ENCLOSED;

@@ -28,12 +28,12 @@ fn summed_species(gas: Gas) -> vec2f {
     return vec2f(gas.species.x, energy_share_of(gas.species.y) * gas.energy);
 }
 
-// Gas of a density, momentum, energy and sums of the second gas.
-fn gas_of_sums(flow: vec4f, total: f32, sums: vec2f) -> Gas {
-    if !SPECIES { return Gas(flow, total, vec2f(0.0)); }
+// Gas of a density, momentum, energy and sums of the second gas, of which so much has not burned.
+fn gas_of_sums(flow: vec4f, total: f32, sums: vec2f, unburned: f32) -> Gas {
+    if !SPECIES { return Gas(flow, total, vec2f(0.0), 0.0); }
     let share = clamp(sums.y / max(total, 1e-30), 0.0, 1.0);
     let volumes = vec2f(share * (params.species_gamma - 1.0), (1.0 - share) * (params.gamma - 1.0));
-    return Gas(flow, total, vec2f(sums.x, volumes.x / (volumes.x + volumes.y)));
+    return Gas(flow, total, vec2f(sums.x, volumes.x / (volumes.x + volumes.y)), unburned);
 }
 
 // Least p / rho^gamma that settling may leave.

@@ -54,10 +54,42 @@ fn gamma(slot: u32) -> f32 {
     return select(1.0 + grueneisen(slot), view.gamma, view.species_gamma == 0.0);
 }
 
+// x of both terms of the products of an explosive [shared/state.wgsl].
+fn expansions(slot: u32) -> vec2f {
+    let own = species_of(slot);
+    let trace = 1e-6 * conserved[slot].x;
+    return view.products.zw / max((own.x + trace) / (own.y + 1e-6), trace);
+}
+
+// Of an explosive: density of what has not burned, and volume fraction of what has.
+fn unburned(slot: u32) -> f32 { return species[view.species_start + 2u * arrayLength(&conserved) + slot]; }
+fn products_volume(slot: u32) -> f32 {
+    let own = species_of(slot);
+    return own.y * (1.0 - clamp(unburned(slot) / max(own.x, 1e-30), 0.0, 1.0));
+}
+
+fn reference_energy(slot: u32) -> f32 {
+    if (view.products.x == 0.0) {
+        return 0.0;
+    }
+    let x = expansions(slot);
+    let w = view.species_gamma - 1.0;
+    let cold = dot(view.products.xy, (1.0 - w / x) * exp(-x));
+    return view.chemical_energy * unburned(slot) - products_volume(slot) / w * cold;
+}
+
+// Pressure of products at no temperature.
+fn cold_pressure(slot: u32) -> f32 {
+    if (view.products.x == 0.0) {
+        return 0.0;
+    }
+    return products_volume(slot) * dot(view.products.xy, exp(-expansions(slot)));
+}
+
 fn pressure(slot: u32) -> f32 {
     let state = conserved[slot];
     let kinetic = 0.5 * dot(state.yzw, state.yzw) / state.x;
-    return grueneisen(slot) * (energy[slot] - kinetic);
+    return grueneisen(slot) * (energy[slot] - kinetic - reference_energy(slot));
 }
 
 fn mass_fraction(slot: u32) -> f32 {
@@ -66,7 +98,7 @@ fn mass_fraction(slot: u32) -> f32 {
 
 // p / rho, over the gas constant of a mixture times that of the first gas.
 fn temperature(slot: u32) -> f32 {
-    let warm = pressure(slot) / conserved[slot].x;
+    let warm = (pressure(slot) - cold_pressure(slot)) / conserved[slot].x;
     return select(warm / mix(1.0, view.species_constant, mass_fraction(slot)), warm, view.species_gamma == 0.0);
 }
 

@@ -155,12 +155,12 @@ fn inflow_speed(o: Opening, outward_velocity: f32) -> f32 {
 fn species_beyond(o: Opening) -> vec2f { return vec2f(o.species_density, o.species_volume); }
 
 // The state of an opening as it stands.
-fn prescribed_gas(o: Opening) -> Gas { return Gas(o.flow, o.energy, species_beyond(o)); }
+fn prescribed_gas(o: Opening) -> Gas { return Gas(o.flow, o.energy, species_beyond(o), 0.0); }
 
 // The gas of an opening where its pressure has become another without losses.
 fn incoming_gas(o: Opening, velocity: vec3f, pressure: f32) -> Gas {
     let density = o.flow.x * pow(pressure / o.pressure, 1.0 / gamma_of(o.species_volume));
-    return gas_from_primitive(density, velocity, pressure, vec2f(o.species_density * density / o.flow.x, o.species_volume));
+    return gas_from_primitive(density, velocity, pressure, vec2f(o.species_density * density / o.flow.x, o.species_volume), 0.0);
 }
 
 // Least speed of sound behind a wave into the far gas, over that of the far gas.
@@ -187,7 +187,7 @@ fn gas_from_afar(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
     let u = here.flow[n + 1u] / here.flow.x;
     if outward * u >= 0.0 { return here; }
     let p = pressure_of(here);
-    let gamma = gamma_of(here.species.y);
+    let gamma = stiffness_ratio(here, p);
     if outward * u <= -sound_speed(gamma, here.flow.x, p) { return prescribed_gas(o); }
     let sound = sound_from_afar(o, n, outward, gamma, far_density(o, gamma, here.flow.x, p), u);
     let velocity = select(velocity_of(o.flow), vec3f(u), along(n));
@@ -200,8 +200,8 @@ fn gas_beyond(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
     if follows(o, RULE_FIXED) { return prescribed_gas(o); }
     if follows(o, RULE_SUBSONIC) {
         var heat = internal_energy(here);
-        if SPECIES { heat = pressure_of(here) / grueneisen_of(o.species_volume); }
-        return Gas(o.flow, heat + kinetic_energy(o.flow), species_beyond(o));
+        if SPECIES { heat = pressure_of(here) / grueneisen_of(o.species_volume) + reference_energy(prescribed_gas(o)); }
+        return Gas(o.flow, heat + kinetic_energy(o.flow), species_beyond(o), 0.0);
     }
     if follows(o, RULE_TOTAL) {
         let speed = inflow_speed(o, outward * here.flow[n + 1u] / here.flow.x);
@@ -210,7 +210,7 @@ fn gas_beyond(o: Opening, n: u32, outward: f32, here: Gas) -> Gas {
         return incoming_gas(o, u, pressure);
     }
     if follows(o, RULE_ATTENUATED) {
-        return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share), mix(here.species, species_beyond(o), o.share));
+        return Gas(mix(here.flow, o.flow, o.share), mix(here.energy, o.energy, o.share), mix(here.species, species_beyond(o), o.share), (1.0 - o.share) * here.unburned);
     }
     if follows(o, RULE_FAR) { return gas_from_afar(o, n, outward, here); }
     return here;
@@ -268,4 +268,29 @@ fn inverse_of_power(unit: f32) -> f32 { return bitcast<f32>(0x7f000000u - bitcas
 fn whole(density: f32, unit: f32) -> f32 {
     if bitcast<u32>(unit) < 0x00800000u { return density; }
     return round(density * inverse_of_power(unit)) * unit;
+}
+
+// -- What carries the gas --
+
+// Velocity that carries the gas through a face between two GAS cells, from their carriers (see gas/carrier.wgsl) and densities. The
+// mean of two cells damps short compression waves; a share of the difference of the divergences gives that back: a quarter, with which
+// shocks stay smooth (a little less with B2B1, where they ring). It vanishes where the divergence does, so nothing that the solve
+// calls free of divergence is compressed.
+// Two solves per step see sound to second order in time. They have the share with which the face's divergence is the one that the solve
+// itself sees, or, in short steps, the third that makes sound along an axis one of fourth order in space (of B2B1 0.16, beyond which single
+// precision shows behind strong shocks). The solve then is told of the surplus beforehand [intermediate_pressure.wgsl]: without, waves of some eight cells grow.
+
+// The share with which the divergence would be the one that the solve itself sees.
+fn seen_share() -> f32 { return select(0.25, 1.0 / 12.0, QUADRATIC && ARS); }
+
+fn given_back() -> f32 {
+    if FOURTH { return select(1.0 / 3.0, 0.16, QUADRATIC); }
+    return select(seen_share(), 0.23, QUADRATIC && !ARS);
+}
+
+// Speed of the dissipation at such a face: upwind, and where the carriers part, as in a rarefaction, the larger of both.
+fn carrier_spread(low: f32, high: f32) -> f32 { return select(0.0, max(abs(low), abs(high)), high > low); }
+
+fn carried_velocity(n: u32, low: vec4f, low_density: f32, high: vec4f, high_density: f32) -> f32 {
+    return (low_density * low[n] + high_density * high[n]) / (low_density + high_density) - given_back() * (high.w - low.w);
 }

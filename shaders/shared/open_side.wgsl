@@ -36,7 +36,7 @@ struct OpenFace {
 fn open_face(o: Opening, n: u32, outward: f32, here: Gas, known: vec2f, dt: f32) -> OpenFace {
     let velocity = here.flow[n + 1u] / here.flow.x;
     let pressure = pressure_of(here);
-    let gamma = gamma_of(here.species.y);
+    let gamma = stiffness_ratio(here, pressure);
     let c = sound_speed(gamma, here.flow.x, pressure);
     let mach = outward * velocity / c;
     if prescribes(o) { return OpenFace(o.flow[n + 1u] / o.flow.x, -1.0); }

@@ -1,11 +1,11 @@
-// What every kernel knows of a run: switches, parameters and control, what lies beyond sides and how bodies are held, the parts of arrays,
-// and the state of the gas. Mirror of src/state.
+// What every kernel knows of a run: switches, parameters and control, what lies beyond sides, the parts of arrays, and the state of the gas.
+// Mirror of src/state.
 // Two things are declared in no file of this folder: constants such as GAS or NO_EXTRA are written by src/state/constants.rs, and
 // thread_index() and when() stand in src/gpu/head.wgsl. Both go before every shader.
 
 // -- Switches and parameters --
 
-// The dimension and the switches of the method are pipeline overrides, so that a switched-off branch costs nothing.
+// Pipeline overrides: a switched-off branch costs nothing.
 
 override DIM: u32;
 override SOLIDS: bool;          // the scene has bodies
@@ -14,6 +14,7 @@ override PREDICTOR: bool;       // consistent predictor of the intermediate pres
 override CONSISTENT: bool;      // gas is carried by what the solve sees of its velocity, see gas/carrier.wgsl; gas only
 override CUT: bool;             // obstacles cut cells; gas only, B1B0
 override SPECIES: bool;         // the scene has a second gas
+override PRODUCTS: bool;        // which is what an explosive leaves, see below
 override ARS: bool;             // two solves per step, see below
 override FOURTH: bool;          // sound of fourth order in space, see gas/carrier.wgsl
 override FRACTURE: bool;        // some material breaks, see stress.wgsl
@@ -67,6 +68,9 @@ struct Params {
     species_least_entropy: f32, // p / rho^gamma that none of it falls below
     ambient_share: f32,         // Mass fraction of the second gas in the ambient state [1]
     ambient_volume: f32,        // Its volume fraction there [1]
+    chemical_energy: f32,       // Energy that the explosive holds [J kg^-1]
+    burn_rate: f32,             // Share of it that burns per time where a detonation passes [s^-1]
+    products: vec4f,            // A and B [Pa], R1 and R2 times the density of the explosive [kg m^-3]
     scan: array<vec4u, SCAN_DISPATCHES>, // Groups of each dispatch of a prefix sum over all slots and one more
 }
 // End of what is generated.
@@ -119,7 +123,7 @@ struct Control {
 // True for NaN and infinities; comparisons alone do not find a NaN on every driver.
 fn is_broken(x: f32) -> bool { return (bitcast<u32>(x) & 0x7f800000u) == 0x7f800000u; }
 
-// -- Sides and supports --
+// -- Sides --
 
 // Generated from src/state/openings.rs by scripts/generate.
 struct Opening {
@@ -135,23 +139,9 @@ struct Opening {
 }
 // End of what is generated.
 
-// Generated from src/state/supports.rs by scripts/generate.
-struct Support {
-    velocity: vec3f,            // Velocity of the driven part now [m s^-1]
-    friction: f32,              // Coefficient of friction at walls and obstacles [1]; STICK for a body that sticks
-    spin: vec3f,                // Angular velocity of the driven part now [rad s^-1]
-    first: u32,                 // First entry of the motion over time
-    pivot: vec3f,               // The point that the driven part turns about, at the start of the step [m]
-    entries: u32,               // Entries of the motion over time
-    advance: vec3f,             // How far that point moves in this step [m]
-    clamped: u32,               // 1 where only a part of the body is driven: that part strains next to the rest
-}
-// End of what is generated.
-
 // -- Parts of arrays --
 
-// What the arrays hold that several stages share: energy[part(PREDICTED_PRESSURE, slot)] is the pressure that the solve starts from.
-// No other file counts places by hand. Who writes a part, and who reads it last: docs/inside/arrays.md.
+// What arrays hold, as energy[part(PREDICTED_PRESSURE, slot)]. Who writes a part, and who reads it last: docs/inside/arrays.md.
 
 // Generated from src/state/arrays.rs by scripts/generate: number of a part, array, what it holds.
 const HANDED_ENERGY = 1u; // energy: what the ledger hands on to each receiver [J]
@@ -169,16 +159,21 @@ const START_HEAT = 5u; // energy: internal energy at the start of the step [J m^
 const COLD_ENERGY = 6u; // energy: what the next solve starts from, without the part that it carries [J m^-3]
 const SPECIES_DENSITY = 7u; // energy: density of the second gas, with the slots of conserved [kg m^-3]
 const SPECIES_VOLUME = 8u; // energy: its volume fraction; in bodies its share of the energy [1, J m^-3]
-const HANDED_SPECIES_MASS = 9u; // energy: mass of the second gas that the ledger hands on to each receiver [kg]
-const HALFWAY_SPECIES_DENSITY = 9u; // energy: halfway through the advection [kg m^-3]
-const FILTER_SPECIES_DENSITY = 9u; // energy: what the filter changes [kg m^-3]
-const HANDED_SPECIES_ENERGY = 10u; // energy: its share of the energy [J]
-const HALFWAY_SPECIES_VOLUME = 10u; // energy: halfway through the advection [1]
-const FILTER_SPECIES_VOLUME = 10u; // energy: what the filter changes [1]
-const ADVECTED_SPECIES_DENSITY = 11u; // energy: of the advected state [kg m^-3]
-const ADVECTED_SPECIES_VOLUME = 12u; // energy: of the advected state [1]
-const START_SPECIES_DENSITY = 13u; // energy: at the start of the step, with two solves [kg m^-3]
-const START_SPECIES_VOLUME = 14u; // energy: at the start of the step, with two solves [1]
+const UNBURNED = 9u; // energy: density of an explosive that has not burned [kg m^-3]
+const HANDED_SPECIES_MASS = 10u; // energy: mass of the second gas that the ledger hands on to each receiver [kg]
+const HALFWAY_SPECIES_DENSITY = 10u; // energy: halfway through the advection [kg m^-3]
+const FILTER_SPECIES_DENSITY = 10u; // energy: what the filter changes [kg m^-3]
+const HANDED_SPECIES_ENERGY = 11u; // energy: its share of the energy [J]
+const HALFWAY_SPECIES_VOLUME = 11u; // energy: halfway through the advection [1]
+const FILTER_SPECIES_VOLUME = 11u; // energy: what the filter changes [1]
+const ADVECTED_SPECIES_DENSITY = 12u; // energy: of the advected state [kg m^-3]
+const ADVECTED_SPECIES_VOLUME = 13u; // energy: of the advected state [1]
+const START_SPECIES_DENSITY = 14u; // energy: at the start of the step, with two solves [kg m^-3]
+const START_SPECIES_VOLUME = 15u; // energy: at the start of the step, with two solves [1]
+const BURN_TIME = 16u; // energy: when a detonation comes [s]
+const HALFWAY_UNBURNED = 17u; // energy: halfway through the advection [kg m^-3]
+const ADVECTED_UNBURNED = 18u; // energy: of the advected state [kg m^-3]
+const START_UNBURNED = 19u; // energy: at the start of the step, with two solves [kg m^-3]
 const HANDED_FLOW = 0u; // work: mass and momentum that the ledger hands on to each receiver [kg, kg m s^-1]
 const HALFWAY_FLOW = 0u; // work: density and momentum halfway through the advection [kg m^-3, kg m^-2 s^-1]
 const FILM_PRESSURE = 0u; // work: pressure of gas films at walls, across each axis [Pa]
@@ -216,13 +211,14 @@ fn unknowns() -> u32 { return part(APART, 2u * params.extra_capacity); }
 
 // -- The gas --
 
-// Ideal gas: conserved variables U = (rho, rho u, E) and what follows from them. [Cao et al. 2022, eqs. 8-9] A second gas adds its
-// density rho Y and its volume fraction phi; both gases of a cell have one velocity and one pressure. [Allaire, Clerc and Kokh 2002]
+// U = (rho, rho u, E) and what follows from them. [Cao et al. 2022, eqs. 8-9] A second gas adds its density rho Y and its volume fraction
+// phi; both gases of a cell have one velocity and one pressure. [Allaire, Clerc and Kokh 2002]
 
 struct Gas {
     flow: vec4f,    // density [kg m^-3], momentum [kg m^-2 s^-1]
     energy: f32,    // total energy per volume [J m^-3]
     species: vec2f, // of the second gas: density [kg m^-3], volume fraction [1]; 0 in scenes without one
+    unburned: f32,  // of an explosive: density of what has not burned [kg m^-3]
 }
 
 // The momentum along axes that the scene has not is zero. Said where a state is loaded, so that no kernel reads it or reckons with it.
@@ -234,8 +230,9 @@ fn in_space(flow: vec4f) -> vec4f {
 
 fn velocity_of(flow: vec4f) -> vec3f { return flow.yzw / flow.x; }
 fn kinetic_energy(flow: vec4f) -> f32 { return 0.5 * dot(flow.yzw, flow.yzw) / flow.x; }
-fn internal_energy(gas: Gas) -> f32 { return gas.energy - kinetic_energy(gas.flow); }
-// Where one gas has less than this share of the volume, the other counts as pure.
+// Internal energy, without what an explosive still holds.
+fn internal_energy(gas: Gas) -> f32 { return gas.energy - kinetic_energy(gas.flow) - chemical_energy_of(gas); }
+// Where one gas has less than this share of volume and mass, the other counts as pure.
 const PURE = 1e-3;
 // gamma - 1 at a volume fraction: its inverse is linear in it, so the pressure at a contact stays as it is. [Abgrall 1996; Shyue 1998]
 fn grueneisen_of(phi: f32) -> f32 {
@@ -248,53 +245,56 @@ fn gamma_of(phi: f32) -> f32 {
 }
 // Share of the second gas in the internal energy, at a volume fraction, and back.
 fn energy_share_of(phi: f32) -> f32 { return phi * grueneisen_of(phi) / (params.species_gamma - 1.0); }
-fn pressure_of(gas: Gas) -> f32 { return grueneisen_of(gas.species.y) * internal_energy(gas); }
-fn sound_speed(gamma: f32, density: f32, pressure: f32) -> f32 { return sqrt(gamma * max(pressure, 0.0) / density); }
-fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32, species: vec2f) -> Gas {
-    return Gas(vec4f(density, density * velocity),
-        pressure / grueneisen_of(species.y) + 0.5 * density * dot(velocity, velocity), species);
+// Internal energy at no pressure, with what an explosive still holds; of ideal gases 0.
+fn reference_energy(gas: Gas) -> f32 {
+    if !PRODUCTS { return 0.0; }
+    return chemical_energy_of(gas) + cold_energy_of(gas);
 }
-fn chosen(a: Gas, b: Gas, first: bool) -> Gas {
-    return Gas(select(b.flow, a.flow, first), select(b.energy, a.energy, first), select(b.species, a.species, first));
+fn pressure_of(gas: Gas) -> f32 {
+    if PRODUCTS { return grueneisen_of(gas.species.y) * (internal_energy(gas) - cold_energy_of(gas)); }
+    return grueneisen_of(gas.species.y) * internal_energy(gas);
+}
+// rho c^2 over the pressure: gamma of ideal gases.
+fn stiffness_ratio(gas: Gas, pressure: f32) -> f32 {
+    if PRODUCTS { return gamma_of(gas.species.y) + cold_stiffness_of(gas) / max(pressure, 1e-30); }
+    return gamma_of(gas.species.y);
+}
+fn sound_speed(gamma: f32, density: f32, pressure: f32) -> f32 { return sqrt(gamma * max(pressure, 0.0) / density); }
+fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32, species: vec2f, unburned: f32) -> Gas {
+    var gas = Gas(vec4f(density, density * velocity), pressure / grueneisen_of(species.y) + 0.5 * density * dot(velocity, velocity), species, unburned);
+    if PRODUCTS { gas.energy += reference_energy(gas); }
+    return gas;
+}
+
+// -- Products of an explosive --
+
+// p = f + w rho e, f the sum of A (1 - w / x) exp(-x), x = R rho_0 / r, r their density in their own volume. [Jones, Wilkins and Lee;
+// UCRL-52997] What has not burned still holds its chemical energy, and has the pressure of a heavy ideal gas.
+
+const TRACE = 1e-6; // share of the density that a gas of no volume has in it
+// x of both terms, at most what exp() takes.
+fn expansions_of(gas: Gas) -> vec2f {
+    return min(params.products.zw * (max(gas.species.y, 0.0) + TRACE) / (max(gas.species.x, 0.0) + TRACE * gas.flow.x), vec2f(80.0));
+}
+fn chemical_energy_of(gas: Gas) -> f32 { return select(0.0, params.chemical_energy * gas.unburned, PRODUCTS); }
+// Volume fraction of what has burned.
+fn products_volume(gas: Gas) -> f32 { return gas.species.y * (1.0 - clamp(gas.unburned / max(gas.species.x, 1e-30), 0.0, 1.0)); }
+fn cold_energy_of(gas: Gas) -> f32 {
+    let w = params.species_gamma - 1.0;
+    let x = expansions_of(gas);
+    return -products_volume(gas) / w * dot(params.products.xy, (1.0 - w / x) * exp(-x));
+}
+// r f' - f: rho c^2 beyond that of ideal gases at the same pressure. [Pa]
+fn cold_stiffness_of(gas: Gas) -> f32 {
+    let x = expansions_of(gas);
+    let share = products_volume(gas) * grueneisen_of(gas.species.y) / (params.species_gamma - 1.0);
+    return share * dot(params.products.xy, (x - params.species_gamma) * exp(-x));
 }
 
 // -- Two solves per step --
 
-// Two solves per step, second order in time: the implicit half is that of ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6], with
-// a = 1 - 1/sqrt 2; the explicit half has the three stages of Wicker and Skamarock [2002]:
-//   U1 = S_a(U0 + a dt A(U0)),   V = U0 + dt/2 (A(U1) + I1),   U2 = S_a(U0 + dt A(V) + (1 - a) dt I1),
-// A the change by advection, S_a a solve and its update over a dt, I1 what the first one added per time: (U1 - K) / (a dt), K what it
-// started from. (With the two explicit stages of ARS, sound that runs with the stream grows, by up to 1.5 % per step: advection of
-// fifth order dampens long waves too little for schemes that are unstable without damping.)
-// Internal energy is carried by the new velocity of the face, and that part, H times the velocity, belongs to I, with H the mean of
-// both sides at the start of the step: in A it would be an explicit p div u, and noise would blow up from c dt = 3 dx on.
-
+// U1 = S_a(U0 + a dt A(U0)),  V = U0 + dt/2 (A(U1) + I1),  U2 = S_a(U0 + dt A(V) + (1 - a) dt I1): docs/method/two_solves.md.
 const ARS_SHARE = 0.29289322;   // a: part of the step that each solve spans
 const ARS_MIDDLE = 1.7071068;   // dt/2 over a dt
 const ARS_LAST = 3.4142136;     // dt over a dt
 const ARS_RETURNED = 2.4142136; // (1 - a) dt over a dt
-
-// -- What carries the gas --
-
-// Velocity that carries the gas through a face between two GAS cells, from their carriers (see gas/carrier.wgsl) and densities. The
-// mean of two cells damps short compression waves; a share of the difference of the divergences gives that back: a quarter, with which
-// shocks stay smooth (a little less with B2B1, where they ring). It vanishes where the divergence does, so nothing that the solve
-// calls free of divergence is compressed.
-// Two solves per step see sound to second order in time. They have the share with which the face's divergence is the one that the solve
-// itself sees, or, in short steps, the third that makes sound along an axis one of fourth order in space (of B2B1 0.16, beyond which single
-// precision shows behind strong shocks). The solve then is told of the surplus beforehand [intermediate_pressure.wgsl]: without, waves of some eight cells grow.
-
-// The share with which the divergence would be the one that the solve itself sees.
-fn seen_share() -> f32 { return select(0.25, 1.0 / 12.0, QUADRATIC && ARS); }
-
-fn given_back() -> f32 {
-    if FOURTH { return select(1.0 / 3.0, 0.16, QUADRATIC); }
-    return select(seen_share(), 0.23, QUADRATIC && !ARS);
-}
-
-// Speed of the dissipation at such a face: upwind, and where the carriers part, as in a rarefaction, the larger of both.
-fn carrier_spread(low: f32, high: f32) -> f32 { return select(0.0, max(abs(low), abs(high)), high > low); }
-
-fn carried_velocity(n: u32, low: vec4f, low_density: f32, high: vec4f, high_density: f32) -> f32 {
-    return (low_density * low[n] + high_density * high[n]) / (low_density + high_density) - given_back() * (high.w - low.w);
-}

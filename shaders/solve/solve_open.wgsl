@@ -27,9 +27,11 @@ fn note_open_face(c: vec3i, slot: u32) {
     let opening = opening_of(cells[slot]);
     let flow = conserved[slot_of(near)];
     let species = species_now(slot_of(near));
-    let gamma = gamma_of(species.y);
-    let p = 1.0 / (gamma * fill[slot_of(near)].y);   // its energy waits for what the solve carries [shared/state.wgsl]
-    let here = Gas(flow, p / grueneisen_of(species.y) + kinetic_energy(flow), species);
+    var p = 1.0 / (gamma_of(species.y) * fill[slot_of(near)].y);   // its energy waits for what the solve carries [shared/state.wgsl]
+    if PRODUCTS { p = energy[part(PREDICTED_PRESSURE, slot_of(near))]; }
+    var here = Gas(flow, p / grueneisen_of(species.y) + kinetic_energy(flow), species, unburned_at(slot_of(near)));
+    here.energy += reference_energy(here);
+    let gamma = stiffness_ratio(here, p);
     let last = fill[slot];
     var known = vec2f(here.flow[n + 1u] / here.flow.x, p);
     if last.y > 0.0 {
@@ -76,7 +78,8 @@ fn solve_open(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             let beyond = slot_of(select(e - axis(n), e + axis(n), up));
             if kind_of(cells[beyond]) != GHOST { continue; }
             let face = OpenFace(energy[part(OPEN_VELOCITY, beyond)], energy[part(OPEN_PRESSURE, beyond)]);
-            let y = admittance_of(opening_of(cells[beyond]), face, gamma_at(here), conserved[here].x, energy[part(PREDICTED_PRESSURE, here)]);
+            let predicted = energy[part(PREDICTED_PRESSURE, here)];
+            let y = admittance_of(opening_of(cells[beyond]), face, gamma_at(here, predicted), conserved[here].x, predicted);
             let share = aperture(here, n, up) * face_shape(here, n, up, corner);
             // the reference is that of the middle of the face
             let weight = conserved[here].x * params.spacing * dot(params.gravity, along_face(corner, n));

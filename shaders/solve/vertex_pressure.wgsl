@@ -1,5 +1,6 @@
 // intermediate_pressure, second half: cell values to vertices. X*_v = mean of the adjacent gas cells' predicted pressure, without
-// bodies at walls with the weight of the gas in between,
+// bodies at walls with the weight of the gas in between; with products of an explosive weighted by compliance, so that what is soft says
+// what the pressure between solid explosive and air is,
 // S^-1_v = sum of (cell volume / 2^DIM) / (stiffness of the cell). Where gas and solid share a pressure both add.
 #include "shared/system.wgsl"
 
@@ -39,13 +40,21 @@ fn interior_vertex(slot: u32) {
     var reference = vec2f(0.0);
     for (var k = 0u; k < corner_count(); k++) { reference.x = max(reference.x, interior_corner(slot, corner_offset(k)).x); }
     var sum = vec2f(0.0);
+    var weighted = 0.0;
     for (var k = 0u; k < corner_count() / 2u; k++) {
-        sum += (interior_corner(slot, corner_offset(k)) - reference) + (interior_corner(slot, reach() - corner_offset(k)) - reference);
+        let low = interior_corner(slot, corner_offset(k)) - reference;
+        let high = interior_corner(slot, reach() - corner_offset(k)) - reference;
+        sum += low + high;
+        if PRODUCTS { weighted += rounded(low.x * low.y) + rounded(high.x * high.y); }
     }
     let mean = sum / f32(corner_count());
-    pressure[slot] = reference.x + mean.x;
+    pressure[slot] = reference.x + select(mean.x, weighted / max(sum.y, 1e-37), PRODUCTS);
     stiffness[slot] = mean.y * cell_volume();
 }
+
+// Count, pressure over the reference, compliance of a corner; and the mean pressure of a sum of them.
+fn of_corner(over: f32, compliance: f32) -> vec3f { return vec3f(1.0, select(over, over * compliance, PRODUCTS), compliance); }
+fn mean_of(sum: vec3f) -> f32 { return sum.y / max(select(sum.x, sum.z, PRODUCTS), select(1e-30, 1e-37, PRODUCTS)); }
 
 // A vertex near an obstacle: weights are the gas that it stands for.
 fn cut_vertex(slot: u32) {
@@ -59,9 +68,9 @@ fn cut_vertex(slot: u32) {
         let p = energy[part(PREDICTED_PRESSURE, at)];
         let weight = gas_at_corner(at, corner_offset(k));
         if sum.x == 0.0 { reference = p; }
-        sum += weight * vec3f(1.0, p - reference, fill[at].y);
+        sum += weight * of_corner(p - reference, fill[at].y);
     }
-    pressure[slot] = reference + sum.y / max(sum.x, 1e-30);
+    pressure[slot] = reference + mean_of(sum);
     stiffness[slot] = sum.z * cell_volume();
 }
 
@@ -80,7 +89,7 @@ fn beside(v: vec3i, corner: vec3i, reference: f32) -> Around {
     let at = slot_of(c);
     let kind = kind_of(cells[at]);
     if kind == GAS {
-        one.gas = vec3f(1.0, energy[part(PREDICTED_PRESSURE, at)] - reference, fill[at].y);
+        one.gas = of_corner(energy[part(PREDICTED_PRESSURE, at)] - reference, fill[at].y);
         if !SOLIDS { one.weight = rounded(conserved[at].x * dot(params.gravity, vec3f(corner) - 0.5)); }
     }
     if kind == SOLID {
@@ -142,7 +151,7 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let part = cell_volume() / f32(corner_count());
     // Where cells are all around, what they weigh cancels.
     let below = select(0.0, sum.weight * params.spacing, gas.x < f32(corner_count()));
-    let gas_pressure = sum.reference + (gas.y + below) / max(gas.x, 1.0);
+    let gas_pressure = sum.reference + select((gas.y + below) / max(gas.x, 1.0), mean_of(gas) + below / max(gas.x, 1.0), PRODUCTS);
     let s_gas = gas.z * part;
     var s_solid = 0.0;
     var q = 0.0;

@@ -69,11 +69,11 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             let p = pressure_of(u);
             extremes = max(extremes, vec4f(u.flow.x, -u.flow.x, p, -p));
             let v = velocity_of(u.flow);
-            speed = max(speed, vec2f(dot(v, v), gamma_of(u.species.y) * max(p, 0.0) / u.flow.x));
+            speed = max(speed, vec2f(dot(v, v), stiffness_ratio(u, p) * max(p, 0.0) / u.flow.x));
             more.x += share * kinetic_energy(u.flow);
             let entropy = p * pow(u.flow.x, -params.gamma);
             // of the first gas alone: at the same pressure and density the second has another
-            if entropy < coldest && !(SPECIES && u.species.y > PURE) { coldest = entropy; coldest_at = slot; }
+            if entropy < coldest && !(SPECIES && any(vec2f(u.species.x / u.flow.x, u.species.y) > vec2f(PURE))) { coldest = entropy; coldest_at = slot; }
         } else if SOLIDS && kind == SOLID {
             owed += volume * u.flow;
             heat.y += volume * u.energy;

@@ -62,6 +62,14 @@ fn listed_rate(c: vec3i, gas: Gas, p: f32) -> f32 {
     return rate;
 }
 
+// Share of an explosive that burns in a step, at most.
+const MOST_BURNED = 0.16;
+
+// A step ends where a cell begins to burn, or burns a part of it. As a rate, which the Courant number is over.
+fn burn_rate_at(slot: u32) -> f32 {
+    return params.cfl / max(energy[part(BURN_TIME, slot)] - control.time, MOST_BURNED / params.burn_rate);
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var bound = vec2f(0.0);
@@ -74,7 +82,8 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         let p = pressure_of(gas);
         var rate: f32;
         if SWEEP == OVER_LISTED { rate = listed_rate(c, gas, p); } else { rate = interior_rate(slot, gas, p); }
-        bound = max(bound, vec2f(rate, sound_speed(gamma_of(gas.species.y), gas.flow.x, p)));
+        if PRODUCTS && gas.unburned > 0.0 { rate = max(rate, burn_rate_at(slot)); }
+        bound = max(bound, vec2f(rate, sound_speed(stiffness_ratio(gas, p), gas.flow.x, p)));
     }
     let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
     if lane != 0u { return; }

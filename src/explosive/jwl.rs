@@ -3,7 +3,7 @@
 
 /// Coefficients of p = A (1 - w / (R1 V)) exp(-R1 V) + B (1 - w / (R2 V)) exp(-R2 V) + w E / V. V is the volume over that of the solid
 /// explosive, E the internal energy per volume of the solid explosive.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jwl {
     /// A \[Pa\].
     pub a: f64,
@@ -35,6 +35,22 @@ impl Jwl {
     pub fn cold(&self, volume: f64) -> f64 {
         let term = |factor: f64, rate: f64| factor * (1.0 - self.omega / (rate * volume)) * (-rate * volume).exp();
         term(self.a, self.r1) + term(self.b, self.r2)
+    }
+
+    /// A, B \[Pa\], R1 and R2 times the density of the explosive \[kg m^-3\]: as shaders have them.
+    pub fn rates(&self, density: f64) -> [f64; 4] {
+        [self.a, self.b, self.r1 * density, self.r2 * density]
+    }
+
+    /// Pressure at no temperature \[Pa\].
+    pub fn at_rest(&self, volume: f64) -> f64 {
+        self.a * (-self.r1 * volume).exp() + self.b * (-self.r2 * volume).exp()
+    }
+
+    /// Density times speed of sound squared, beyond that of an ideal gas of gamma = 1 + w at the same pressure \[Pa\].
+    pub fn cold_stiffness(&self, volume: f64) -> f64 {
+        let term = |factor: f64, x: f64| factor * (x - self.omega - 1.0) * (-x).exp();
+        term(self.a, self.r1 * volume) + term(self.b, self.r2 * volume)
     }
 
     /// Pressure \[Pa\] at a volume and an energy \[J m^-3\].

@@ -11,7 +11,7 @@ pub use jwl::{ChapmanJouguet, Jwl};
 pub use near_field::{Expansion, NearField, Profile};
 
 /// An explosive.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub struct Explosive {
     /// Keyword in scenes.
     pub name: &'static str,

@@ -209,11 +209,10 @@ fn of_particles(contents: &mut Contents) -> std::result::Result<Option<StoredPar
     Ok(Some(StoredParticles { position, velocity, affine, deformation, stress }))
 }
 
-/// Density and volume fraction of the second gas, of a full state with so many slots; empty without one.
+/// What is known of the second gas, of a full state with so many slots; empty without one.
 fn species_of(energy: &[f32], slots: usize) -> Vec<f32> {
-    energy
-        .get(arrays::SPECIES_DENSITY * slots..(arrays::SPECIES_VOLUME + 1) * slots)
-        .map_or(Vec::new(), <[f32]>::to_vec)
+    let last = if energy.len() > arrays::BURN_TIME * slots { arrays::UNBURNED } else { arrays::SPECIES_VOLUME };
+    energy.get(arrays::SPECIES_DENSITY * slots..(last + 1) * slots).map_or(Vec::new(), <[f32]>::to_vec)
 }
 
 /// The mass owed, of a full state; nothing where only the ring has a ledger.

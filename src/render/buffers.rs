@@ -16,7 +16,7 @@ pub struct SceneBuffers<'a> {
     pub energy: &'a wgpu::Buffer,
     /// A buffer with the density of the second gas, one f32 per slot, then its volume fraction, and the word where they begin; nothing
     /// without one.
-    pub species: Option<(&'a wgpu::Buffer, u32)>,
+    pub species: Option<(&'a wgpu::Buffer, u32, usize)>,
     /// Mass and momentum owed, one vec4 per slot; nothing where only the ring has a ledger.
     pub owed: Option<&'a wgpu::Buffer>,
     /// Largest values so far, one vec4 per slot, see [`State::maps`]; nothing where no maps are kept.
@@ -53,10 +53,10 @@ impl<'a> SceneBuffers<'a> {
             grid: state.grid,
             conserved: state.gas.conserved.raw(),
             energy: state.gas.energy.raw(),
-            species: state
-                .gas
-                .has_species(state.grid.slots())
-                .then(|| (state.gas.energy.raw(), (SPECIES_DENSITY * state.grid.slots()) as u32)),
+            species: match state.gas.species_parts(state.grid.slots()) {
+                0 => None,
+                parts => Some((state.gas.energy.raw(), (SPECIES_DENSITY * state.grid.slots()) as u32, parts)),
+            },
             owed: (state.gas.owed_flow.len() == state.grid.slots()).then(|| state.gas.owed_flow.raw()),
             maps: (!state.maps.is_empty()).then(|| state.maps.raw()),
             cells: state.interface.cells.raw(),
@@ -78,7 +78,7 @@ pub(super) struct Sources {
     pub(super) grid: Grid,
     pub(super) conserved: wgpu::Buffer,
     pub(super) energy: wgpu::Buffer,
-    pub(super) species: Option<(wgpu::Buffer, u32)>,
+    pub(super) species: Option<(wgpu::Buffer, u32, usize)>,
     pub(super) owed: Option<wgpu::Buffer>,
     pub(super) maps: Option<wgpu::Buffer>,
     pub(super) cells: wgpu::Buffer,
@@ -110,7 +110,7 @@ impl From<&SceneBuffers<'_>> for Sources {
             grid: buffers.grid,
             conserved: buffers.conserved.clone(),
             energy: buffers.energy.clone(),
-            species: buffers.species.map(|(buffer, start)| (buffer.clone(), start)),
+            species: buffers.species.map(|(buffer, start, parts)| (buffer.clone(), start, parts)),
             owed: buffers.owed.cloned(),
             maps: buffers.maps.cloned(),
             cells: buffers.cells.clone(),
@@ -119,9 +119,9 @@ impl From<&SceneBuffers<'_>> for Sources {
     }
 }
 
-/// Density of the second gas of so many slots, then its volume fraction; empty without one.
-pub(super) fn read_species(gpu: &Gpu, species: Option<(&wgpu::Buffer, u32)>, slots: usize) -> Result<Vec<f32>> {
-    let Some((buffer, start)) = species else { return Ok(Vec::new()) };
-    let bytes = readback::read_bytes(gpu, buffer, 4 * u64::from(start), 8 * slots as u64)?;
+/// What is known of the second gas in so many slots, part by part; empty without one.
+pub(super) fn read_species(gpu: &Gpu, species: Option<(&wgpu::Buffer, u32, usize)>, slots: usize) -> Result<Vec<f32>> {
+    let Some((buffer, start, parts)) = species else { return Ok(Vec::new()) };
+    let bytes = readback::read_bytes(gpu, buffer, 4 * u64::from(start), 4 * (parts * slots) as u64)?;
     Ok(bytemuck::pod_collect_to_vec(&bytes))
 }

@@ -62,7 +62,7 @@ impl Gas {
         let (of_corners, of_glow) = (("corners", corners.raw()), ("glow", glow.raw()));
         let nothing: Buffer<[f32; 4]> = Buffer::new(gpu, "nothing owed or kept", 1)?;
         let owed = sources.owed.as_ref().unwrap_or(nothing.raw());
-        let species = ("species", sources.species.as_ref().map_or(&sources.energy, |(buffer, _)| buffer));
+        let species = ("species", sources.species.as_ref().map_or(&sources.energy, |(buffer, ..)| buffer));
         let state = [
             ("conserved", &sources.conserved),
             ("energy", &sources.energy),

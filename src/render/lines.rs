@@ -17,18 +17,17 @@ pub(super) fn read(gpu: &Gpu, sources: &Sources, scene: &Scene, width: u32, time
     let cells: Vec<u32> = grid.unpadded(&elements(gpu, &sources.cells, grid.slots())?);
     let velocity: Vec<f32> = conserved.iter().map(|state| state[1] / state[0]).collect();
     let gases = scene.gas.equation_of_state();
-    let fractions: Vec<f32> = match sources.species.is_some() {
-        true => grid.unpadded(
-            &read_species(gpu, sources.species.as_ref().map(|(buffer, start)| (buffer, *start)), grid.slots())?
-                [grid.slots()..],
-        ),
-        false => vec![0.0; energy.len()],
+    let species = sources.species.as_ref().map(|(buffer, start, parts)| (buffer, *start, *parts));
+    let species = read_species(gpu, species, grid.slots())?;
+    let parts: Vec<Vec<f32>> = species.chunks(grid.slots()).map(|part| grid.unpadded(part)).collect();
+    let thermal = |(cell, (state, energy)): (usize, (&[f32; 4], &f32))| {
+        let [own, phi, unburned] = [0, 1, 2].map(|k: usize| parts.get(k).map_or(0.0, |own| own[cell]));
+        let burned = 1.0 - (unburned / own.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let [density, x, y, z] = *state;
+        let all = [density, x, y, z, *energy, own, phi].map(f64::from);
+        gases.pressure(all, burned.into()) as f32
     };
-    let thermal = |((state, energy), phi): ((&[f32; 4], &f32), &f32)| {
-        let kinetic = 0.5 * state[1..].iter().map(|momentum| momentum * momentum).sum::<f32>() / state[0];
-        gases.grueneisen((*phi).into()) as f32 * (energy - kinetic)
-    };
-    let pressure = conserved.iter().zip(&energy).zip(&fractions).map(thermal).collect();
+    let pressure = conserved.iter().zip(&energy).enumerate().map(thermal).collect();
     let density = conserved.iter().map(|state| state[0]).collect();
     let mut particles = Vec::new();
     if let Some(own) = &sources.particles {

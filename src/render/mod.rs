@@ -236,7 +236,7 @@ impl Renderer {
         let size = [layout.plot.width as u32, layout.plot.height as u32];
         let grid = &self.sources.grid;
         let mut view = View::new(&self.scene, grid, &self.eye(look, time), look, size);
-        view.species_start = self.sources.species.as_ref().map_or(0, |(_, start)| *start);
+        view.species_start = self.sources.species.as_ref().map_or(0, |(_, start, _)| *start);
         view.particles = self.sources.particles.as_ref().filter(|_| look.particles).map_or(0, |own| own.count);
         view.particle_color = quantity::particle_code(look.particle_color);
         view.smooth_skin = u32::from(look.surface == crate::scene::Surface::Smooth && grid.dimension == 3);

@@ -119,7 +119,7 @@ impl Stored {
         put(buffers.conserved, cast_slice(&self.conserved));
         put(buffers.energy, cast_slice(&self.energy));
         put(buffers.cells, cast_slice(&words));
-        if let Some((buffer, start)) = buffers.species {
+        if let Some((buffer, start, _)) = buffers.species {
             gpu.queue.write_buffer(buffer, 4 * u64::from(start), cast_slice(&self.species));
         }
         buffers.owed.iter().for_each(|buffer| put(buffer, cast_slice(&self.owed_flow())));
@@ -152,10 +152,11 @@ impl Stored {
     fn wrong_cells(&self, grid: &Grid) -> Option<&'static str> {
         let slots = grid.slots();
         let cells = [("conserved", self.conserved.len()), ("energy", self.energy.len()), ("kind", self.kind.len())];
-        let optional = [("owed", self.owed.len()), ("maps", self.maps.len()), ("species", self.species.len() / 2)];
+        let optional = [("owed", self.owed.len()), ("maps", self.maps.len())];
+        let species = [0, 2 * slots, 3 * slots].contains(&self.species.len());
         let cells = cells.iter().find(|(_, len)| *len != slots);
         let optional = optional.iter().find(|(_, len)| ![0, slots].contains(len));
-        cells.or(optional).map(|(name, _)| *name)
+        cells.or(optional).map(|(name, _)| *name).or((!species).then_some("species"))
     }
 
     /// The array of particles that has not a row, or its rows, for each of them.
@@ -259,7 +260,8 @@ impl Loaded {
             });
         let (conserved, energy, cells) = (self.conserved.raw(), self.energy.raw(), self.cells.raw());
         let [owed, maps] = [&self.owed, &self.maps].map(|buffer| buffer.as_ref().map(Buffer::raw));
-        let species = self.species.as_ref().map(|buffer| (buffer.raw(), 0));
+        let slots = self.grid.slots();
+        let species = self.species.as_ref().map(|buffer| (buffer.raw(), 0, buffer.len() / slots));
         SceneBuffers { grid: self.grid, conserved, energy, species, owed, maps, cells, particles }
     }
 

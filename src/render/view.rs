@@ -140,6 +140,12 @@ structure! {
         contour_count: u32,
         /// Velocity arrows along x and y.
         arrows: vec2u,
+        /// Products of an explosive: A and B \[Pa\], R1 and R2 times its density \[kg m^-3\]; 0 without.
+        products: vec4f,
+        /// Energy that the explosive holds \[J kg^-1\].
+        chemical_energy: f32,
+        /// Fills the space before vectors.
+        unused: vec3f,
         /// Light behind everything in 3D, at the top and the bottom of the picture.
         background: [vec4f; 2],
         /// Slices: the points x with dot(xyz, x) = w.
@@ -153,6 +159,7 @@ impl View {
     /// Grid, camera, light and places of a picture of `size` pixels; what depends on field and range is set later.
     pub(super) fn new(scene: &Scene, grid: &Grid, eye: &Eye, look: &RenderSettings, size: [u32; 2]) -> Self {
         let supersampling = look.supersampling.clamp(1, 4);
+        let products = scene.gas.products();
         let mut view = Self {
             cells: grid.cells,
             dimension: grid.dimension,
@@ -182,7 +189,9 @@ impl View {
             particle_high: 1.0,
             exposure: look.exposure as f32,
             gain: 1.0,
-            species_gamma: scene.gas.species.values().next().map_or(0.0, |species| species.gamma as f32),
+            species_gamma: scene.gas.equation_of_state().species.map_or(0.0, |species| species.gamma as f32),
+            products: products.map_or([0.0; 4], |own| own.products.rates(own.density).map(|term| term as f32)),
+            chemical_energy: products.map_or(0.0, |own| own.specific_energy() as f32),
             species_constant: scene.gas.equation_of_state().constant_ratio(1.0) as f32,
             background: Paper::sky(look).map(|[red, green, blue]| [red, green, blue, 1.0]),
             ..Self::zeroed()

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::geometry::fill::lattice;
-use super::{Boundary, GasState, Scene, vector};
+use super::{Boundary, GasState, Scene, Shape, vector};
 use crate::explosive::{Explosive, NearField, explosive};
 
 /// The near field is computed apart until its front has come so many cells far, or to this scaled distance \[m kg^(-1/3)\], where products
@@ -20,8 +20,9 @@ pub(super) const SAMPLES: u32 = 20;
 /// Least part of the near field that must be gas.
 const LEAST_SHARE: f64 = 0.02;
 
-/// A charge: a ball of explosive, in 2D a rod along z, in 1D a slab. It burns from its middle; how its products expand among still gas is
-/// computed apart, and takes the place of the gas around it as soon as it spans some cells.
+/// A charge. With `mass` and `center` it is a ball of explosive, in 2D a rod along z, in 1D a slab: it burns from its middle, and how its
+/// products expand among still gas is computed apart, until it spans some cells. With `shape` it stands on the grid from the start, and a
+/// detonation passes it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Charge {
@@ -30,11 +31,19 @@ pub struct Charge {
     /// What it is made of: `tnt`, `c4`, `petn` or `comp_b`.
     pub explosive: String,
     /// Mass of what lies in the domain, outside of obstacles `[kg]`; in 2D per metre along z, in 1D per square metre.
-    pub mass: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass: Option<f64>,
     /// Its middle `[m]`.
-    #[serde(deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
-    pub center: [f64; 3],
+    #[serde(default, deserialize_with = "vector::optional_point", skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<Vec<f64>>")]
+    pub center: Option<[f64; 3]>,
+    /// What it fills, in place of `mass` and `center`. Its `species` are the products of its explosive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<Shape>,
+    /// Points where a charge with a shape is set off `[m]`; its middle when left out.
+    #[serde(default, deserialize_with = "vector::points", skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<Vec<f64>>")]
+    pub detonate_at: Vec<[f64; 3]>,
     /// When it is set off `[s]`.
     #[serde(default)]
     pub time: f64,
@@ -73,14 +82,22 @@ impl Charge {
         Self {
             name,
             explosive,
-            mass,
-            center,
+            mass: Some(mass),
+            center: Some(center),
+            shape: None,
+            detonate_at: Vec::new(),
             time: 0.0,
             afterburn: false,
             species: None,
             roughness: 0.0,
             near_field: None,
         }
+    }
+
+    /// Mass \[kg\] and middle \[m\] of a ball; none of a charge with a shape.
+    #[must_use]
+    pub fn ball(&self) -> Option<(f64, [f64; 3])> {
+        if self.shape.is_some() { None } else { Some((self.mass?, self.center?)) }
     }
 
     /// What it is made of.
@@ -102,27 +119,29 @@ impl Scene {
     /// How a charge is put into the gas at the start; none if its explosive is unknown, or too little of it is gas.
     #[must_use]
     pub fn placed(&self, charge: &Charge) -> Option<Placed> {
-        let ball = self.ball(charge, charge.made_of()?);
+        let (mass, center) = charge.ball()?;
+        let ball = self.ball(charge, charge.made_of()?)?;
         let cell = self.domain.spacing();
         let reach_of = |ball: &NearField| {
             let most = (NEAR_CELLS * cell).max(NEAR_SCALED * ball.scale());
-            let around = || self.free_distance(charge.center, ball.radius()).clamp(FEWEST_NEAR_CELLS * cell, most);
+            let around = || self.free_distance(center, ball.radius()).clamp(FEWEST_NEAR_CELLS * cell, most);
             charge.near_field.unwrap_or_else(around).max(NEAR_RADII * ball.radius())
         };
-        let share = self.gas_share(charge.center, reach_of(&ball));
+        let share = self.gas_share(center, reach_of(&ball));
         if share < LEAST_SHARE {
             return None;
         }
-        let ball = NearField { mass: charge.mass / share, ..ball };
+        let ball = NearField { mass: mass / share, ..ball };
         let reach = reach_of(&ball);
-        Some(Placed { ball, reach, share: self.gas_share(charge.center, reach) })
+        Some(Placed { ball, reach, share: self.gas_share(center, reach) })
     }
 
     /// Whether a charge is smaller than the domain, in it, and in gas at the start.
     #[must_use]
     pub fn has_room_for(&self, charge: &Charge) -> bool {
-        let fits = |explosive| 2.0 * self.ball(charge, explosive).radius() < self.longest_side();
-        charge.mass > 0.0 && charge.made_of().is_some_and(fits) && self.placed(charge).is_some()
+        let ball = charge.made_of().and_then(|explosive| self.ball(charge, explosive));
+        ball.is_some_and(|ball| ball.mass > 0.0 && 2.0 * ball.radius() < self.longest_side())
+            && self.placed(charge).is_some()
     }
 
     /// Longest edge of the domain \[m\].
@@ -131,12 +150,13 @@ impl Scene {
     }
 
     /// The charge as a whole ball in the gas around it.
-    pub(super) fn ball(&self, charge: &Charge, explosive: &'static Explosive) -> NearField {
-        let GasState { density, pressure, mass_fraction, .. } = self.still_gas(charge.center, charge.center);
+    pub(super) fn ball(&self, charge: &Charge, explosive: &'static Explosive) -> Option<NearField> {
+        let (mass, center) = charge.ball()?;
+        let GasState { density, pressure, mass_fraction, .. } = self.still_gas(center, center);
         let gases = self.gas.equation_of_state();
         let (axes, afterburn) = (self.domain.axes(), charge.afterburn);
         let gamma = gases.gamma_at(gases.volume_fraction(mass_fraction));
-        NearField { explosive, mass: charge.mass, axes, density, pressure, gamma, afterburn }
+        Some(NearField { explosive, mass, axes, density, pressure, gamma, afterburn })
     }
 
     /// Distance \[m\] from a point to the nearest body, obstacle, probe or wall that does not lie within `touching`, or to the nearest open

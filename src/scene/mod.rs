@@ -10,6 +10,7 @@ mod beyond;
 mod body;
 mod boundary;
 mod build;
+mod burn;
 mod camera;
 mod charge;
 mod check;
@@ -58,6 +59,7 @@ pub use boundary::{
     TimedState,
 };
 pub use build::SceneBuilder;
+pub(crate) use burn::{BURN_WIDTH, NEVER};
 pub use camera::{Camera, CameraKey, CameraPath};
 pub use charge::{Charge, Placed};
 pub use check::blast_estimate::{ChargeEstimate, PlaceEstimate};
@@ -93,7 +95,7 @@ pub use render::{
 pub use settings::{Output, Time};
 pub use shape::Shape;
 pub use shot::{Shot, ShotKeys};
-pub use species::{Conserved, EquationOfState, Species};
+pub use species::{Conserved, EquationOfState, SecondGas, Species};
 pub use vortex::Vortex;
 pub use warned::Warned;
 pub use wave::Wave;

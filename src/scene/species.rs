@@ -4,16 +4,24 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Gas, GasState};
+use crate::explosive::{Explosive, explosive};
 
 /// Gas constant of dry air \[J kg^-1 K^-1\]. [U.S. Standard Atmosphere, 1976]
 pub(super) const AIR_CONSTANT: f64 = 287.053;
+/// Share of the density that a gas of no volume has in it. Mirror of `shaders/shared/state.wgsl`.
+const TRACE: f64 = 1e-6;
 
-/// A second ideal gas, that does not mix with the first below the size of a cell: both have one velocity and one pressure there.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// A second gas, that does not mix with the first below the size of a cell: both have one velocity and one pressure there. An ideal gas has
+/// `gamma`, the products of an explosive its name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Species {
-    /// Ratio of specific heats, above 1.
-    pub gamma: f64,
+    /// Ratio of specific heats of an ideal gas, above 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gamma: Option<f64>,
+    /// Explosive whose products it is: `tnt`, `c4`, `petn` or `comp_b`. Their pressure is that of Jones, Wilkins and Lee.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub explosive: Option<String>,
     /// Gas constant `[J kg^-1 K^-1]`; where both gases are in one state, it tells their volumes at one temperature, that of the first being
     /// the one of air.
     #[serde(default = "air_constant")]
@@ -24,20 +32,46 @@ fn air_constant() -> f64 {
     AIR_CONSTANT
 }
 
+impl Species {
+    /// The explosive whose products it is.
+    #[must_use]
+    pub fn made_of(&self) -> Option<&'static Explosive> {
+        self.explosive.as_deref().and_then(explosive)
+    }
+}
+
 /// What is conserved in a cell: density \[kg m^-3\], momentum \[kg m^-2 s^-1\], energy \[J m^-3\], density of the second gas \[kg m^-3\], each
 /// per volume; then its volume fraction, which is carried along.
 pub type Conserved = [f64; 7];
 
-/// The equation of state of one or two ideal gases: rho e = p G, G = phi / (gamma_1 - 1) + (1 - phi) / (gamma - 1). [Allaire, Clerc and Kokh 2002]
+/// The second of two gases.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecondGas {
+    /// Ratio of specific heats; of products that of their ideal part, 1 + w.
+    pub gamma: f64,
+    /// Gas constant \[J kg^-1 K^-1\].
+    pub gas_constant: f64,
+    /// The explosive whose products it is.
+    pub products: Option<&'static Explosive>,
+}
+
+/// The equation of state of one or two gases: rho e = p G + r, G = phi / (gamma_1 - 1) + (1 - phi) / (gamma - 1), r the energy at no
+/// pressure, 0 of ideal gases. [Allaire, Clerc and Kokh 2002]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EquationOfState {
     /// Ratio of specific heats of the first gas.
     pub gamma: f64,
     /// The second gas.
-    pub species: Option<Species>,
+    pub species: Option<SecondGas>,
 }
 
 impl EquationOfState {
+    /// The explosive whose products the second gas is.
+    #[must_use]
+    pub fn products(&self) -> Option<&'static Explosive> {
+        self.species?.products
+    }
+
     /// gamma - 1 at a volume fraction of the second gas.
     #[must_use]
     pub fn grueneisen(&self, phi: f64) -> f64 {
@@ -45,7 +79,7 @@ impl EquationOfState {
         1.0 / (phi / (species.gamma - 1.0) + (1.0 - phi) / (self.gamma - 1.0))
     }
 
-    /// Ratio of specific heats at a volume fraction.
+    /// Ratio of specific heats at a volume fraction, of ideal gases.
     #[must_use]
     pub fn gamma_at(&self, phi: f64) -> f64 {
         if self.species.is_none() { self.gamma } else { 1.0 + self.grueneisen(phi) }
@@ -58,10 +92,37 @@ impl EquationOfState {
         1.0 + mass_fraction * (own - 1.0)
     }
 
-    /// Pressure \[Pa\].
+    /// Pressure \[Pa\] of gas of which a share has burned.
     #[must_use]
-    pub fn pressure(&self, [density, x, y, z, energy, _, phi]: Conserved) -> f64 {
-        self.grueneisen(phi) * (energy - 0.5 * (x * x + y * y + z * z) / density)
+    pub fn pressure(&self, state: Conserved, burned: f64) -> f64 {
+        let [density, x, y, z, energy, _, phi] = state;
+        self.grueneisen(phi) * (energy - 0.5 * (x * x + y * y + z * z) / density - self.reference_energy(state, burned))
+    }
+
+    /// Energy at no pressure \[J m^-3\]: what an explosive still holds, and of its products what Jones, Wilkins and Lee add.
+    #[must_use]
+    pub fn reference_energy(&self, state: Conserved, burned: f64) -> f64 {
+        let Some(own) = self.products() else { return 0.0 };
+        let cold = own.products.cold(expansion(own, state));
+        (1.0 - burned) * own.specific_energy() * state[5] - burned * state[6] * cold / own.products.omega
+    }
+
+    /// Pressure of products at no temperature \[Pa\].
+    #[must_use]
+    pub fn cold_pressure(&self, state: Conserved, burned: f64) -> f64 {
+        let term = |own: &'static Explosive| burned * state[6] * own.products.at_rest(expansion(own, state));
+        self.products().map_or(0.0, term)
+    }
+
+    /// Speed of sound \[m s^-1\].
+    #[must_use]
+    pub fn sound_speed(&self, state: Conserved, burned: f64) -> f64 {
+        let ideal = self.gamma_at(state[6]) * self.pressure(state, burned);
+        let beyond = |own: &'static Explosive| {
+            let share = state[6] * self.grueneisen(state[6]) / own.products.omega;
+            burned * share * own.products.cold_stiffness(expansion(own, state))
+        };
+        ((ideal + self.products().map_or(0.0, beyond)) / state[0]).max(0.0).sqrt()
     }
 
     /// Volume fraction of the second gas at a mass fraction, where both have one temperature.
@@ -71,19 +132,72 @@ impl EquationOfState {
         own / (own + (1.0 - mass_fraction) * AIR_CONSTANT)
     }
 
-    /// A state per volume.
+    /// A state per volume, of gas that has burned.
     #[must_use]
     pub fn conserved(&self, state: &GasState) -> Conserved {
+        self.conserved_of(state, 1.0)
+    }
+
+    /// A state per volume, of which a share has burned.
+    pub(crate) fn conserved_of(&self, state: &GasState, burned: f64) -> Conserved {
         let phi = self.volume_fraction(state.mass_fraction);
         let [density, x, y, z, energy] = state.conserved(self.gamma_at(phi));
-        [density, x, y, z, energy, density * state.mass_fraction, phi]
+        let mut all = [density, x, y, z, energy, density * state.mass_fraction, phi];
+        all[4] += self.reference_energy(all, burned);
+        all
     }
+}
+
+/// Volume of products over that of the explosive.
+fn expansion(own: &Explosive, [density, _, _, _, _, part, phi]: Conserved) -> f64 {
+    let trace = TRACE * density;
+    own.density / ((part + trace) / (phi + TRACE)).max(trace)
 }
 
 impl Gas {
     /// The equation of state.
     #[must_use]
     pub fn equation_of_state(&self) -> EquationOfState {
-        EquationOfState { gamma: self.gamma, species: self.species.values().next().copied() }
+        let second = |own: &Species| {
+            let products = own.made_of();
+            let gamma = products.map_or(own.gamma.unwrap_or(self.gamma), |own| 1.0 + own.products.omega);
+            SecondGas { gamma, gas_constant: own.gas_constant, products }
+        };
+        EquationOfState { gamma: self.gamma, species: self.species.values().next().map(second) }
+    }
+
+    /// The explosive whose products the second gas is.
+    #[must_use]
+    pub fn products(&self) -> Option<&'static Explosive> {
+        self.equation_of_state().products()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_have_the_pressure_and_the_sound_of_their_law() {
+        for own in &crate::explosive::EXPLOSIVES {
+            let products = Some(own);
+            let species = Some(SecondGas { gamma: 1.0 + own.products.omega, gas_constant: AIR_CONSTANT, products });
+            let gases = EquationOfState { gamma: 1.4, species };
+            for volume in [0.75, 1.0, 2.0, 10.0] {
+                let density = own.density / volume;
+                let energy = own.products.energy / volume;
+                let state = [density, 3.0 * density, 0.0, 0.0, energy + 4.5 * density, density, 1.0];
+                let [pressure, sound] = [gases.pressure(state, 1.0), gases.sound_speed(state, 1.0)];
+                let exact = own.products.pressure(volume, own.products.energy);
+                assert!((pressure / exact - 1.0).abs() < 1e-5, "{} {volume}: {pressure} {exact}", own.name);
+                let exact = (own.products.stiffness(volume, own.products.energy) / own.density).sqrt();
+                assert!((sound / exact - 1.0).abs() < 1e-5, "{} {volume}: {sound} {exact}", own.name);
+            }
+            // what has not burned holds its energy
+            let solid = GasState { density: own.density, velocity: [0.0; 3], pressure: 1e5, mass_fraction: 1.0 };
+            let state = gases.conserved_of(&solid, 0.0);
+            assert!((gases.pressure(state, 0.0) / 1e5 - 1.0).abs() < 1e-6);
+            assert!((state[4] / own.products.energy - 1.0).abs() < 1e-3, "{}", state[4]);
+        }
     }
 }

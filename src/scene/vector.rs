@@ -31,6 +31,13 @@ pub(super) fn optional_point<'de, D: Deserializer<'de>>(deserializer: D) -> Resu
     point(deserializer).map(Some)
 }
 
+/// Reads points of one to three numbers each.
+pub(super) fn points<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<[f64; 3]>, D::Error> {
+    #[derive(Deserialize)]
+    struct Point(#[serde(deserialize_with = "point")] [f64; 3]);
+    Ok(Vec::<Point>::deserialize(deserializer)?.into_iter().map(|point| point.0).collect())
+}
+
 /// Reads one to three sizes; along the missing axes the thing has no end.
 pub(super) fn extent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
     filled(deserializer, f64::INFINITY)

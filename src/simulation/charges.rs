@@ -43,6 +43,9 @@ pub(super) struct Due {
     /// When it takes the place of the gas \[s\].
     time: f64,
     charge: Charge,
+    /// Mass \[kg\] and middle \[m\] of the ball.
+    mass: f64,
+    center: [f64; 3],
     /// Mass fraction and volume fraction of the second gas in products and around them.
     fractions: [[f64; 2]; 2],
     surface: Unevenness,
@@ -56,7 +59,12 @@ pub(super) struct Due {
 /// # Errors
 /// [`Error::Usage`] if there is no room for one; checked scenes have it.
 pub(super) fn due(scene: &Scene) -> Result<Vec<Due>> {
-    let mut all = scene.charges.par_iter().map(|charge| near_field(scene, charge)).collect::<Result<Vec<_>>>()?;
+    let mut all = scene
+        .charges
+        .par_iter()
+        .filter(|charge| charge.shape.is_none())
+        .map(|charge| near_field(scene, charge))
+        .collect::<Result<Vec<_>>>()?;
     all.sort_by(|a, b| a.time.total_cmp(&b.time));
     Ok(all)
 }
@@ -64,18 +72,20 @@ pub(super) fn due(scene: &Scene) -> Result<Vec<Due>> {
 /// The near field of a charge.
 fn near_field(scene: &Scene, charge: &Charge) -> Result<Due> {
     let none = || Error::Usage(format!("charge `{}`: there is no gas around it; choose another place", charge.name));
-    let placed = scene.placed(charge).ok_or_else(none)?;
+    let ((mass, center), placed) = charge.ball().zip(scene.placed(charge)).ok_or_else(none)?;
     let mut expansion = placed.ball.start(BEYOND * placed.reach, WIDEST * scene.domain.spacing());
     expansion.run_to(placed.reach, MOST_STEPS);
     let burnt = placed.ball.afterburnt(expansion.time);
-    let energy = charge.mass * (placed.ball.explosive.specific_energy() + burnt);
+    let energy = mass * (placed.ball.explosive.specific_energy() + burnt);
     let profile = expansion.profile(placed.reach, SHELLS);
-    let around = scene.still_gas(charge.center, charge.center).mass_fraction;
+    let around = scene.still_gas(center, center).mass_fraction;
     let of = |share: f64| [share, scene.gas.equation_of_state().volume_fraction(share)];
     let fractions = [of(if charge.species.is_some() { 1.0 } else { 0.0 }), of(around)];
     Ok(Due {
         time: charge.time + expansion.time,
         charge: charge.clone(),
+        mass,
+        center,
         fractions,
         surface: Unevenness::new(),
         energy,
@@ -132,7 +142,7 @@ impl Due {
     fn cells(&self, scene: &Scene, simulation: &Simulation, words: &[u32]) -> Vec<Mapped> {
         let domain = &scene.domain;
         let (axes, grid, spacing) = (domain.axes(), &simulation.state.grid, domain.spacing());
-        let (center, radius) = (self.charge.center, self.profile.radius * (1.0 + 3.0 * self.charge.roughness));
+        let (center, radius) = (self.center, self.profile.radius * (1.0 + 3.0 * self.charge.roughness));
         let range = |d: usize| {
             let cell = |x: f64| ((x - domain.origin[d]) / spacing).floor().clamp(0.0, f64::from(domain.cells[d] - 1));
             if d < axes { cell(center[d] - radius) as u32..cell(center[d] + radius) as u32 + 1 } else { 0..1 }
@@ -159,7 +169,7 @@ impl Due {
             let at = |d: usize| (point / samples.pow(d as u32) % samples) as f64;
             let arm: [f64; 3] = std::array::from_fn(|d| {
                 let offset = (at(d) + 0.5) / samples as f64 - 0.5;
-                if d < axes { middle[d] + offset * spacing - self.charge.center[d] } else { 0.0 }
+                if d < axes { middle[d] + offset * spacing - self.center[d] } else { 0.0 }
             });
             let away = arm.iter().map(|x| x * x).sum::<f64>().sqrt();
             let even = away / (1.0 + self.charge.roughness * self.surface.height(arm, away));
@@ -197,9 +207,9 @@ impl Simulation {
     /// [`Error::Usage`] if it does not fit into the domain or there is no gas around it; driver errors.
     pub fn set_off(&mut self, charge: &Charge, records: &mut Vec<StepRecord>) -> Result<f64> {
         if !self.scene.has_room_for(charge) {
+            let (mass, center) = charge.ball().unwrap_or_default();
             let text = format!(
-                "{} kg at {:?} m do not fit into the gas of this scene; choose less, or another place",
-                charge.mass, charge.center
+                "{mass} kg at {center:?} m do not fit into the gas of this scene; choose less, or another place"
             );
             return Err(Error::Usage(text));
         }
@@ -240,7 +250,7 @@ impl Simulation {
             return Err(Error::Usage(text));
         }
         // of the products is there what the charge had, of the gas around what was there
-        let [products, around, hotter] = [due.charge.mass / new[0], old[0] / new[1], (due.energy + old[1]) / new[2]];
+        let [products, around, hotter] = [due.mass / new[0], old[0] / new[1], (due.energy + old[1]) / new[2]];
         let mut gained = [0.0; 5];
         for cell in &cells {
             let before = flow[cell.slot].map(f64::from);

@@ -96,8 +96,7 @@ impl Simulation {
             gas.iter().map(|cell| (value(*cell), *cell)).max_by(|a, b| a.0.total_cmp(&b.0))
         };
         let place = |cell: usize| format!("cell {:?}", position(now, cell));
-        let sound =
-            |cell: usize| (now.gamma_at(cell) * f64::from(now.pressure[cell]) / f64::from(now.density[cell])).sqrt();
+        let sound = |cell: usize| now.sound_speed_at(cell);
         let state = |cell: usize| {
             let [density, pressure] = [now.density[cell], now.pressure[cell]].map(|value| plain(f64::from(value)));
             let speed = now.velocity[cell].map(f64::from).iter().map(|v| v * v).sum::<f64>().sqrt();

@@ -16,10 +16,10 @@ pub fn all() -> Vec<(&'static str, &'static str, Vec<Shared>)> {
         ("shared/pcg.wgsl", "numerics/linear_algebra.wgsl", vec![PcgControl::shared()]),
         ("materials/law.wgsl", "solid/g2p.wgsl", vec![MaterialParams::shared()]),
         ("shared/state.wgsl", "gas/openings.wgsl", vec![Opening::shared()]),
-        ("shared/state.wgsl", "solid/motions.wgsl", vec![Support::shared()]),
+        ("shared/driven.wgsl", "solid/g2p.wgsl", vec![Support::shared()]),
         ("solve/coarse.wgsl", "solve/solve_coarse.wgsl", vec![Grid::shared(), Level::shared()]),
         ("gas/openings.wgsl", "gas/openings.wgsl", vec![Knot::shared()]),
-        ("solid/motions.wgsl", "solid/motions.wgsl", vec![MotionAt::shared()]),
+        ("solid/motions.wgsl", "solid/motions.wgsl", vec![MotionAt::shared(), Support::shared()]),
         ("solve/solve_surface.wgsl", "solve/solve_surface.wgsl", vec![Turn::shared()]),
         ("gas/detonate.wgsl", "gas/detonate.wgsl", vec![Ball::shared()]),
     ]

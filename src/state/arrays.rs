@@ -90,15 +90,17 @@ pub enum Scenes {
     ElasticFirst,
     /// With a second gas.
     TwoGases,
+    /// With products of an explosive for a second gas.
+    Products,
 }
 
 impl Scenes {
     /// Whether some scene has both.
     pub fn meet(self, other: Scenes) -> bool {
-        use Scenes::{All, Bodies, ElasticFirst, Explicit, Gas, Implicit, SolveFirst, TwoGases, TwoSolves};
+        use Scenes::{All, Bodies, ElasticFirst, Explicit, Gas, Implicit, Products, SolveFirst, TwoGases, TwoSolves};
         let bodies = |scenes| matches!(scenes, Bodies | SolveFirst | Explicit | Implicit | ElasticFirst);
         match (self, other) {
-            (TwoGases, _) | (_, TwoGases) => true,
+            (TwoGases | Products, _) | (_, TwoGases | Products) => true,
             (Explicit, Implicit | ElasticFirst)
             | (Implicit, Explicit | ElasticFirst)
             | (SolveFirst, ElasticFirst)
@@ -198,6 +200,10 @@ impl Use {
 pub const SPECIES_DENSITY: usize = 7;
 /// The other of the two.
 pub const SPECIES_VOLUME: usize = 8;
+/// Part that holds the density of an explosive that has not burned.
+pub const UNBURNED: usize = 9;
+/// Part that holds when its detonation comes.
+pub const BURN_TIME: usize = 16;
 
 /// Every use, by array and part, in the order of a step.
 #[rustfmt::skip]
@@ -240,26 +246,36 @@ pub const USES: &[Use] = &[
         "density of the second gas, with the slots of `conserved`").of(Scenes::TwoGases),
     Use::new("energy", Name::Part(SPECIES_VOLUME as u32, "SPECIES_VOLUME"), (At(IntermediatePressure), Next(IntermediatePressure)), "1, J m^-3",
         "its volume fraction; in bodies its share of the energy").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(9, "HANDED_SPECIES_MASS"), (At(Interface), At(Interface)), "kg",
+    Use::new("energy", Name::Part(UNBURNED as u32, "UNBURNED"), (At(IntermediatePressure), Next(IntermediatePressure)), "kg m^-3",
+        "density of an explosive that has not burned").of(Scenes::Products),
+    Use::new("energy", Name::Part(10, "HANDED_SPECIES_MASS"), (At(Interface), At(Interface)), "kg",
         "mass of the second gas that the ledger hands on to each receiver").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(9, "HALFWAY_SPECIES_DENSITY"), (At(GasAdvection), At(GasAdvection)), "kg m^-3",
+    Use::new("energy", Name::Part(10, "HALFWAY_SPECIES_DENSITY"), (At(GasAdvection), At(GasAdvection)), "kg m^-3",
         "halfway through the advection").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(9, "FILTER_SPECIES_DENSITY"), (At(OddEven), At(OddEven)), "kg m^-3",
+    Use::new("energy", Name::Part(10, "FILTER_SPECIES_DENSITY"), (At(OddEven), At(OddEven)), "kg m^-3",
         "what the filter changes").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(10, "HANDED_SPECIES_ENERGY"), (At(Interface), At(Interface)), "J",
+    Use::new("energy", Name::Part(11, "HANDED_SPECIES_ENERGY"), (At(Interface), At(Interface)), "J",
         "its share of the energy").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(10, "HALFWAY_SPECIES_VOLUME"), (At(GasAdvection), At(GasAdvection)), "1",
+    Use::new("energy", Name::Part(11, "HALFWAY_SPECIES_VOLUME"), (At(GasAdvection), At(GasAdvection)), "1",
         "halfway through the advection").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(10, "FILTER_SPECIES_VOLUME"), (At(OddEven), At(OddEven)), "1",
+    Use::new("energy", Name::Part(11, "FILTER_SPECIES_VOLUME"), (At(OddEven), At(OddEven)), "1",
         "what the filter changes").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(11, "ADVECTED_SPECIES_DENSITY"), (At(GasAdvection), At(IntermediatePressure)), "kg m^-3",
+    Use::new("energy", Name::Part(12, "ADVECTED_SPECIES_DENSITY"), (At(GasAdvection), At(IntermediatePressure)), "kg m^-3",
         "of the advected state").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(12, "ADVECTED_SPECIES_VOLUME"), (At(GasAdvection), At(IntermediatePressure)), "1",
+    Use::new("energy", Name::Part(13, "ADVECTED_SPECIES_VOLUME"), (At(GasAdvection), At(IntermediatePressure)), "1",
         "of the advected state").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(13, "START_SPECIES_DENSITY"), (At(GasAdvection), Second(GasAdvection)), "kg m^-3",
+    Use::new("energy", Name::Part(14, "START_SPECIES_DENSITY"), (At(GasAdvection), Second(GasAdvection)), "kg m^-3",
         "at the start of the step, with two solves").of(Scenes::TwoGases),
-    Use::new("energy", Name::Part(14, "START_SPECIES_VOLUME"), (At(GasAdvection), Second(GasAdvection)), "1",
+    Use::new("energy", Name::Part(15, "START_SPECIES_VOLUME"), (At(GasAdvection), Second(GasAdvection)), "1",
         "at the start of the step, with two solves").of(Scenes::TwoGases),
+    Use::new("energy", Name::Part(BURN_TIME as u32, "BURN_TIME"), (At(IntermediatePressure), Next(IntermediatePressure)), "s",
+        "when a detonation comes").of(Scenes::Products),
+    Use::new("energy", Name::Part(17, "HALFWAY_UNBURNED"), (At(GasAdvection), At(GasAdvection)), "kg m^-3",
+        "halfway through the advection").of(Scenes::Products),
+    Use::new("energy", Name::Part(18, "ADVECTED_UNBURNED"), (At(GasAdvection), At(IntermediatePressure)), "kg m^-3",
+        "of the advected state").of(Scenes::Products),
+    Use::new("energy", Name::Part(19, "START_UNBURNED"), (At(GasAdvection), Second(GasAdvection)), "kg m^-3",
+        "at the start of the step, with two solves").of(Scenes::Products),
     Use::new("work", Name::Part(0, "HANDED_FLOW"), (At(Interface), At(Interface)), "kg, kg m s^-1",
         "mass and momentum that the ledger hands on to each receiver").of(Scenes::Bodies),
     Use::new("work", Name::Part(0, "HALFWAY_FLOW"), (At(GasAdvection), At(GasAdvection)), "kg m^-3, kg m^-2 s^-1",
@@ -366,9 +382,11 @@ pub const USES: &[Use] = &[
 /// Parts of an array in a scene.
 pub fn parts(array: &str, scene: &Scene) -> usize {
     let (two_solves, two_gases) = (scene.solves() == 2, !scene.gas.species.is_empty());
+    let products = scene.gas.products().is_some();
     let has = |scenes: Scenes| match scenes {
         Scenes::TwoSolves => two_solves,
         Scenes::TwoGases => two_gases,
+        Scenes::Products => products,
         _ => true,
     };
     let own = USES.iter().filter(|own| own.array == array && has(own.scenes));

@@ -3,7 +3,7 @@
 use super::{Grid, Openings, arrays};
 use crate::error::Result;
 use crate::gpu::{Buffer, Gpu, readback};
-use crate::scene::{Conserved, Scene};
+use crate::scene::{Conserved, NEVER, Scene};
 
 /// Buffers of the gas, in padded slots.
 #[derive(Debug)]
@@ -42,20 +42,40 @@ impl GasState {
 }
 
 impl GasState {
-    /// Whether there is a second gas.
-    pub fn has_species(&self, slots: usize) -> bool {
-        self.energy.len() > arrays::SPECIES_VOLUME * slots
+    /// What is known of the second gas in each slot: density and volume fraction, of products also the density of explosive that has not burned.
+    pub fn species_parts(&self, slots: usize) -> usize {
+        match self.energy.len() {
+            len if len > arrays::BURN_TIME * slots => 3,
+            len if len > arrays::SPECIES_VOLUME * slots => 2,
+            _ => 0,
+        }
     }
 
-    /// Density of the second gas of all slots, then its volume fraction; empty without one.
+    /// These parts, one after the other; empty without a second gas.
     ///
     /// # Errors
     /// Driver errors.
     pub fn read_species(&self, gpu: &Gpu, slots: usize) -> Result<Vec<f32>> {
-        if !self.has_species(slots) {
-            return Ok(Vec::new());
+        match self.species_parts(slots) {
+            0 => Ok(Vec::new()),
+            parts => readback::read_range(gpu, &self.energy, arrays::SPECIES_DENSITY * slots, parts * slots),
         }
-        readback::read_range(gpu, &self.energy, arrays::SPECIES_DENSITY * slots, 2 * slots)
+    }
+
+    /// Writes when each cell begins to burn, from [`Scene::burn_starts`], and that nothing of its explosive, of a density \[kg m^-3\], has
+    /// burned; nothing without an explosive.
+    pub(super) fn write_burn(&self, gpu: &Gpu, grid: &Grid, starts: &[Option<f32>], density: &[f32]) {
+        if starts.is_empty() {
+            return;
+        }
+        let (mut unburned, mut begin) = (vec![0.0; grid.slots()], vec![-NEVER; grid.slots()]);
+        for (index, slot) in grid.unpadded_by(|slot| slot).into_iter().enumerate() {
+            if let Some(start) = starts[index] {
+                (unburned[slot], begin[slot]) = (density[slot], start);
+            }
+        }
+        self.energy.write(gpu, arrays::UNBURNED * grid.slots(), &unburned);
+        self.energy.write(gpu, arrays::BURN_TIME * grid.slots(), &begin);
     }
 
     /// Puts back what [`GasState::read_species`] has read.
@@ -64,6 +84,11 @@ impl GasState {
             self.energy.write(gpu, arrays::SPECIES_DENSITY * slots, species);
         }
     }
+}
+
+/// Share of a cell that has burned at the start: nothing of a charge, all elsewhere.
+pub(super) fn burned_at_start(starts: &[Option<f32>], index: usize) -> f32 {
+    if starts.get(index).is_some_and(Option::is_some) { 0.0 } else { 1.0 }
 }
 
 /// Whether only the ring has a ledger: without bodies and obstacles nothing else collects gas.
@@ -83,7 +108,7 @@ const PURE: f64 = 1e-3;
 /// Least p / rho^gamma of the gas of the start and of what may flow in, of the first gas and of the second; 0 without.
 pub(super) fn start_entropy(scene: &Scene, start: &[Conserved], openings: &Openings) -> [f64; 2] {
     let gases = scene.gas.equation_of_state();
-    let inside = start.iter().map(|state| (state[0], gases.pressure(*state), state[6]));
+    let inside = start.iter().map(|state| (state[0], gases.pressure(*state, 1.0), state[6]));
     let beyond = openings.table.iter().map(|rule| (rule.flow[0], rule.pressure, rule.species_volume));
     let later = openings.table.iter().flat_map(|rule| {
         let knots = openings.knots.iter().skip(rule.first as usize).take(rule.knots as usize);
@@ -93,6 +118,9 @@ pub(super) fn start_entropy(scene: &Scene, start: &[Conserved], openings: &Openi
     let mut least = [f64::INFINITY; 2];
     for (density, pressure, phi) in inside.chain(beyond.chain(later).map(wide)) {
         let gas = usize::from(phi > 0.5);
+        if gas == 1 && gases.products().is_some() {
+            continue; // the floor knows ideal gases
+        }
         if density > 0.0 && pressure > 0.0 && f64::min(phi, 1.0 - phi) < PURE {
             let gamma = gases.gamma_at(gas as f64);
             least[gas] = least[gas].min(pressure / f64::powf(density, gamma));

@@ -7,9 +7,9 @@ use super::gas::ring_ledger;
 use super::{Grid, constants, surface};
 use crate::gpu::WORKGROUP;
 use crate::numerics::Scan;
-use crate::scene::{Boundary, Ghost, Integrator, InterfacePressure, Pair, Scene};
+use crate::scene::{BURN_WIDTH, Boundary, Ghost, Integrator, InterfacePressure, Pair, Scene};
 use crate::structure::structure;
-use crate::structure::types::{vec3f, vec3u, vec4u};
+use crate::structure::types::{vec3f, vec3u, vec4f, vec4u};
 
 structure! {
     /// What one run fixes: grid, gas, limits.
@@ -89,8 +89,14 @@ structure! {
         ambient_share: f32,
         /// Its volume fraction there \[1\].
         ambient_volume: f32,
+        /// Energy that the explosive holds \[J kg^-1\].
+        chemical_energy: f32,
+        /// Share of it that burns per time where a detonation passes \[s^-1\].
+        burn_rate: f32,
         /// Fills the space before vectors.
-        unused: [u32; 3],
+        unused: u32,
+        /// A and B \[Pa\], R1 and R2 times the density of the explosive \[kg m^-3\].
+        products: vec4f,
         /// Groups of each dispatch of a prefix sum over all slots and one more.
         scan: [vec4u; SCAN_DISPATCHES],
     }
@@ -162,6 +168,7 @@ impl Params {
         let (time, numerics) = (&scene.time, &scene.numerics);
         let cell_volume = scene.domain.cell_volume();
         let (gases, ambient) = (scene.gas.equation_of_state(), &scene.gas.ambient);
+        let burn = Burn::of(scene);
         let mut params = Params {
             cells: grid.cells,
             slots: grid.slots() as u32,
@@ -203,7 +210,10 @@ impl Params {
             species_least_entropy: 0.0,
             ambient_share: ambient.mass_fraction as f32,
             ambient_volume: gases.volume_fraction(ambient.mass_fraction) as f32,
-            unused: [0; 3],
+            chemical_energy: burn.energy as f32,
+            burn_rate: burn.rate as f32,
+            unused: 0,
+            products: burn.terms.map(|term| term as f32),
             scan: [[0; 4]; SCAN_DISPATCHES],
         };
         let places = super::interface::Places::new(params.stride.map(u64::from), scene.domain.dimension);
@@ -212,6 +222,25 @@ impl Params {
             *entry = [x, y, z, 0];
         }
         params
+    }
+}
+
+/// Numbers of an explosive: energy \[J kg^-1\], share that burns per time \[s^-1\], and A, B, R1 and R2 as the shaders have them.
+#[derive(Debug, Default)]
+struct Burn {
+    energy: f64,
+    rate: f64,
+    terms: [f64; 4],
+}
+
+impl Burn {
+    fn of(scene: &Scene) -> Self {
+        let Some(own) = scene.gas.products() else { return Self::default() };
+        Self {
+            energy: own.specific_energy(),
+            rate: own.detonation_speed / (BURN_WIDTH * scene.domain.spacing()),
+            terms: own.products.rates(own.density),
+        }
     }
 }
 
@@ -232,6 +261,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("CONSISTENT", flag(scene.consistent())),
         ("ARS", flag(scene.solves() == 2)),
         ("SPECIES", flag(!scene.gas.species.is_empty())),
+        ("PRODUCTS", flag(scene.gas.products().is_some())),
         ("FOURTH", flag(scene.sound_of_fourth_order())),
         ("RING_LEDGER", flag(ring_ledger(scene, solids))),
         ("LATE_FLUX", flag(scene.late_flux())),

@@ -135,3 +135,97 @@ fn a_charge_goes_off_when_it_is_asked_for() {
     let error = simulation.set_off(&Charge::tnt("click", 1e8, [0.5, 0.6, 0.0]), &mut Vec::new()).unwrap_err();
     assert!(error.to_string().contains("do not fit"), "{error}");
 }
+
+/// A bent charge of TNT, and what else the scene has.
+fn bent(more: &str) -> String {
+    format!(
+        "title = \"bent\"\n[domain]\ndimension = 2\ncells = [40, 40]\nsize = [0.4, 0.4]\n[gas]\n\
+         ambient = {{ density = 1.2, pressure = 1e5 }}\n[gas.species.products]\nexplosive = \"tnt\"\n\
+         [[charges]]\nname = \"c\"\nexplosive = \"tnt\"\nspecies = \"products\"\ntime = 1e-6\n\
+         shape = {{ union = [{{ box = {{ center = [0.2, 0.1], size = [0.2, 0.06] }} }}, \
+         {{ box = {{ center = [0.27, 0.2], size = [0.06, 0.26] }} }}] }}\ndetonate_at = [[0.11, 0.1]]\n\
+         [time]\nuntil = 6e-5\n{more}"
+    )
+}
+
+fn parsed(text: &str, set: &[&str]) -> Result<Scene, String> {
+    let set: Vec<String> = set.iter().map(|own| (*own).to_owned()).collect();
+    Scene::parse(text, "bent.toml", &set[..]).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_detonation_goes_straight_and_around_corners() {
+    let scene = parsed(&bent(""), &[]).unwrap();
+    let (times, cell) = (scene.burn_times(), scene.domain.spacing());
+    let at = |x: f64, y: f64| times[(x / cell) as usize + 40 * (y / cell) as usize].unwrap();
+    let centre = |x: f64| ((x / cell).floor() + 0.5) * cell;
+    let length = |a: [f64; 2], b: [f64; 2]| ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt();
+    let (from, corner, speed) = ([0.11, 0.1], [0.24, 0.13], 6930.0);
+    for end in [[0.22, 0.11], [0.28, 0.09]] {
+        let exact = 1e-6 + length(from, end.map(centre)) / speed;
+        assert!((at(end[0], end[1]) / exact - 1.0).abs() < 1e-6, "{end:?}: {} {exact}", at(end[0], end[1]));
+    }
+    for end in [[0.25, 0.31], [0.29, 0.32], [0.26, 0.2]] {
+        let exact = 1e-6 + (length(from, corner) + length(corner, end.map(centre))) / speed;
+        // the corner of the cells is not that of the shape
+        assert!((at(end[0], end[1]) / exact - 1.0).abs() < 0.03, "{end:?}: {} {exact}", at(end[0], end[1]));
+    }
+    assert!(times[20 + 40 * 38].is_none(), "far away nothing burns");
+}
+
+#[test]
+fn a_charge_with_a_shape_burns_whole_and_keeps_its_energy() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = parsed(&bent(""), &[]).unwrap();
+    let mass = scene.mass_on_grid();
+    let exact = 1630.0 * (0.2 * 0.06 + 0.06 * (0.26 - 0.06));
+    assert!((mass / exact - 1.0).abs() < 1e-9, "{mass} {exact}");
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+    let before = Budget::read(&simulation, &scene, 0.0).unwrap();
+    assert!(((before.energy - 0.16 * 2.5e5) / (mass * TNT) - 1.0).abs() < 2e-3, "{before:?}");
+    let start = simulation.snapshot().unwrap();
+    assert!(start.pressure.iter().all(|p| (p / 1e5 - 1.0).abs() < 0.01), "nothing has burned");
+    simulation.advance_to(2e-5).unwrap();
+    let half = simulation.snapshot().unwrap();
+    let burned = |snapshot: &brisance::snapshot::Snapshot| {
+        let held = |cell: usize| f64::from(snapshot.species[cell][0] * snapshot.density[cell]);
+        let share = |cell: usize| held(cell) * f64::from(snapshot.species[cell][2]);
+        let cells = 0..snapshot.density.len();
+        cells.clone().map(share).sum::<f64>() / cells.map(held).sum::<f64>()
+    };
+    assert!((0.3..0.7).contains(&burned(&half)), "{}", burned(&half));
+    let saved = simulation.save().unwrap();
+    simulation.advance_to(6e-5).unwrap();
+    assert!(burned(&simulation.snapshot().unwrap()) > 1.0 - 1e-6);
+    let drift = Budget::read(&simulation, &scene, 0.0).unwrap().drift_since(&before);
+    assert!(drift["gas_mass"].abs() < 1e-6 && drift["energy"].abs() < 1e-6, "{drift:?}");
+    // and the same bits from the middle on
+    let mut second = Simulation::new(&gpu, &scene).unwrap();
+    second.restore(&saved).unwrap();
+    second.advance_to(6e-5).unwrap();
+    assert_eq!(second.snapshot().unwrap().energy, simulation.snapshot().unwrap().energy);
+}
+
+#[test]
+fn what_is_no_charge_on_the_grid_is_refused() {
+    for (set, told) in [
+        ("charges[0].mass=1.0", "it is for a charge without a shape"),
+        ("charges[0].roughness=0.1", "it is for a charge without a shape"),
+        ("charges[0].explosive=\"c4\"", "the gas that its products are is not that of its explosive"),
+        ("gas.species.products.explosive=\"tmt\"", "did you mean `tnt`"),
+        ("gas.species.products.gamma=1.3", "`gamma` and `explosive` are both given"),
+        ("charges[0].detonate_at=[[0.3, 0.35]]", "lies outside of the charge"),
+        ("charges[0].detonate_at=[]", "its middle is no part of it"),
+    ] {
+        let error = parsed(&bent(""), &[set]).unwrap_err();
+        assert!(error.contains(told), "{set}: {error}");
+    }
+    let apart =
+        bent("").replace("center = [0.27, 0.2], size = [0.06, 0.26]", "center = [0.27, 0.3], size = [0.06, 0.06]");
+    let error = parsed(&apart, &[]).unwrap_err();
+    assert!(error.contains("the detonation does not come everywhere"), "{error}");
+    let ball = scene(2, "");
+    let text = toml::to_string(&ball).unwrap().replace("center = [1.2, 1.2, 0.0]\n", "");
+    let error = parsed(&text, &[]).unwrap_err();
+    assert!(error.contains("give mass [kg] and center [m], or shape"), "{error}");
+}

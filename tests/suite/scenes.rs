@@ -115,6 +115,8 @@ scenes! {
     two_gas_disc: "validation/two_gas_disc.toml", "domain.cells=[32, 32]", "time.until=0.5";
     two_gas_tube: "validation/two_gas_tube.toml";
     helium_shock: "validation/helium_shock.toml";
+    plane_detonation: "validation/plane_detonation.toml";
+    copper_cylinder: "validation/copper_cylinder.toml" [small];
     helium_bubble: "validation/helium_bubble.toml", "domain.cells=[125, 25]", "time.until=1e-4";
     hot_bubble: "validation/hot_bubble.toml", "domain.cells=[20, 40]", "time.until=20.0";
     kelvin_helmholtz: "gas/kelvin_helmholtz.toml", "domain.cells=[48, 48]", "time.until=0.5";

@@ -51,7 +51,7 @@ const HALF: [&str; 4] = [
 /// How far fractions are from a half in gas.
 fn unevenness(snapshot: &Snapshot) -> f32 {
     let gas = snapshot.species.iter().zip(&snapshot.kind).filter(|(_, own)| **own == kind::GAS);
-    gas.flat_map(|(fractions, _)| *fractions).map(|share| (share - 0.5).abs()).fold(0.0, f32::max)
+    gas.flat_map(|(fractions, _)| [fractions[0], fractions[1]]).map(|share| (share - 0.5).abs()).fold(0.0, f32::max)
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn a_second_gas_that_is_told_wrong_is_refused() {
         (&["gas.regions[0].species=\"helium\""][..], "add a table such as [gas.species.helium]"),
         (&["gas.species.helium.gamma=1.667", "gas.regions[0].species=\"helum\""], "no gas `helum`"),
         (&["gas.species.helium.gamma=0.9"], "above 1"),
-        (&["gas.species.helium.gas_constant=100.0"], "missing field `gamma`"),
+        (&["gas.species.helium.gas_constant=100.0"], "`gamma` is missing"),
         (&["gas.species.helium.gamma=1.6", "gas.species.neon.gamma=1.6"], "two gases at most"),
         (&["gas.regions[0].mass_fraction=0.5"], "there is no second gas"),
         (&["gas.species.helium.gamma=1.6", "gas.regions[0].mass_fraction=1.5"], "from 0 to 1"),

@@ -97,7 +97,7 @@ impl State {
             grid: self.grid,
             conserved: self.conserved.raw(),
             energy: self.energy.raw(),
-            species: self.species.as_ref().map(|own| (own.raw(), 0)),
+            species: self.species.as_ref().map(|own| (own.raw(), 0, 2)),
             owed: None,
             maps: None,
             cells: self.cells.raw(),

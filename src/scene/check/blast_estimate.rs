@@ -50,14 +50,14 @@ impl Scene {
     #[must_use]
     pub fn charge_estimates(&self) -> Vec<ChargeEstimate> {
         let space = self.domain.dimension == 3;
-        let estimate = |charge: &Charge| Some(self.charge_estimate(charge, &self.placed(charge)?));
+        let estimate = |charge: &Charge| Some(self.charge_estimate(charge, charge.ball()?, &self.placed(charge)?));
         self.charges.iter().filter(|_| space).filter_map(estimate).collect()
     }
 
-    fn charge_estimate(&self, charge: &Charge, placed: &Placed) -> ChargeEstimate {
+    fn charge_estimate(&self, charge: &Charge, (own, center): (f64, [f64; 3]), placed: &Placed) -> ChargeEstimate {
         let on_ground = (HALF[0]..HALF[1]).contains(&placed.share);
         // what two or three walls cut off makes a part of a ball in free air
-        let mass = if on_ground { charge.mass } else { placed.ball.mass };
+        let mass = if on_ground { own } else { placed.ball.mass };
         let tnt = mass * placed.ball.explosive.tnt_equivalent;
         let burst = if on_ground { Burst::Surface } else { Burst::Air };
         let place = |(place, distance): (String, f64)| {
@@ -78,17 +78,17 @@ impl Scene {
             radius: placed.ball.radius(),
             radius_cells: placed.ball.radius() / cell,
             reach_cells: placed.reach / cell,
-            places: self.places_around(charge).into_iter().map(place).collect(),
+            places: self.places_around(center).into_iter().map(place).collect(),
         }
     }
 
     /// Probes and bodies with their distances from a charge.
-    fn places_around(&self, charge: &Charge) -> Vec<(String, f64)> {
+    fn places_around(&self, center: [f64; 3]) -> Vec<(String, f64)> {
         let probe = |probe: &Probe| {
-            let arm = probe.position.iter().zip(charge.center).map(|(a, b)| (a - b).powi(2));
+            let arm = probe.position.iter().zip(center).map(|(a, b)| (a - b).powi(2));
             (probe.name.clone(), arm.sum::<f64>().sqrt())
         };
-        let body = |body: &Body| (body.name.clone(), body.shape.distance(charge.center));
+        let body = |body: &Body| (body.name.clone(), body.shape.distance(center));
         let places = self.probes.iter().map(probe).chain(self.bodies.iter().map(body));
         places.filter(|(_, distance)| *distance > 0.0).collect()
     }

@@ -1,9 +1,7 @@
 //! Checks of charges.
 
-use crate::explosive::EXPLOSIVES;
 use crate::scene::Charge;
 use crate::scene::check::{Check, shape};
-use crate::spelling::did_you_mean;
 
 /// Charges of a scene at most.
 const MOST_CHARGES: usize = 100;
@@ -34,16 +32,11 @@ impl Check<'_> {
     }
 
     fn charge(&mut self, path: &str, charge: &Charge) {
-        if charge.made_of().is_none() {
-            let known = EXPLOSIVES.map(|explosive| format!("\"{}\"", explosive.name)).join(", ");
-            let meant = did_you_mean(&charge.explosive, EXPLOSIVES.iter().map(|explosive| explosive.name));
-            let message = format!("`{}` is no explosive that is known", charge.explosive);
-            self.wrong_value(format!("{path}.explosive"), message, format!("give one of {known}{meant}"));
-        }
-        if !(MASSES[0]..=MASSES[1]).contains(&charge.mass) {
-            let help =
-                format!("give a number from {:e} to {:e} [kg]; the scene must be in kg, m and s", MASSES[0], MASSES[1]);
-            self.out_of_range(format!("{path}.mass"), charge.mass, help);
+        self.known_explosive(format!("{path}.explosive"), &charge.explosive);
+        if charge.shape.is_some() {
+            self.shaped_charge(path, charge)
+        } else {
+            self.ball(path, charge)
         }
         if !(charge.time >= 0.0 && charge.time.is_finite()) {
             self.out_of_range(format!("{path}.time"), charge.time, "give a time from 0 on [s]");
@@ -62,14 +55,75 @@ impl Check<'_> {
         if let Some(reach) = charge.near_field {
             self.positive(format!("{path}.near_field"), reach, "[m]");
         }
-        self.planar(format!("{path}.center"), charge.center);
+    }
+
+    /// A charge without a shape.
+    fn ball(&mut self, path: &str, charge: &Charge) {
+        if !charge.detonate_at.is_empty() {
+            let help = "leave it out: a ball is set off in its middle; or give a shape in place of mass and center";
+            self.add(format!("{path}.detonate_at"), "it is for a charge with a shape", help);
+        }
+        let (Some(mass), Some(center)) = (charge.mass, charge.center) else {
+            let help = "give mass [kg] and center [m], or shape";
+            return self.add(path, "it does not say how much there is, and where", help);
+        };
+        if !(MASSES[0]..=MASSES[1]).contains(&mass) {
+            let help =
+                format!("give a number from {:e} to {:e} [kg]; the scene must be in kg, m and s", MASSES[0], MASSES[1]);
+            self.out_of_range(format!("{path}.mass"), mass, help);
+        }
+        self.planar(format!("{path}.center"), center);
+    }
+
+    /// A charge that stands on the grid.
+    fn shaped_charge(&mut self, path: &str, charge: &Charge) {
+        let ball = [
+            ("mass", charge.mass.is_some()),
+            ("center", charge.center.is_some()),
+            ("near_field", charge.near_field.is_some()),
+            ("roughness", charge.roughness != 0.0),
+            ("afterburn", charge.afterburn),
+        ];
+        for (key, _) in ball.into_iter().filter(|(_, given)| *given) {
+            let help = "leave it out, or the shape: mass and place of a shape follow from it";
+            self.add(format!("{path}.{key}"), "it is for a charge without a shape", help);
+        }
+        let own = charge.species.as_ref().and_then(|name| self.scene.gas.species.get(name));
+        if own.and_then(|species| species.explosive.as_ref()) != Some(&charge.explosive) {
+            let message = "the gas that its products are is not that of its explosive";
+            let help = format!(
+                "give species = \"products\", and a table [gas.species.products] with explosive = \"{}\"",
+                charge.explosive
+            );
+            self.wrong_value(format!("{path}.species"), message.to_owned(), help);
+        }
+    }
+
+    /// Where it is set off, and whether the detonation comes everywhere.
+    fn detonation(&mut self, path: &str, charge: &Charge) {
+        let Some(shape) = &charge.shape else { return };
+        for (index, point) in charge.detonators().into_iter().enumerate() {
+            if shape.distance(point) > 0.0 {
+                let place = format!("{:?}", &point[..self.scene.domain.axes()]);
+                let (key, help) = match charge.detonate_at.is_empty() {
+                    true => (path.to_owned(), "its middle is no part of it: give detonate_at, points within"),
+                    false => (format!("{path}.detonate_at[{index}]"), "give points within the shape"),
+                };
+                return self.add(key, format!("{place} lies outside of the charge"), help);
+            }
+        }
+        if self.scene.burn_times().iter().flatten().any(|time| time.is_infinite()) {
+            let help = "give detonate_at, a point in each of its parts";
+            self.add(format!("{path}.shape"), "the detonation does not come everywhere", help);
+        }
     }
 
     fn charge_place(&mut self, path: &str, charge: &Charge) {
+        let Some((_, own)) = charge.ball() else { return self.detonation(path, charge) };
         let (scene, center) = (self.scene, format!("{path}.center"));
-        let place = format!("{:?}", &charge.center[..scene.domain.axes()]);
+        let place = format!("{:?}", &own[..scene.domain.axes()]);
         let inside = |d: usize| {
-            let low = charge.center[d] - scene.domain.origin[d];
+            let low = own[d] - scene.domain.origin[d];
             (0.0..=scene.domain.size[d]).contains(&low)
         };
         if !(0..scene.domain.axes()).all(inside) {
@@ -78,13 +132,14 @@ impl Check<'_> {
         let bodies = scene.bodies.iter().map(|body| ("body", &body.name, &body.shape));
         let obstacles = scene.obstacles.iter().map(|obstacle| ("obstacle", &obstacle.name, &obstacle.shape));
         for (kind, name, shape) in bodies.chain(obstacles) {
-            if shape.distance(charge.center) < 0.0 {
+            if shape.distance(own) < 0.0 {
                 let help = "a charge lies in gas: move it out, or hollow the shape";
                 return self.add(center, format!("{place} lies inside {kind} `{name}`"), help);
             }
         }
         let longest = scene.longest_side();
-        let radius = charge.made_of().map_or(0.0, |explosive| scene.ball(charge, explosive).radius());
+        let ball = charge.made_of().and_then(|explosive| scene.ball(charge, explosive));
+        let radius = ball.map_or(0.0, |ball| ball.radius());
         if 2.0 * radius > longest {
             let message = format!("a charge of radius {radius:.3e} m in a domain of {longest:.3e} m");
             let help = "all of the domain would be products: give less mass [kg], or a larger domain";
@@ -94,7 +149,7 @@ impl Check<'_> {
             return self.add(center, format!("there is no gas around {place}"), "move the charge");
         };
         let least = placed.reach;
-        if scene.open_distance(charge.center) < least {
+        if scene.open_distance(own) < least {
             let message = format!(
                 "{place} is nearer to an open or periodic side than {least:.3e} m, the reach of its near field"
             );

@@ -12,6 +12,7 @@ pub(crate) mod limits;
 pub(crate) mod range;
 pub(crate) mod render;
 pub(crate) mod shape;
+mod species;
 
 use std::fmt::Display;
 
@@ -124,34 +125,6 @@ impl Check<'_> {
         self.positive(format!("{path}.pressure"), state.pressure, "[Pa]");
         self.planar(format!("{path}.velocity"), state.velocity);
         self.mass_fraction(path, state.mass_fraction);
-    }
-
-    /// Of the second gas, in what a key holds.
-    pub(crate) fn mass_fraction(&mut self, path: &str, share: f64) {
-        let key = format!("{path}.mass_fraction");
-        if !(0.0..=1.0).contains(&share) {
-            self.out_of_range(key, share, "give a share from 0 to 1");
-        } else if share > 0.0 && self.scene.gas.species.is_empty() {
-            self.add(
-                key,
-                "there is no second gas",
-                "add a table such as [gas.species.helium] with gamma and gas_constant",
-            );
-        }
-    }
-
-    fn species(&mut self) {
-        let species = &self.scene.gas.species;
-        for (index, (name, own)) in species.iter().enumerate() {
-            let path = format!("gas.species.{name}");
-            if index > 0 {
-                self.add(&path, "there is a second gas already", "leave one: a scene has two gases at most");
-            }
-            if !(own.gamma > 1.0 && own.gamma.is_finite()) {
-                self.out_of_range(format!("{path}.gamma"), own.gamma, "give a number above 1; helium has 1.667");
-            }
-            self.positive(format!("{path}.gas_constant"), own.gas_constant, "[J kg^-1 K^-1]");
-        }
     }
 
     fn domain(&mut self) {

@@ -27,9 +27,10 @@ impl Scene {
         let gas = &self.gas;
         let gases = gas.equation_of_state();
         if !(gas.waves.is_empty() && gas.vortices.is_empty() && gas.radial_flows.is_empty()) {
-            return self.each_cell(|center| self.mean_over(center, |point| gases.conserved(&self.gas_at(point))));
+            return self.each_cell(|center| self.mean_over(center, |point| self.conserved_at(point)));
         }
         let states = self.gas.regions.iter().map(|region| gases.conserved(&region.state)).collect::<Vec<_>>();
+        let charges = self.charges.iter().filter_map(|charge| charge.shape.as_ref()).collect::<Vec<_>>();
         let reach = self.cell_radius();
         self.each_cell(|center| {
             let ambient = gases.conserved(&self.ambient_at(center));
@@ -41,6 +42,9 @@ impl Scene {
                 if distance < 0.0 {
                     state = *inside;
                 }
+            }
+            if charges.iter().any(|shape| shape.distance(center) < reach) {
+                return self.mean_over(center, |point| self.conserved_at(point));
             }
             if mixed { self.mean_state(center, &ambient, &states) } else { state }
         })
@@ -82,9 +86,11 @@ impl Scene {
     /// The mean over the part of a cell that lies outside of the obstacles.
     #[must_use]
     pub fn initial_gas_beside_obstacles(&self, cell: [u32; 3]) -> Conserved {
-        let gases = self.gas.equation_of_state();
-        let state = |point| gases.conserved(&self.gas_at(point));
-        self.mean_outside(self.domain.cell_center(cell), |point| self.inside_obstacle(point), state)
+        self.mean_outside(
+            self.domain.cell_center(cell),
+            |point| self.inside_obstacle(point),
+            |point| self.conserved_at(point),
+        )
     }
 
     /// Which cells are obstacle: those whose centre lies inside one. x fastest, without padding.
@@ -115,7 +121,13 @@ impl Scene {
         last.map_or_else(|| self.ambient_at(height), |region| region.state)
     }
 
-    /// Initial state at a point.
+    /// What is conserved at a point at the start.
+    fn conserved_at(&self, point: [f64; 3]) -> Conserved {
+        let gas = || self.gas.equation_of_state().conserved(&self.gas_at(point));
+        self.unburned_at(point).unwrap_or_else(gas)
+    }
+
+    /// Initial state at a point, without charges.
     #[must_use]
     pub fn gas_at(&self, point: [f64; 3]) -> GasState {
         let mut state = self.still_gas(point, point);

@@ -48,6 +48,7 @@ pub fn table() -> String {
             Scenes::Bodies => " (bodies)",
             Scenes::TwoSolves => " (two solves)",
             Scenes::TwoGases => " (two gases)",
+            Scenes::Products => " (products of an explosive)",
             Scenes::SolveFirst => " (bodies, solve first)",
             Scenes::Explicit => " (sub-steps)",
             Scenes::Implicit => " (implicit elasticity)",

@@ -137,7 +137,8 @@ fn room(session: &mut Session<'_>) -> Result<()> {
     changes.extend([format!("time.until={QUIET}"), "charges[0].afterburn=false".to_owned(), "probes=[]".to_owned()]);
     let run = session.run("validation/air_burst.toml", Setting::standard(24), &changes)?;
     let (scene, gamma) = (&run.scene, run.scene.gas.gamma);
-    let energy: f64 = scene.charges.iter().filter_map(|own| Some(own.mass * own.made_of()?.specific_energy())).sum();
+    let energy: f64 =
+        scene.charges.iter().filter_map(|own| Some(own.ball()?.0 * own.made_of()?.specific_energy())).sum();
     let volume = scene.domain.cell_volume() * scene.domain.cell_count() as f64;
     let mean = run.snapshot.pressure.iter().map(|p| f64::from(*p)).sum::<f64>() / run.snapshot.pressure.len() as f64;
     let rise = mean - scene.gas.ambient.pressure;

@@ -11,6 +11,7 @@ mod clamped;
 mod cold;
 mod contacts;
 mod cylinders;
+mod detonation;
 mod drifting;
 mod driven;
 mod duct;
@@ -41,7 +42,7 @@ use super::harness::{Case, Suite};
 /// All cases in the order of the report, those of a group together.
 pub fn cases() -> impl Iterator<Item = &'static Case> {
     let lines = [tubes::CASES, athena::CASES, blasts::CASES, waves::CASES];
-    let blasts = [blast_2d::CASES, line_explosion::CASES, explosions::CASES, charges::CASES];
+    let blasts = [blast_2d::CASES, line_explosion::CASES, explosions::CASES, charges::CASES, detonation::CASES];
     let streams = [forward_step::CASES, steady::CASES, bow_shocks::CASES, jet::CASES];
     let coupled = [
         plates::CASES,

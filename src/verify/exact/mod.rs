@@ -4,3 +4,4 @@ pub mod gasdynamics;
 pub mod muscl;
 pub mod muscl_plane;
 pub(super) mod profile;
+pub(super) mod taylor_wave;
