@@ -152,3 +152,47 @@ fn time_line(ui: &mut Ui, until: f64, status: &Status, width: f32) -> Option<Act
 fn warning_mark(count: usize) -> String {
     if count == 1 { "1 warning".to_owned() } else { format!("{count} warnings") }
 }
+
+#[cfg(test)]
+mod tests {
+    use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, vec2};
+
+    use super::*;
+
+    /// What the time line of a run of two seconds asks for in a frame, and where it lies.
+    fn frame(context: &egui::Context, events: Vec<Event>) -> (Option<Action>, Rect) {
+        let status = Status { time: 1.5, kept: vec![0.0, 0.5, 1.0], ..Status::default() };
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(600.0, 100.0)));
+        let mut seen = (None, Rect::NOTHING);
+        let draw = |ui: &mut Ui| {
+            let place = Rect::from_min_size(ui.cursor().min, vec2(400.0, 8.0));
+            seen = (time_line(ui, 2.0, &status, 400.0), place);
+        };
+        context.run_ui(RawInput { events, screen_rect, ..RawInput::default() }, draw).textures_delta.clear();
+        seen
+    }
+
+    #[test]
+    fn the_time_line_is_dragged_back() {
+        let context = egui::Context::default();
+        let (asked, place) = frame(&context, Vec::new());
+        assert!(asked.is_none());
+        let at = |share: f32| Pos2::new(place.left() + share * place.width(), place.center().y);
+        let button = |pos: Pos2, pressed: bool| Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        frame(&context, vec![Event::PointerMoved(at(0.75))]);
+        frame(&context, vec![button(at(0.75), true)]);
+        frame(&context, vec![Event::PointerMoved(at(0.6))]);
+        let (asked, _) = frame(&context, vec![Event::PointerMoved(at(0.25))]);
+        let Some(Action::Rewind(time)) = asked else { panic!("{asked:?}") };
+        assert!((time - 0.5).abs() < 1e-3, "{time}");
+        let (asked, _) = frame(&context, vec![Event::PointerMoved(at(-0.5))]);
+        assert!(matches!(asked, Some(Action::Rewind(0.0))), "{asked:?}");
+        frame(&context, vec![button(at(0.25), false)]);
+        assert!(frame(&context, Vec::new()).0.is_none());
+    }
+}
