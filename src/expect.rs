@@ -5,7 +5,7 @@ mod gauges;
 mod probes;
 mod warnings;
 
-pub use gauges::Gauge;
+pub use gauges::{Gauge, Recording};
 pub use probes::Seen;
 pub use warnings::{RULES, Rule, Warning, Watched, absent, marks, table, warnings, watched};
 

@@ -71,6 +71,8 @@ pub const TABLE: &[Quantity] = &[
     quantity(Place::Cell, "entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma_at(i) as f32)])),
     quantity(Place::Cell, "mass_fraction", "1", "mass fraction of the second gas", 1, |s| gas(s, |i| [s.mass_fraction_at(i)])),
     quantity(Place::Cell, "volume_fraction", "1", "volume fraction of the second gas", 1, |s| gas(s, |i| [s.species.get(i).map_or(0.0, |own| own[1])])),
+    quantity(Place::Cell, "soot", "m^-1", "extinction by soot [1/m]", 1, |s| gas(s, |i| [s.fire.soot(second(s, i)) as f32])),
+    quantity(Place::Cell, "flames", "m^-1", "light of hot gas over that of white paper [1/m]", 1, |s| gas(s, |i| [s.fire.light(second(s, i), s.thermal_energy_at(i).into()) as f32])),
     quantity(Place::Cell, "owed", "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
     quantity(Place::Cell, "peak_pressure", "Pa", "largest pressure so far [Pa]", 1, |s| map(s, 0)),
     quantity(Place::Cell, "impulse", "Pa s", "impulse so far [Pa s]", 1, |s| map(s, 1)),
@@ -112,10 +114,15 @@ pub fn find(place: Place, name: &str) -> Option<&'static Quantity> {
     TABLE.iter().find(|quantity| quantity.place == place && quantity.name == name)
 }
 
-/// All quantities of cells or of particles that a state has: maps only where they were kept, fractions where there are two gases.
+/// All quantities of cells or of particles that a state has: maps only where they were kept, fractions where there are two gases, soot and
+/// flames where pictures have them.
 pub fn all(snapshot: &Snapshot, place: Place) -> impl Iterator<Item = &'static Quantity> {
-    let (kept, mixed) = (!snapshot.maps.is_empty(), !snapshot.species.is_empty());
-    let has = move |name: &str| (kept || !MAPS.contains(&name)) && (mixed || !FRACTIONS.contains(&name));
+    let (kept, mixed, fire) = (!snapshot.maps.is_empty(), !snapshot.species.is_empty(), snapshot.fire);
+    let has = move |name: &str| match name {
+        SOOT => fire.extinction.is_some(),
+        FLAMES => fire.emission.is_some(),
+        _ => (kept || !MAPS.contains(&name)) && (mixed || !FRACTIONS.contains(&name)),
+    };
     TABLE.iter().filter(move |quantity| quantity.place == place && has(quantity.name))
 }
 
@@ -123,6 +130,9 @@ pub fn all(snapshot: &Snapshot, place: Place) -> impl Iterator<Item = &'static Q
 const LEAST: usize = 1 << 12;
 /// Quantities of scenes with two gases.
 const FRACTIONS: [&str; 2] = ["mass_fraction", "volume_fraction"];
+/// What absorbs light, and what shines.
+const SOOT: &str = "soot";
+const FLAMES: &str = "flames";
 /// Quantities of what has been so far.
 const MAPS: [&str; 3] = ["peak_pressure", "impulse", "peak_plastic_strain"];
 
@@ -149,6 +159,11 @@ fn whole(snapshot: &Snapshot, value: impl Fn(&ParticleSample) -> u32) -> Values 
 
 fn length([x, y, z]: [f32; 3]) -> f32 {
     (x * x + y * y + z * z).sqrt()
+}
+
+/// Density of the second gas \[kg m^-3\].
+fn second(snapshot: &Snapshot, i: usize) -> f64 {
+    f64::from(snapshot.density[i]) * f64::from(snapshot.mass_fraction_at(i))
 }
 
 fn mach(snapshot: &Snapshot, i: usize) -> f32 {
@@ -212,6 +227,7 @@ mod tests {
             step: 0,
             grid,
             gases: crate::scene::EquationOfState { gamma: 1.4, species: None },
+            fire: crate::scene::Fire::default(),
             species: Vec::new(),
             kind: kinds,
             density,
@@ -236,6 +252,31 @@ mod tests {
             };
             assert_eq!(length, count * quantity.components, "{}", quantity.name);
         }
+    }
+
+    #[test]
+    fn soot_absorbs_and_shines_where_it_is_hot() {
+        let mut state = turning();
+        let names = |state: &Snapshot| all(state, Place::Cell).map(|own| own.name).collect::<Vec<_>>();
+        assert!(!names(&state).contains(&"soot") && !names(&state).contains(&"flames"));
+        state.species = vec![[0.25, 0.5, 0.0]; 25];
+        // 1900 K at a pressure over density of 1, which cell 0 has, half of that in cell 1, and cold soot in cell 2
+        state.fire = crate::scene::Fire { extinction: Some(8.0), emission: Some([1900.0, 3.0, 5.0]) };
+        for (i, heat) in [(0, 1.0), (1, 0.5), (2, 0.2)] {
+            (state.density[i], state.pressure[i]) = (2.0, 2.0 * heat);
+        }
+        let real = |state: &Snapshot, name: &str| match state.cell_field(name) {
+            Some(Values::Real(values)) => values,
+            _ => Vec::new(),
+        };
+        assert_eq!((real(&state, "soot")[0], real(&state, "soot")[12]), (4.0, 0.0));
+        let flames = real(&state, "flames");
+        // what is as bright as white paper is opaque to 1050 of 1750 parts, what has 950 K to 100
+        assert!((flames[0] - 3.0 * 0.6 * 4.0).abs() < 1e-5, "{}", flames[0]);
+        assert!((flames[1] - 3.0 / 16.0 * 100.0 / 1750.0 * 4.0).abs() < 1e-6, "{}", flames[1]);
+        assert_eq!((flames[2], flames[12]), (0.0, 0.0));
+        state.fire.extinction = None;
+        assert!((real(&state, "flames")[0] - 3.0 * 0.6 * 5.0).abs() < 1e-5 && real(&state, "soot").is_empty());
     }
 
     #[test]

@@ -65,6 +65,7 @@ pub struct Simulation {
     maps: Option<Maps>,
     detonate: Option<Detonate>,
     gases: crate::scene::EquationOfState,
+    fire: crate::scene::Fire,
     /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
     given: [f64; 4],
     /// Momentum and energy that gravity has given to the gas since the start, and the gas of the step before.
@@ -135,6 +136,7 @@ impl Simulation {
             maps: Maps::new(&state)?,
             detonate: None,
             gases: scene.gas.equation_of_state(),
+            fire: crate::scene::Fire::of(scene),
             given: [0.0; 4],
             pulled: [0.0; 4],
             gas_before: state.start_momentum,
@@ -391,6 +393,7 @@ impl Simulation {
     /// # Errors
     /// Driver errors.
     pub fn snapshot(&self) -> Result<Snapshot> {
-        Snapshot::read(&self.gpu, &self.state, (self.time, self.step), self.gases)
+        let read = Snapshot::read(&self.gpu, &self.state, (self.time, self.step), self.gases)?;
+        Ok(Snapshot { fire: self.fire, ..read })
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::error::Result;
 use crate::gpu::{Gpu, readback};
-use crate::scene::{Conserved, EquationOfState};
+use crate::scene::{Conserved, EquationOfState, Fire};
 use crate::state::{Grid, State};
 
 pub use cell_rows::CellRows;
@@ -38,6 +38,8 @@ pub struct Snapshot {
     pub grid: Grid,
     /// Equation of state of the gas.
     pub gases: EquationOfState,
+    /// What pictures make of it; nothing unless it is told.
+    pub fire: Fire,
     /// Kind of each cell, see [`kind`].
     pub kind: Vec<u8>,
     /// Gas density \[kg m^-3\].
@@ -211,6 +213,7 @@ impl Snapshot {
             step,
             grid,
             gases: EquationOfState { gamma: 1.4, species: None },
+            fire: Fire::default(),
             kind: Vec::new(),
             density: Vec::new(),
             velocity: Vec::new(),
@@ -274,6 +277,7 @@ impl Snapshot {
             step,
             grid,
             gases,
+            fire: Fire::default(),
             kind: grid.unpadded(&cells.kind),
             density: grid.unpadded_by(|slot| flow[slot][0]),
             velocity: grid.unpadded_by(velocity),

@@ -299,7 +299,7 @@ pub struct ConvertOptions {
     #[arg(long = "frame", value_name = "N")]
     pub frame: Vec<u32>,
     /// What the ambient gas has [K]: volumes have temperatures in kelvin; instead of the scene's output.ambient_kelvin
-    #[arg(long, value_name = "K", value_parser = kelvin)]
+    #[arg(long, value_name = "K", value_parser = kelvin, allow_negative_numbers = true)]
     pub kelvin: Option<f64>,
     /// Folder for the files [default: RUN]
     #[arg(long, value_name = "DIR")]

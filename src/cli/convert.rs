@@ -10,7 +10,7 @@ use super::interrupt;
 use super::progress::clock;
 use super::render::{Recorded, belongs, read_report};
 use crate::export::{self, Moment, Needs, Origin, checkpoint, states};
-use crate::scene::{MOST_PARTICLES, Scene};
+use crate::scene::{Fire, MOST_PARTICLES, Scene};
 use crate::state::{Grid, MemoryPlan};
 use crate::{Error, Result};
 
@@ -56,7 +56,8 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
         }
         let (hash, stored) = states::read(path, most, needs.cells)?;
         belongs(path, (&hash, &scene_hash), &stored, needs.cells.then_some(&grid))?;
-        let snapshot = states::snapshot(stored, grid, scene.gas.equation_of_state());
+        let mut snapshot = states::snapshot(stored, grid, scene.gas.equation_of_state());
+        snapshot.fire = Fire::of(&scene);
         let (time, step) = (snapshot.time, snapshot.step);
         let snapshot = Some(&snapshot);
         let moment = Moment { index: *index, origin: &origin, time, step, pictures: &[], snapshot, stored: None };

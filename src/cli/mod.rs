@@ -28,6 +28,7 @@ mod list;
 mod loads;
 mod outcome;
 mod page;
+mod probes;
 mod progress;
 mod render;
 mod run;
@@ -92,6 +93,19 @@ pub fn main() -> ExitCode {
             ExitCode::from(error.exit_code())
         }
         Err(_) => ExitCode::from(INTERNAL),
+    }
+}
+
+/// `brisance run` with these arguments, on a device that is open: kernels that it has compiled serve the next run, too.
+///
+/// # Errors
+/// Those of the run; [`Error::Usage`] for arguments that `run` does not take.
+pub fn run_on(gpu: &Gpu, arguments: &[String]) -> Result<()> {
+    let words = ["brisance", "run"].into_iter().chain(arguments.iter().map(String::as_str));
+    let read = Cli::try_parse_from(words).map_err(|error| Error::Usage(error.to_string()))?;
+    match &read.command {
+        Some(Command::Run(options)) => run::perform_on(gpu, options),
+        _ => Ok(()),
     }
 }
 

@@ -13,7 +13,7 @@ use super::check::{lost_text, overlap_text, size};
 use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
-use super::outcome::{Verdict, device, ended, last_words};
+use super::outcome::{Verdict, changed_by_hand, device, ended, last_words};
 use super::progress::{self, Progress};
 use super::writer::{Files, FrameToWrite, Message, Writer, Written};
 use super::{film, open_device};
@@ -171,6 +171,8 @@ struct Run<'a> {
     start: Instant,
     /// Seconds that the run took before it goes on.
     before: f64,
+    /// What was changed by hand: another experiment than that of the scene.
+    by_hand: Option<String>,
     /// File or name of the scene.
     place: String,
     /// Last frame drawn, and whether the device is on its way to the next.
@@ -219,6 +221,7 @@ impl<'a> Run<'a> {
             schedule,
             before: about.map_or(0.0, |about| about.wall_seconds),
             summary: about.map(|about| about.summary.clone()).unwrap_or_default(),
+            by_hand: changed_by_hand(options).or_else(|| about.and_then(|about| about.by_hand.clone())),
             place,
             frame,
             under_way,

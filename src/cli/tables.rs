@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::fragments::Fragments;
 use super::gauges::Gauges;
 use super::loads::{self, Loads, Sum};
+use super::probes::{self, Probes};
 use crate::Result;
 use crate::diagnostics::{StepRecord, Total};
 use crate::export::csv::{Mark, Table, Value};
@@ -40,9 +41,6 @@ const BODY_COLUMNS: [&str; 22] = [
     "min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "plastic_strain", "pieces",
 ];
 
-/// Columns of `probes.csv` for each probe, after `step` and `time`.
-const PROBE_COLUMNS: [&str; 6] = ["density", "velocity_x", "velocity_y", "velocity_z", "pressure", "kind"];
-
 /// How far the tables had come, by the names of their files.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Marks {
@@ -61,7 +59,7 @@ pub(super) struct Tables {
     steps: Table,
     bodies: Option<Table>,
     fragments: Option<Fragments>,
-    probes: Option<Table>,
+    probes: Option<Probes>,
     loads: Loads,
     gauges: Option<Gauges>,
     names: Vec<String>,
@@ -70,11 +68,6 @@ pub(super) struct Tables {
 impl Tables {
     /// Tables of a scene in a folder; those without rows to come are left out.
     pub(super) fn new(folder: &Path, scene: &Scene) -> Self {
-        let mut columns = vec!["step".to_owned(), "time".to_owned()];
-        for probe in &scene.probes {
-            columns.extend(PROBE_COLUMNS.iter().map(|column| format!("{}_{column}", probe.name)));
-        }
-        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         let loads = Loads::new(folder, scene);
         let more = if loads.of_bodies() { &loads::BODY_COLUMNS[..] } else { &[] };
         let bodies = !scene.bodies.is_empty();
@@ -82,7 +75,7 @@ impl Tables {
             steps: Table::new(&folder.join("diagnostics.csv"), &STEP_COLUMNS),
             bodies: bodies.then(|| Table::new(&folder.join("bodies.csv"), &[&BODY_COLUMNS, more].concat())),
             fragments: Fragments::new(folder, scene),
-            probes: (!scene.probes.is_empty()).then(|| Table::new(&folder.join("probes.csv"), &columns)),
+            probes: Probes::new(folder, scene),
             loads,
             gauges: Gauges::new(folder, scene),
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
@@ -95,7 +88,10 @@ impl Tables {
     /// [`crate::Error::Io`] if a table is not what the run wrote.
     pub(super) fn continued(folder: &Path, scene: &Scene, (before, marks): (&Path, &Marks)) -> Result<Self> {
         let mut tables = Self::new(folder, scene);
-        for table in tables.all() {
+        if let Some(probes) = &mut tables.probes {
+            probes.go_on(before, marks)?;
+        }
+        for table in tables.all().filter(|table| !table.path().ends_with(probes::NAME)) {
             let name = table.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
             if let Some(mark) = marks.files.get(&name) {
                 table.go_on_from((&before.join(name), mark))?;
@@ -119,7 +115,8 @@ impl Tables {
     fn all(&mut self) -> impl Iterator<Item = &mut Table> {
         let gauges = self.gauges.as_mut().map(|gauges| &mut gauges.table);
         let fragments = self.fragments.as_mut().map(|fragments| &mut fragments.table);
-        let own = [&mut self.steps].into_iter().chain(&mut self.bodies).chain(fragments).chain(&mut self.probes);
+        let probes = self.probes.as_mut().map(|probes| &mut probes.table);
+        let own = [&mut self.steps].into_iter().chain(&mut self.bodies).chain(fragments).chain(probes);
         own.chain(self.loads.table()).chain(gauges)
     }
 
@@ -132,13 +129,7 @@ impl Tables {
                 gauges.add(record, &self.loads);
             }
             if let Some(probes) = &mut self.probes {
-                let head: [Value; 2] = [record.step.into(), record.time.into()];
-                let values = record.probes.iter().flat_map(|probe| {
-                    let [u, v, w] = probe.velocity;
-                    let real = [probe.density, u, v, w, probe.pressure].map(Value::from);
-                    real.into_iter().chain([u32::from(probe.kind).into()])
-                });
-                probes.push(head.into_iter().chain(values));
+                probes.add(record);
             }
         }
     }

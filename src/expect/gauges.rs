@@ -31,28 +31,84 @@ pub struct Gauge {
 impl Gauge {
     /// Of pressures \[Pa\] at rising times \[s\]; entries that are no numbers are left out. None without a number.
     pub fn of(times: &[f64], pressures: &[f64]) -> Option<Self> {
-        let finite = |(t, p): &(f64, f64)| t.is_finite() && p.is_finite();
-        let all: Vec<(f64, f64)> = times.iter().copied().zip(pressures.iter().copied()).filter(finite).collect();
-        let first = all.first()?.1;
-        let (top, (peak_time, peak)) = all.iter().copied().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
-        let mut gauge = Self { first, peak, peak_time, peak_overpressure: peak - first, ..Self::default() };
-        if gauge.peak_overpressure < WEAKEST * first.abs() {
+        let mut recording = Recording::default();
+        times.iter().zip(pressures).for_each(|(time, pressure)| recording.add(*time, *pressure));
+        recording.gauge()
+    }
+}
+
+/// The pressure at a place, step by step.
+#[derive(Clone, Debug, Default)]
+pub struct Recording {
+    first: f64,
+    peak: f64,
+    /// Times \[s\], overpressures \[Pa\], and their integrals up to there \[Pa s\].
+    samples: Vec<[f64; 3]>,
+    /// Sample of the peak.
+    top: usize,
+    /// Sample in which the wave arrives, once there is one; else that which comes next.
+    start: usize,
+    /// Sample behind the peak in which the first pressure has come back.
+    end: Option<usize>,
+}
+
+impl Recording {
+    /// Adds a pressure \[Pa\] at a time \[s\], unless one of them is no number.
+    pub fn add(&mut self, time: f64, pressure: f64) {
+        if !(time.is_finite() && pressure.is_finite()) {
+            return;
+        }
+        let k = self.samples.len();
+        if k == 0 {
+            (self.first, self.peak) = (pressure, pressure);
+        }
+        let over = pressure - self.first;
+        let sum = self.samples.last().map_or(0.0, |[t, p, sum]| sum + 0.5 * (p + over) * (time - t));
+        self.samples.push([time, over, sum]);
+        if pressure >= self.peak {
+            (self.peak, self.top, self.end) = (pressure, k, None);
+        } else if self.end.is_none() && over <= 0.0 {
+            self.end = Some(k);
+        }
+        if self.rises() {
+            let front = (FRONT * self.first.abs()).min(FOOT * (self.peak - self.first));
+            let weak = self.samples[self.start..].iter().take_while(|[_, over, _]| *over <= front).count();
+            self.start += weak;
+        }
+    }
+
+    /// Whether there is a wave at all.
+    fn rises(&self) -> bool {
+        self.peak - self.first >= WEAKEST * self.first.abs()
+    }
+
+    /// Pressure above the first, at the last sample \[Pa\].
+    #[must_use]
+    pub fn overpressure(&self) -> Option<f64> {
+        Some(self.samples.last()?[1])
+    }
+
+    /// What there is so far; none without a sample.
+    #[must_use]
+    pub fn gauge(&self) -> Option<Gauge> {
+        let Self { first, peak, samples, top, start, end } = self;
+        let [last, _, whole] = *samples.last()?;
+        let peak_overpressure = peak - first;
+        let gauge =
+            Gauge { first: *first, peak: *peak, peak_time: samples[*top][0], peak_overpressure, ..Gauge::default() };
+        let Some([arrival, _, before]) = samples.get(*start).copied().filter(|_| self.rises()) else {
             return Some(gauge);
-        }
-        let front = (FRONT * first.abs()).min(FOOT * gauge.peak_overpressure);
-        let Some(start) = all.iter().position(|(_, p)| p - first > front) else { return Some(gauge) };
-        gauge.arrival = Some(all[start].0);
-        let mut over: Vec<(f64, f64)> = all[start..].iter().map(|(t, p)| (*t, p - first)).collect();
-        let end = over.iter().enumerate().position(|(k, (_, p))| k + start > top && *p <= 0.0);
-        if let Some(end) = end {
-            let ((t0, p0), (t1, p1)) = (over[end - 1], over[end]);
-            let back = t0 + (t1 - t0) * p0 / (p0 - p1);
-            over.truncate(end);
-            over.push((back, 0.0));
-            gauge.positive_phase = Some(back - all[start].0);
-        }
-        gauge.impulse = over.windows(2).map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0)).sum();
-        Some(gauge)
+        };
+        let (back, until) = match *end {
+            None => (last, whole),
+            Some(end) => {
+                let ([t0, p0, sum], [t1, p1, _]) = (samples[end - 1], samples[end]);
+                let back = t0 + (t1 - t0) * p0 / (p0 - p1);
+                (back, sum + 0.5 * p0 * (back - t0))
+            }
+        };
+        let positive_phase = end.map(|_| back - arrival);
+        Some(Gauge { arrival: Some(arrival), positive_phase, impulse: until - before, ..gauge })
     }
 }
 
@@ -85,5 +141,9 @@ mod tests {
         assert_eq!((rising.arrival, rising.positive_phase), (Some(0.3), None));
         assert!((rising.impulse - 0.15).abs() < 1e-12, "{rising:?}");
         assert_eq!(Gauge::of(&times, &[f64::NAN; 4]), None);
+        // a second wave that is higher moves the peak, and the phase ends behind it
+        let twice = Gauge::of(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], &[1.0, 3.0, 0.0, 5.0, 3.0, -1.0]).unwrap();
+        assert_eq!((twice.arrival, twice.peak_time, twice.positive_phase), (Some(1.0), 3.0, Some(3.5)));
+        assert!((twice.impulse - 5.5).abs() < 1e-12, "{twice:?}");
     }
 }

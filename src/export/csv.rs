@@ -95,6 +95,12 @@ impl Table {
         Mark { bytes: self.text.len() as u64, checksum: checksum(&self.text) }
     }
 
+    /// Its rows so far, as they are written.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Where the table lies.
     #[must_use]
     pub fn path(&self) -> &Path {
@@ -167,10 +173,17 @@ impl Sheet {
     /// # Errors
     /// [`Error::Io`] with the line that has another number of entries than the header, or an entry that is no number.
     pub fn read(path: &Path, texts: &[&str]) -> Result<Option<Self>> {
-        let text = match input::text(path, MOST_TABLE) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            text => text.map_err(|source| Error::io(path, source))?,
-        };
+        match input::text(path, MOST_TABLE) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            text => Self::parse(path, &text.map_err(|source| Error::io(path, source))?, texts).map(Some),
+        }
+    }
+
+    /// The same of the text of a table, which lies at a place.
+    ///
+    /// # Errors
+    /// As those of [`Sheet::read`].
+    pub fn parse(path: &Path, text: &str, texts: &[&str]) -> Result<Self> {
         let wrong = |line: usize, reason: &str| {
             let message = format!("line {}: {reason}", line + 1);
             Error::io(path, io::Error::new(io::ErrorKind::InvalidData, message))
@@ -192,7 +205,7 @@ impl Sheet {
                 }
             }
         }
-        Ok(Some(sheet))
+        Ok(sheet)
     }
 
     /// Names of the columns.

@@ -226,7 +226,7 @@ pub const FORMATS: &[Format] = &[
     },
     Format {
         name: "vdb",
-        description: "vdb/NNNN.vdb: density, pressure, temperature, velocity, schlieren as sparse volumes for Blender and Houdini",
+        description: "vdb/NNNN.vdb: density, pressure, temperature, velocity, schlieren, soot, flames as sparse volumes for Blender and Houdini",
         open: |folder| Box::new(vdb::VdbExporter::new(folder)),
     },
     Format {

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::usdc::{Array, Layer};
-use super::vdb::{VdbExporter, volumes};
+use super::vdb::{VdbExporter, names, volumes};
 use crate::Result;
 use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::quantity::{self, Place, Values};
@@ -92,7 +92,7 @@ impl UsdExporter {
                 env!("CARGO_PKG_VERSION")
             ))
         );
-        self.volume(&mut text, &extent);
+        self.volume(&mut text, &extent, &names(snapshot));
         if self.points {
             self.clips(&mut text, &extent, (first, last), moment);
         }
@@ -101,8 +101,7 @@ impl UsdExporter {
         text
     }
 
-    fn volume(&self, text: &mut String, extent: &str) {
-        let names = ["density", "pressure", "temperature", "velocity", "schlieren"];
+    fn volume(&self, text: &mut String, extent: &str, names: &[&str]) {
         let _ = writeln!(text, "    def Volume \"gas\"\n    {{\n        float3[] extent = {extent}");
         for name in names {
             let _ = writeln!(text, "        rel field:{name} = </run/gas/{name}>");

@@ -25,7 +25,8 @@ const MOST_HALF: f32 = 65504.0;
 /// What is in kelvin where the scene says what its gas has.
 const TEMPERATURE: &str = "temperature";
 /// Quantities that are written.
-const GRIDS: [&str; 7] = ["density", "pressure", TEMPERATURE, "velocity", "schlieren", "peak_pressure", "impulse"];
+const GRIDS: [&str; 9] =
+    ["density", "pressure", TEMPERATURE, "velocity", "schlieren", "soot", "flames", "peak_pressure", "impulse"];
 
 /// Writes `vdb/NNNN.vdb`.
 #[derive(Debug)]
@@ -58,6 +59,12 @@ impl Exporter for VdbExporter {
     fn needs(&self) -> Needs {
         Needs { snapshot: true, cells: true, ..Needs::default() }
     }
+}
+
+/// Names of the grids of a state.
+pub(super) fn names(snapshot: &Snapshot) -> Vec<&'static str> {
+    let has = |name: &&str| quantity::all(snapshot, Place::Cell).any(|quantity| quantity.name == *name);
+    GRIDS.into_iter().filter(has).collect()
 }
 
 /// The file with the gas of a state.
@@ -143,7 +150,7 @@ impl Volume {
     }
 
     fn write_meta(&self, out: &mut Bytes, snapshot: &Snapshot, half: bool) {
-        let fog = if self.name == "density" { "fog volume" } else { "unknown" };
+        let fog = if ["density", "soot"].contains(&self.name) { "fog volume" } else { "unknown" };
         out.words(&[if self.components == 3 { 8 } else { 7 }]);
         out.text_entry("class", fog);
         out.text_entry("name", self.name);

@@ -251,7 +251,7 @@ impl Renderer {
         }
         if let Some(emission) = look.emission.filter(|_| grid.dimension == 3 && look.volume) {
             let ambient = &self.scene.gas.ambient;
-            let [cold, hot] = transfer::RAMP_KELVIN;
+            let [cold, hot] = crate::scene::RAMP_KELVIN;
             let kelvin = emission.ambient_kelvin * ambient.density / ambient.pressure;
             view.heat_scale = (kelvin / (hot - cold)) as f32;
             view.heat_offset = (cold / (hot - cold)) as f32;

@@ -3,18 +3,10 @@
 use glam::{Vec3, Vec4};
 
 use super::colormap::{TABLE_LENGTH, linear_from_srgb};
+use crate::scene::{RAMP_KELVIN, brightness, shining};
 
 /// Opacities below this are none at all: the ray march leaps over them.
 const FAINTEST: f32 = 1e-4;
-
-/// Temperatures at the ends of the black-body ramp \[K\]: the Draper point is 798 K, light of the eye begins a little above.
-pub(super) const RAMP_KELVIN: [f64; 2] = [850.0, 6000.0];
-
-/// Temperature from which hot gas is fully opaque in its own light \[K\].
-const OPAQUE_KELVIN: f64 = 2600.0;
-
-/// Temperature at which the light of an opaque body is as bright as white paper in full light \[K\].
-const WHITE_KELVIN: f64 = 1900.0;
 
 /// What the shaders look up.
 #[derive(Debug)]
@@ -35,9 +27,7 @@ impl Tables {
         colors.extend(field.iter().enumerate().map(|(k, color)| linear(color).extend(seen(opacity(fraction(k))))));
         let ramp = (0..TABLE_LENGTH).map(|k| {
             let kelvin = RAMP_KELVIN[0] + f64::from(fraction(k)) * (RAMP_KELVIN[1] - RAMP_KELVIN[0]);
-            let opacity = ((kelvin - RAMP_KELVIN[0]) / (OPAQUE_KELVIN - RAMP_KELVIN[0])).clamp(0.0, 1.0) as f32;
-            let brightness = strength * (kelvin / WHITE_KELVIN).powi(4);
-            (black_body(kelvin) * brightness as f32).extend(seen(opacity))
+            (black_body(kelvin) * (strength * brightness(kelvin)) as f32).extend(seen(shining(kelvin) as f32))
         });
         colors.extend(ramp);
         colors.extend(particles.iter().map(|color| linear(color).extend(1.0)));

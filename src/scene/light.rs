@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Scene;
+
 /// Light of hot gas: a black body whose temperature is that of the gas, p / rho, in units of the ambient one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -34,6 +36,68 @@ impl Default for Soot {
     /// Nearly a fifth of the products of TNT is soot, of 8700 m^2 kg^-1. \[Mulholland and Croarkin 2000\]
     fn default() -> Self {
         Soot { extinction: 1600.0 }
+    }
+}
+
+/// Temperatures at the ends of the black-body ramp \[K\]: the Draper point is 798 K, light of the eye begins a little above.
+pub const RAMP_KELVIN: [f64; 2] = [850.0, 6000.0];
+/// Temperature from which hot gas is fully opaque in its own light \[K\].
+const OPAQUE_KELVIN: f64 = 2600.0;
+/// Temperature at which the light of an opaque body is as bright as white paper in full light \[K\].
+const WHITE_KELVIN: f64 = 1900.0;
+
+/// How much of a gas or of soot shines at a temperature \[K\], 0 to 1.
+#[must_use]
+pub fn shining(kelvin: f64) -> f64 {
+    ((kelvin - RAMP_KELVIN[0]) / (OPAQUE_KELVIN - RAMP_KELVIN[0])).clamp(0.0, 1.0)
+}
+
+/// Luminance of an opaque body at a temperature \[K\], over that of white paper in full light.
+#[must_use]
+pub fn brightness(kelvin: f64) -> f64 {
+    (kelvin / WHITE_KELVIN).powi(4)
+}
+
+/// What pictures of a scene in 3D make of hot gas and of soot.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fire {
+    /// Extinction per mass of the second gas \[m^2 kg^-1\], where it is soot.
+    pub extinction: Option<f64>,
+    /// Kelvin for a pressure over density of 1 m^2 s^-2, factor on the light, and extinction of the hottest gas without soot \[m^-1\]; where
+    /// it shines.
+    pub emission: Option<[f64; 3]>,
+}
+
+impl Fire {
+    /// That of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        if scene.domain.dimension < 3 {
+            return Self::default();
+        }
+        let ambient = &scene.gas.ambient;
+        let longest = scene.domain.size.iter().copied().fold(0.0, f64::max);
+        let emission = |own: Emission| {
+            [own.ambient_kelvin * ambient.density / ambient.pressure, own.strength, own.optical_depth / longest]
+        };
+        let soot = scene.render.soot.filter(|_| !scene.gas.species.is_empty());
+        Self { extinction: soot.map(|soot| soot.extinction), emission: scene.render.emission.map(emission) }
+    }
+
+    /// Extinction by soot of a density of the second gas \[kg m^-3\]; 0 where that is none \[m^-1\].
+    #[must_use]
+    pub fn soot(&self, density: f64) -> f64 {
+        self.extinction.unwrap_or(0.0) * density.max(0.0)
+    }
+
+    /// Luminance that a metre of gas sends out, over that of white paper in full light \[m^-1\]: of a density of the second gas
+    /// \[kg m^-3\], and a pressure over density \[m^2 s^-2\].
+    #[must_use]
+    pub fn light(&self, density: f64, heat: f64) -> f64 {
+        let Some([kelvin, strength, clear]) = self.emission else { return 0.0 };
+        let kelvin = (heat * kelvin).min(RAMP_KELVIN[1]);
+        let extinction = if self.extinction.is_some() { self.soot(density) } else { clear };
+        strength * brightness(kelvin) * shining(kelvin) * extinction
     }
 }
 

@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Duration;
 
 use brisance::export::container::{self, Array, Form, Source};
 use brisance::gpu::Gpu;
 use brisance::scene::{Changes, Scene};
 use brisance::simulation::{Saved, SavedArray, Simulation};
 
-use crate::cli::{brisance, fails, succeeds};
+use crate::cli::{SmallRun, brisance, fails, small_run, succeeds};
 use crate::common::{contents_below, folder_or_skip, gpu_or_skip};
 
 /// Steps before the state is saved, and behind it.
@@ -22,8 +23,17 @@ const SCENES: [(&str, Option<&str>, &[&str], u32); 4] = [
     ("paper/fig03_elastic_shell_2d.toml", Some("small"), &["numerics.elasticity=\"implicit\""], 32),
 ];
 
-/// A run whose end and files are still to be named.
-const SHORT: [&str; 6] = ["run", "sod", "--resolution", "64", "--no-expect", "-q"];
+/// A run whose end and files are still to be named; the shock comes by its probe.
+const SHORT: [&str; 8] = [
+    "run",
+    "sod",
+    "--resolution",
+    "64",
+    "--no-expect",
+    "-q",
+    "--set",
+    "probes=[{ name = \"right\", position = [0.55] }]",
+];
 
 /// Goes on to a number of steps, and settles.
 fn advance(simulation: &mut Simulation, steps: u64) {
@@ -198,8 +208,44 @@ fn a_branch_starts_from_a_state_of_another_run() {
     assert!(!branch.join("frames/0001.png").exists() && branch.join("frames/0006.png").exists());
     let refused = fails(2, &["run", "--branch", &from, "--set", "gas.gamma=1.3"]);
     assert!(refused.contains("gas.gamma") && refused.contains("boundary"), "{refused}");
+    for (more, reason) in [
+        (&["--resolution", "32"][..], "the state has the cells and bodies of its run"),
+        (&["--variant", "small"], "the state has the cells and bodies of its run"),
+        (&["--set", "domain.size=[2.0]"], "a state goes on only with the cells, bodies and gas that it has"),
+        (&["--set", "numerics.pair=b2b1"], "numerics.tolerance"),
+    ] {
+        let refused = fails(2, &[&["run", "--branch", &from][..], more].concat());
+        assert!(refused.contains(reason), "{more:?}: {refused}");
+    }
     assert!(fails(2, &["run", "--branch", &text(&run)]).contains("DIR@TIME"));
     assert!(fails(2, &["run", "--branch", &format!("{}@0.001", run.display())]).contains("it has: "));
+}
+
+/// A branch keeps `[expect]` in force unless it, or the run that it comes from, was changed by hand.
+#[test]
+fn a_branch_is_held_to_what_is_expected() {
+    let Some(SmallRun { scene, out, folder }) = small_run() else { return };
+    let (run, branch) = (out.to_str().unwrap().to_owned(), folder.path().join("branch").display().to_string());
+    let from = format!("{run}@0.01");
+    let again = ["run", "--branch", &from, "-q", "--no-frames", "--force", "--out", &branch];
+    let unmet = ["--set", "expect.min_pressure=9.0", "--set", "render.colormap=inferno"];
+    let start =
+        ["run", &scene, "-q", "--no-frames", "--checkpoint", "1steps", "--keep", "99", "--force", "--out", &run];
+    succeeds(&start);
+    let told = fails(8, &[&again[..], &unmet].concat());
+    assert!(told.contains("does not meet the scene's [expect]: min_pressure"), "{told}");
+    let passes = |changes: &[&str]| {
+        let output = brisance(&[&again[..], changes].concat()).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{text}");
+        text
+    };
+    assert!(!passes(&[]).contains("not enforced"));
+    let moved = passes(&[&unmet[..], &["--set", "gravity=[0.0, -1.0]"]].concat());
+    assert!(moved.contains("not enforced, since gravity was changed by hand"), "{moved}");
+    succeeds(&[&start[..], &["--resolution", "48"]].concat());
+    let coarse = passes(&unmet);
+    assert!(coarse.contains("not enforced, since the resolution was changed by hand"), "{coarse}");
 }
 
 #[test]
@@ -213,12 +259,56 @@ fn an_interrupted_run_leaves_a_checkpoint() {
     let mut child = brisance(&given).arg(&out).spawn().unwrap();
     while !out.join("diagnostics.csv").exists() {
         assert!(child.try_wait().unwrap().is_none());
-        std::thread::sleep(std::time::Duration::from_millis(20));
+        std::thread::sleep(Duration::from_millis(20));
     }
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let rows = std::fs::read_to_string(out.join("diagnostics.csv")).unwrap().lines().count() - 1;
     assert!(out.join(format!("checkpoints/{rows:08}.npz")).exists(), "of the last step, {rows}");
+}
+
+/// Checkpoints of a run, the latest at the end.
+fn checkpoints(run: &Path) -> Vec<PathBuf> {
+    let all = std::fs::read_dir(run.join("checkpoints")).into_iter().flatten().map(|entry| entry.unwrap().path());
+    let mut all: Vec<_> = all.filter(|path| path.extension().is_some_and(|own| own == "npz")).collect();
+    all.sort();
+    all
+}
+
+/// SIGKILL costs an interval at most and never a file; scripts/resume-test --kill does it at any number of random times.
+#[test]
+fn a_killed_run_loses_an_interval_at_most() {
+    let Some(place) = folder_or_skip() else { return };
+    let (whole, parts) = (place.path().join("whole"), place.path().join("parts"));
+    let given =
+        [&SHORT[..], &["--until", "0.1", "--frames", "8", "--export", "vtk", "--checkpoint", "3steps"]].concat();
+    succeeds(&[&given[..], &["--out", whole.to_str().unwrap()]].concat());
+    let step = |path: &PathBuf| path.file_stem().unwrap().to_str().unwrap().parse::<usize>().unwrap();
+    let mut before: Vec<PathBuf> = Vec::new();
+    for (kill, pause) in [0, 9, 40].into_iter().enumerate() {
+        let out = parts.to_str().unwrap();
+        let resumed = ["run", "--resume", out, "-q"];
+        let words = if kill == 0 { [&given[..], &["--out", out]].concat() } else { resumed.to_vec() };
+        let last = checkpoints(&parts).last().map_or(0, step);
+        let mut child = brisance(&words).spawn().unwrap();
+        while checkpoints(&parts).last().map_or(0, step) == last && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        std::thread::sleep(Duration::from_millis(pause));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let left: Vec<PathBuf> = files(&parts).into_iter().map(|(path, _)| path).collect();
+        assert!(before.iter().all(|path| left.contains(path)), "kill {kill}: of {before:?} there is {left:?}");
+        let kept = checkpoints(&parts);
+        kept.iter().for_each(|path| drop(container::read(path, 1 << 20).unwrap()));
+        let table = std::fs::read_to_string(parts.join("diagnostics.csv")).unwrap_or_default();
+        let (rows, last) = (table.lines().count().saturating_sub(1), kept.last().map_or(0, step));
+        assert!(last > 0 && rows <= last + 3, "kill {kill}: {rows} steps in the table, checkpoint {last}");
+        // what is written aside at that moment has another name
+        before = left.into_iter().filter(|path| !path.to_string_lossy().contains(".tmp")).collect();
+    }
+    succeeds(&["run", "--resume", parts.to_str().unwrap(), "-q"]);
+    same_files(&whole, &parts);
 }
 
 #[test]

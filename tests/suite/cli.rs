@@ -328,6 +328,12 @@ fn a_run_leaves_its_files() {
     assert_eq!(rows.len(), steps.len());
 
     let report = report(&target);
+    // the wave so far, which at the end is that of the report
+    let (last, gauge) = (rows.last().unwrap(), &report["gauges"]["left"]);
+    let of = |name: &str| last[probes.iter().position(|own| *own == format!("left_{name}")).unwrap()];
+    let pressure = of("pressure") - gauge["first"].as_f64().unwrap();
+    assert!(of("overpressure") == pressure && of("impulse") == gauge["impulse"].as_f64().unwrap(), "{gauge}");
+    assert!(printed.contains("overpressure [Pa]") && printed.contains("  left  "), "{printed}");
     assert_eq!(report["outcome"], "finished");
     assert_eq!((&report["frames"], &report["steps"]), (&3.into(), &(steps.len() as u64).into()));
     assert_eq!(report["scene"]["numerics"]["expert"]["max_iterations"], 500);

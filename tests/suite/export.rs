@@ -34,6 +34,7 @@ fn snapshot(dimension: u32) -> Snapshot {
         step: 3,
         grid,
         gases: brisance::scene::EquationOfState { gamma: 1.4, species: None },
+        fire: brisance::scene::Fire::default(),
         kind: kinds,
         density: (0..count).map(number).collect(),
         velocity: (0..count).map(|index| [number(index), 10.0, -1.0]).collect(),
@@ -195,26 +196,25 @@ fn readers_of_others_find_the_same_numbers() {
     }
     let place = tempfile::tempdir().unwrap();
     let [run, out] = ["run", "out"].map(|name| place.path().join(name).display().to_string());
-    let scene = [
-        "run",
-        "fig03_elastic_shell_2d",
-        "--variant",
-        "small",
-        "--resolution",
-        "32",
-        "--until",
-        "0.002",
-        "--frames",
-        "1",
-    ];
-    succeeds(&[&scene[..], &["--no-frames", "--no-expect", "-q", "--export", "states", "--out", &run]].concat());
-    succeeds(&["convert", &run, "--to", "npz,vtk,vdb,usd", "--out", &out, "-q"]);
+    let [fire, hot] = ["fire", "hot"].map(|name| place.path().join(name).display().to_string());
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/readers-test");
-    let read = || std::process::Command::new("python3").args([script, &out]).output().unwrap();
-    let output = read();
-    let text = String::from_utf8_lossy(&output.stdout);
-    eprintln!("{text}");
-    assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
+    let read = |out: &str| std::process::Command::new("python3").args([script, out]).output().unwrap();
+    let converted = |(scene, cells, until): (&str, &str, &str), run: &str, out: &str| {
+        let given = ["run", scene, "--variant", "small", "--resolution", cells, "--until", until, "--frames", "1"];
+        let asked = ["--no-frames", "--no-expect", "-q", "--export", "states", "--out", run];
+        succeeds(&[&given[..], &asked].concat());
+        succeeds(&["convert", run, "--to", "npz,vtk,vdb,usd", "--out", out, "-q"]);
+        let output = read(out);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        eprintln!("{text}");
+        assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
+        text
+    };
+    // products of TNT are soot, and shine
+    let text = converted(("fireball_3d", "24", "0.02"), &fire, &hot);
+    let seen = ["flames 0 active", "soot 0 active"].iter().all(|none| !text.contains(none));
+    assert!(!text.contains("pyopenvdb  density") || text.contains("flames") && text.contains("soot") && seen, "{text}");
+    let text = converted(("fig03_elastic_shell_2d", "32", "0.002"), &run, &out);
     assert!(fails(2, &["convert", &run, "--to", "png"]).contains("brisance render"));
     assert!(fails(2, &["convert", &run, "--to", "npz", "--frame", "7"]).contains("no state of frame 7"));
     assert!(fails(2, &["convert", &run, "--to", "abc"]).contains("there are:"));
@@ -226,6 +226,6 @@ fn readers_of_others_find_the_same_numbers() {
     bytes.truncate(last / 2);
     std::fs::write(&volume, bytes).unwrap();
     if text.contains("pyopenvdb  density") || text.contains("lists all grids") {
-        assert!(!read().status.success());
+        assert!(!read(&out).status.success());
     }
 }

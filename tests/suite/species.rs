@@ -1,5 +1,7 @@
 //! A second gas: where it is the same as the first it changes nothing, on every path of the gas.
 
+use brisance::quantity::Values;
+use brisance::render::{Depth, Renderer, SceneBuffers};
 use brisance::scene::Scene;
 use brisance::simulation::Simulation;
 use brisance::snapshot::{Snapshot, kind};
@@ -105,5 +107,45 @@ fn a_second_gas_that_is_told_wrong_is_refused() {
         let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
         let error = Scene::parse(&text, "species.toml", &set[..]).unwrap_err().to_string();
         assert!(error.contains(told), "{set:?}: {error}");
+    }
+}
+
+/// Rays through a metre of hot soot at rest see what its quantities say: thick soot in the left half, thin soot in the right one.
+#[test]
+fn soot_and_flames_are_what_the_picture_shows() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let text = "title = \"soot\"\ndomain = { dimension = 3, cells = [16, 16, 16], size = [1.0, 1.0, 1.0] }\n\
+        gas.species.smoke = { gamma = 1.4 }\ngas.ambient = { density = 1.0, pressure = 1.0, mass_fraction = 0.1 }\n\
+        [[gas.regions]]\nshape = { box = { center = [0.25, 0.5, 0.5], size = [0.5, 1.0, 1.0] } }\ndensity = 1.0\npressure = 1.0\nmass_fraction = 0.4\n\
+        [time]\nuntil = 0.1\n[render]\nsize = [96, 64]\nopacity = [[0, 0], [1, 0]]\nrange = [0, 2]\n\
+        camera = { eye = [0.5, 0.5, 4], target = [0.5, 0.5, 0], up = [0, 1, 0], height = 1.2 }\n\
+        light = { strength = 0, ambient = 0 }\nsoot = { extinction = 4 }\nemission = { ambient_kelvin = 2000, strength = 2 }\n\
+        overlays = { title = false, time = false, color_bar = false, scale_bar = false, edges = false }\n";
+    let scene = Scene::parse(text, "soot.toml", &[]).unwrap();
+    let simulation = Simulation::new(&gpu, &scene).unwrap();
+    let state = simulation.snapshot().unwrap();
+    let real = |name: &str| match state.cell_field(name) {
+        Some(Values::Real(values)) => values,
+        other => panic!("{name}: {other:?}"),
+    };
+    let (soot, flames) = (real("soot"), real("flames"));
+    let renderer = Renderer::new(&gpu, &scene, &SceneBuffers::of(&simulation.state)).unwrap();
+    let pictures = renderer.with_depth(Depth { layers: true, fine: false }).render(0.0).unwrap();
+    let layers = &pictures[0].layers;
+    for (x, expected) in [(0.25, 1.6), (0.75, 0.4)] {
+        let cell = state.cell_at([x, 0.5, 0.5]).unwrap();
+        assert!(
+            (soot[cell] - expected).abs() < 1e-5 && flames[cell] > 0.5 * expected,
+            "{} {}",
+            soot[cell],
+            flames[cell]
+        );
+        let column = 0.5 * f64::from(layers.width) + (x - 0.5) / 1.2 * f64::from(layers.height);
+        let pixel = layers.pixels[(layers.height / 2 * layers.width) as usize + column as usize];
+        let [r, g, b, alpha] = pixel.light;
+        let hidden = 1.0 - (-soot[cell]).exp();
+        assert!((alpha / hidden - 1.0).abs() < 0.02, "at {x}: alpha {alpha}, not {hidden}");
+        let (seen, told) = (0.2126 * r + 0.7152 * g + 0.0722 * b, flames[cell] / soot[cell] * hidden);
+        assert!((seen / told - 1.0).abs() < 0.06, "at {x}: luminance {seen}, not {told}");
     }
 }

@@ -65,6 +65,9 @@ pub(super) struct About {
     pub(super) under_way: bool,
     /// Time on the clock so far \[s\].
     pub(super) wall_seconds: f64,
+    /// What was changed by hand, also in the run that a branch comes from.
+    #[serde(default)]
+    pub(super) by_hand: Option<String>,
     /// [`Saved::host`].
     pub(super) host: Host,
     /// How far the tables had come.
@@ -178,6 +181,7 @@ impl Run<'_> {
             frame: self.frame.unwrap_or_default(),
             under_way: self.under_way,
             wall_seconds: self.wall_seconds(),
+            by_hand: self.by_hand.clone(),
             host: saved.host.clone(),
             tables: Marks::default(),
             options,

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::super::film;
 use super::super::folder::Folder;
-use super::super::outcome::{Verdict, changed_by_hand, changes, device, status, totals, verdict};
+use super::super::outcome::{Verdict, changes, device, status, totals, verdict};
 use super::super::page::run as page;
 use super::super::progress::clock;
 use super::super::writer::{Message, Written};
@@ -76,7 +76,7 @@ impl Run<'_> {
 
     /// The error of a run whose checks failed. What was changed by hand is another experiment, whose checks are told only.
     fn verdict(&self, checks: &[Check]) -> Result<()> {
-        match (verdict(checks), changed_by_hand(self.options)) {
+        match (verdict(checks), &self.by_hand) {
             (Err(error), Some(change)) if !self.options.expect => {
                 tell!("note: not enforced, since {change} was changed by hand (--expect enforces it): {error}");
                 Ok(())
@@ -155,9 +155,7 @@ impl Run<'_> {
         let time = plain(time);
         let left = left(report.frames, &formats(self.options, &self.scene));
         say!("t = {time} s after {steps} steps in {wall}; {left} in {}", self.folder.path.display());
-        if !self.scene.charges.is_empty() {
-            say_gauges(&report.gauges);
-        }
+        say_gauges(&report.gauges, !self.scene.charges.is_empty());
         for check in &report.expect {
             say!("  {check}");
         }
@@ -173,14 +171,23 @@ fn left(frames: u32, formats: &[String]) -> String {
     }
 }
 
-/// What gauges and probes have seen of charges.
-fn say_gauges(gauges: &BTreeMap<String, Gauge>) {
-    let none = |value: Option<f64>| value.map_or("-".to_owned(), |value| plain(1e3 * value));
-    say!("  gauge             arrival [ms]  overpressure [kPa]  positive phase [ms]  impulse [Pa s]");
-    for (name, gauge) in gauges {
-        let [arrival, phase] = [none(gauge.arrival), none(gauge.positive_phase)];
-        let (pressure, impulse) = (plain(1e-3 * gauge.peak_overpressure), plain(gauge.impulse));
+/// What gauges and probes have seen; of charges in milliseconds and kilopascals.
+fn say_gauges(gauges: &BTreeMap<String, Gauge>, charges: bool) {
+    if gauges.is_empty() {
+        return;
+    }
+    let (milli, [time, pressure]) = if charges { (1e3, ["ms", "kPa"]) } else { (1.0, ["s", "Pa"]) };
+    let none = |value: Option<f64>| value.map_or("-".to_owned(), |value| plain(milli * value));
+    let heads = [("arrival", time), ("overpressure", pressure), ("positive phase", time), ("impulse", "Pa s")];
+    let heads = heads.map(|(name, unit)| format!("{name} [{unit}]"));
+    let line = |name: &str, own: [String; 4]| {
+        let [arrival, pressure, phase, impulse] = own;
         say!("  {name:16}  {arrival:>12}  {pressure:>18}  {phase:>19}  {impulse:>14}");
+    };
+    line("gauge", heads);
+    for (name, gauge) in gauges {
+        let pressure = plain(gauge.peak_overpressure / milli);
+        line(name, [none(gauge.arrival), pressure, none(gauge.positive_phase), plain(gauge.impulse)]);
     }
 }
 
