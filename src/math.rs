@@ -9,3 +9,8 @@ pub fn plain(number: f64) -> String {
         _ => format!("{rounded:e}"),
     }
 }
+
+/// The largest number that divides both.
+pub fn greatest_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { greatest_divisor(b, a % b) }
+}

@@ -12,7 +12,7 @@ const FRICTION_ANGLE: Parameter = Parameter {
     default: Some(30.0),
     low: Bound::Excluded(0.0),
     high: Bound::Excluded(90.0),
-    summary: "Angle of internal friction; a dry heap stands at it.",
+    summary: "Angle of internal friction, at which a dry heap stands; the cone meets Mohr-Coulomb's in triaxial compression",
 };
 
 /// Tip of the cone.
@@ -22,7 +22,7 @@ const COHESION: Parameter = Parameter {
     default: Some(0.0),
     low: Bound::Included(0.0),
     high: Bound::Unbounded,
-    summary: "Shear stress that it bears without pressure.",
+    summary: "Shear stress that it bears without pressure",
 };
 
 /// The registry entry.

@@ -40,10 +40,12 @@ pub enum AtCoarse {
 #[serde(deny_unknown_fields)]
 pub struct Weibull {
     /// Weibull's modulus: the smaller, the more the strength scatters.
+    #[schemars(extend("minimum" = 1, "maximum" = 1000))]
     pub modulus: f64,
-    /// Distance of flaws in the material `[m]`: strength is the same within cubes of this edge.
+    /// Edge of cubes of the material that have strengths of their own, with the given median `[m]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub spacing: f64,
-    /// Number that the strengths are drawn with.
+    /// A number that chooses among arrangements.
     #[serde(default)]
     pub seed: u32,
 }
@@ -52,13 +54,15 @@ pub struct Weibull {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FractureKeys {
-    /// Tensile strength `[Pa]`, the median where it scatters.
+    /// Largest principal stress that it bears `[Pa]`, at most a tenth of Young's modulus; that of the preset when left out.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     tensile_strength: Option<f64>,
-    /// Energy that a crack takes per area `[J m^-2]`.
+    /// Energy that a crack takes per area `[J m^-2]`; that of the preset when left out.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     fracture_energy: Option<f64>,
-    /// How the stress across a crack falls as it opens.
+    /// How the stress across a crack falls as it opens; that of the preset, else `linear`, when left out.
     softening: Option<Softening>,
-    /// What is kept where cells are too coarse for both strength and energy.
+    /// What is kept where cells are too coarse for both; `check` prints what the other becomes.
     #[serde(default)]
     at_coarse: AtCoarse,
     /// Scatter of the strength.
@@ -124,6 +128,8 @@ pub struct PresetFracture {
     pub softening: Softening,
     /// Whether it breaks without being asked to.
     pub always: bool,
+    /// Where the numbers come from.
+    pub source: &'static str,
 }
 
 impl Weibull {
@@ -189,34 +195,6 @@ impl Fracture {
         }))
     }
 
-    /// Numbers outside their limits: key, value, what is allowed.
-    pub(super) fn findings(&self, young_modulus: f64) -> Vec<(&'static str, f64, String)> {
-        let mut found = Vec::new();
-        let mut positive = |name: &'static str, value: f64, unit: &str| {
-            if !(value.is_finite() && value > 0.0) {
-                found.push((name, value, format!("a finite number above 0{unit}")));
-            }
-        };
-        positive("tensile_strength", self.tensile_strength, " [Pa]");
-        positive("fracture_energy", self.fracture_energy, " [J m^-2]");
-        if let Some(weibull) = self.weibull {
-            positive("weibull.spacing", weibull.spacing, " [m]");
-        }
-        if self.tensile_strength > 0.1 * young_modulus {
-            let text = format!(
-                "at most a tenth of Young's modulus, {:e} [Pa]: are the units those of the scene?",
-                0.1 * young_modulus
-            );
-            found.push(("tensile_strength", self.tensile_strength, text));
-        }
-        if let Some(weibull) = self.weibull
-            && !(1.0..=1000.0).contains(&weibull.modulus)
-        {
-            found.push(("weibull.modulus", weibull.modulus, "a number from 1 to 1000".to_owned()));
-        }
-        found
-    }
-
     /// Largest cell at which both strength and energy hold `[m]`; `modulus`: of pressure waves, lambda + 2 mu `[Pa]`.
     #[must_use]
     pub fn coarsest_cell(&self, modulus: f64) -> f64 {
@@ -242,11 +220,11 @@ impl Material {
         self.fracture.as_ref()
     }
 
-    /// Numbers of its fracture outside their limits, likewise.
+    /// A tensile strength above a tenth of Young's modulus, and that tenth `[Pa]`.
     #[must_use]
-    pub fn fracture_findings(&self) -> Vec<(&'static str, f64, String)> {
-        let young = self.parameter("young_modulus").unwrap_or(f64::INFINITY);
-        self.fracture.iter().flat_map(|fracture| fracture.findings(young)).collect()
+    pub fn beyond_strength(&self) -> Option<[f64; 2]> {
+        let most = 0.1 * self.parameter("young_modulus")?;
+        self.fracture.map(|fracture| [fracture.tensile_strength, most]).filter(|[strength, most]| strength > most)
     }
 
     /// The material as the device sees it, on cells of this edge `[m]`, with its fracture.

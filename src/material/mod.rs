@@ -21,7 +21,7 @@ pub use preset::{PRESETS, Preset, Units, kind_names};
 #[doc(hidden)]
 pub use wgsl::{wgsl_includes, wgsl_switch};
 
-use std::ops::{Bound, RangeBounds};
+use std::ops::Bound;
 
 use bytemuck::{Pod, Zeroable};
 
@@ -70,7 +70,7 @@ const YOUNG_MODULUS: Parameter = Parameter {
     default: None,
     low: Bound::Excluded(0.0),
     high: Bound::Unbounded,
-    summary: "Young's modulus: stress over strain of a thin rod.",
+    summary: "Young's modulus: stress over strain of a thin rod",
 };
 
 /// Poisson's ratio, shared by the elastic laws. At 0.5 lambda has no finite value; at 0 it vanishes, and with it the stiffness
@@ -81,7 +81,7 @@ const POISSON_RATIO: Parameter = Parameter {
     default: None,
     low: Bound::Excluded(0.0),
     high: Bound::Excluded(0.5),
-    summary: "Poisson's ratio: lateral over axial strain of a thin rod.",
+    summary: "Poisson's ratio: lateral over axial strain of a thin rod",
 };
 
 /// Stress at which metals start to flow.
@@ -91,7 +91,7 @@ const YIELD_STRESS: Parameter = Parameter {
     default: None,
     low: Bound::Excluded(0.0),
     high: Bound::Unbounded,
-    summary: "Norm of the deviatoric Kirchhoff stress at which plastic flow starts; 0.816 times the yield stress of a thin rod.",
+    summary: "Norm of the deviatoric Kirchhoff stress at which plastic flow starts, sqrt(2/3) of the yield stress of a thin rod",
 };
 
 /// How the yield stress of metals grows.
@@ -101,7 +101,7 @@ const HARDENING: Parameter = Parameter {
     default: Some(0.0),
     low: Bound::Included(0.0),
     high: Bound::Unbounded,
-    summary: "Growth of the yield stress per equivalent plastic strain; 0 is perfect plasticity.",
+    summary: "Growth of the yield stress per equivalent plastic strain; 0 is perfect plasticity",
 };
 
 /// How stiffly the ghost pressure follows the pressure of the gas. [Cao et al. 2022, eq. 17]
@@ -111,7 +111,8 @@ const GHOST_MODULUS: Parameter = Parameter {
     default: Some(0.0),
     low: Bound::Included(0.0),
     high: Bound::Unbounded,
-    summary: "Part of the first Lame constant that the ghost pressure bears, which couples the body to the gas; 0 leaves it open.",
+    summary: "Part of the first Lame constant lambda that the ghost pressure bears, which couples the body to the gas. The value 0 stands \
+              for 0.02 lambda, or for the largest pressure of the gas at the start and at the sides if that is more",
 };
 
 /// Parameters of metals, in the order of [`Constants::metal`].
@@ -357,14 +358,6 @@ impl Material {
         }
     }
 
-    /// Parameters outside their limits: name, value and what is allowed.
-    #[must_use]
-    pub fn findings(&self) -> Vec<(&'static str, f64, String)> {
-        let pairs = self.kind().parameters.iter().zip(&self.values);
-        let outside = pairs.filter(|(p, value)| !p.allows(**value));
-        outside.map(|(p, value)| (p.name, *value, p.allowed())).collect()
-    }
-
     /// Parameters of the law as the scene has them, by name.
     pub fn parameters(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
         self.kind().parameters.iter().zip(&self.values).map(|(parameter, value)| (parameter.name, *value))
@@ -374,27 +367,5 @@ impl Material {
     #[must_use]
     pub fn constants(&self) -> Constants {
         (self.kind().constants)(&self.values)
-    }
-}
-
-impl Parameter {
-    /// Whether a value is finite and within the limits.
-    #[must_use]
-    pub fn allows(&self, value: f64) -> bool {
-        value.is_finite() && (self.low, self.high).contains(&value)
-    }
-
-    /// The limits in words.
-    #[must_use]
-    pub fn allowed(&self) -> String {
-        let limit = |bound, inside: &str, outside: &str| match bound {
-            Bound::Included(value) => Some(format!("{inside} {value}")),
-            Bound::Excluded(value) => Some(format!("{outside} {value}")),
-            Bound::Unbounded => None,
-        };
-        let limits = [limit(self.low, "of at least", "above"), limit(self.high, "of at most", "below")];
-        let limits = limits.into_iter().flatten().collect::<Vec<_>>().join(" and ");
-        let unit = if self.unit == "1" { String::new() } else { format!(" [{}]", self.unit) };
-        format!("a finite number {limits}{unit}")
     }
 }

@@ -69,7 +69,7 @@ pub const PRESETS: [Preset; 9] = [
     },
     Preset {
         name: "steel",
-        summary: "Structural steel, yields at 250 MPa in a rod.",
+        summary: "Structural steel: yields at 250 MPa in a rod, hardening 0.98 GPa.",
         law: "von_mises",
         values: &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)],
         density: 7850.0,
@@ -78,7 +78,7 @@ pub const PRESETS: [Preset; 9] = [
     },
     Preset {
         name: "aluminium",
-        summary: "Aluminium 6061-T6, yields at 276 MPa in a rod.",
+        summary: "Aluminium 6061-T6: yields at 276 MPa in a rod, hardening 0.49 GPa.",
         law: "von_mises",
         values: &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)],
         density: 2700.0,
@@ -91,12 +91,12 @@ pub const PRESETS: [Preset; 9] = [
         law: "drucker_prager",
         values: &[("young_modulus", 3e10), ("poisson_ratio", 0.2), ("friction_angle", 37.0), ("cohesion", 7.5e6)],
         density: 2400.0,
-        // Grade C30 with aggregate of 16 mm. [CEB-FIP Model Code 1990, 2.1.3]
         fracture: Some(PresetFracture {
             tensile_strength: 2.9e6,
             fracture_energy: 76.0,
             softening: Softening::Exponential,
             always: false,
+            source: "CEB-FIP Model Code 1990, C30, aggregate of 16 mm",
         }),
         color: [158, 152, 142],
     },
@@ -106,12 +106,12 @@ pub const PRESETS: [Preset; 9] = [
         law: "drucker_prager",
         values: &[("young_modulus", 9.3e9), ("poisson_ratio", 0.33), ("friction_angle", 45.0), ("cohesion", 2.1e6)],
         density: 917.0,
-        // K 0.1 MPa m^(1/2). [Petrovic, J. Mater. Sci. 38 (2003) 1]
         fracture: Some(PresetFracture {
             tensile_strength: 1.43e6,
             fracture_energy: 0.96,
             softening: Softening::Linear,
             always: false,
+            source: "Petrovic, J. Mater. Sci. 38 (2003) 1; K_Ic 0.1 MPa m^1/2",
         }),
         color: [196, 224, 240],
     },
@@ -130,12 +130,12 @@ pub const PRESETS: [Preset; 9] = [
         law: "neo_hookean",
         values: &[("young_modulus", 7e10), ("poisson_ratio", 0.22)],
         density: 2500.0,
-        // strength in bending [EN 572-1]; K 0.76 MPa m^(1/2)
         fracture: Some(PresetFracture {
             tensile_strength: 4.5e7,
             fracture_energy: 7.9,
             softening: Softening::Linear,
             always: true,
+            source: "strength in bending, EN 572-1; K_Ic 0.76 MPa m^1/2, Dowling 2013, table 8.2",
         }),
         color: [160, 208, 200],
     },
@@ -145,12 +145,12 @@ pub const PRESETS: [Preset; 9] = [
         law: "neo_hookean",
         values: &[("young_modulus", 3.3e9), ("poisson_ratio", 0.37)],
         density: 1190.0,
-        // strength in tension [data sheet of Plexiglas GS]; K 1.8 MPa m^(1/2)
         fracture: Some(PresetFracture {
             tensile_strength: 8e7,
             fracture_energy: 850.0,
             softening: Softening::Linear,
             always: true,
+            source: "data sheet of Plexiglas GS; K_Ic 1.8 MPa m^1/2, Dowling",
         }),
         color: [206, 222, 236],
     },
@@ -160,12 +160,12 @@ pub const PRESETS: [Preset; 9] = [
         law: "neo_hookean",
         values: &[("young_modulus", 3.7e11), ("poisson_ratio", 0.22)],
         density: 3900.0,
-        // strength in tension [data sheet of CoorsTek AD-995]; K 4.0 MPa m^(1/2)
         fracture: Some(PresetFracture {
             tensile_strength: 2.62e8,
             fracture_energy: 41.0,
             softening: Softening::Linear,
             always: true,
+            source: "data sheet of CoorsTek AD-995; K_Ic 4.0 MPa m^1/2, Dowling",
         }),
         color: [238, 232, 222],
     },

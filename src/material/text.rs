@@ -143,8 +143,11 @@ fn kind_table(kind: &Kind) -> serde_json::Value {
 
 /// Name and schema of a parameter.
 fn parameter(p: &Parameter) -> (String, serde_json::Value) {
-    let text = format!("{} Allowed: {}.", p.summary, p.allowed());
+    let text = format!("{} `[{}]`.", p.summary, p.unit);
     let mut schema = serde_json::json!({ "type": "number", "description": text });
+    if let Some(value) = p.default {
+        schema["default"] = value.into();
+    }
     for (bound, inside, outside) in [(p.low, "minimum", "exclusiveMinimum"), (p.high, "maximum", "exclusiveMaximum")] {
         match bound {
             Bound::Included(value) => schema[inside] = value.into(),

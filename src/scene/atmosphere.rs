@@ -9,10 +9,10 @@ use super::{GasState, Scene};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Atmosphere {
-    /// At rest, of one temperature; `ambient` is the state at the lowest corner of the domain.
+    /// In balance, of one temperature; `ambient` lies at the lowest corner of the domain.
     #[default]
     Isothermal,
-    /// At rest, of one entropy; `ambient` is the state at the lowest corner of the domain.
+    /// In balance, of one entropy; likewise.
     Isentropic,
     /// `ambient` everywhere: under gravity it falls.
     Uniform,

@@ -9,42 +9,43 @@ use super::{Color, Scene, Shape, vector};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// Name in tables and messages, unique.
+    /// Name in tables, unique; no commas or quotes.
     pub name: String,
-    /// What it fills.
+    /// What it fills; hollow bodies use `shell`.
     pub shape: Shape,
-    /// Name of an entry of `materials`.
+    /// What it is made of: a name under `materials`, or a preset in SI units.
     pub material: String,
-    /// Density `[kg m^-3]`, positive; that of the preset when left out.
+    /// Density `[kg m^-3]`; that of the preset when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: Option<f64>,
     /// Velocity at the start `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub velocity: [f64; 3],
-    /// Angular velocity about the centre of mass at the start `[rad s^-1]`: a number about z, or three about x, y and z.
-    #[serde(default, deserialize_with = "vector::spin")]
-    #[schemars(with = "vector::Spin")]
+    /// Angular velocity about the centre of mass at the start `[rad s^-1]`: a number about z, or three.
+    #[serde(default, with = "vector::Spin")]
     pub spin: [f64; 3],
-    /// Particles per cell along each axis, 1 to 8; 4 in 1D and 2 otherwise when left out.
+    /// Particles per cell along each axis, so that 2 makes 8 per cell in 3D; 4 in 1D and 2 otherwise when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 1, "maximum" = 8))]
     pub particles_per_cell: Option<u32>,
-    /// Colour in pictures, `#rrggbb`; that of the preset of its material, or one of a palette, when left out.
+    /// Colour in pictures, sRGB; that of its preset, or one of a palette, when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
-    /// Where particles lie within the lattice.
+    /// Where particles lie.
     #[serde(default)]
     pub sampling: Sampling,
-    /// What holds it back along walls and obstacles.
+    /// What holds it back at walls and obstacles: nothing (`slip`), Coulomb's friction by its coefficient, or it neither slides nor lifts off
+    /// (`stick`).
     #[serde(default)]
     pub friction: Friction,
-    /// The part that is held where it is, or moves as `motion` says: what of the body lies in this shape at the start.
+    /// What of the body lies in it at the start is held where it is, or moves as `motion` says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clamped: Option<Shape>,
-    /// Cracks at the start: what of the body lies in these shapes is broken.
+    /// What of the body lies in them is broken from the start. A gap that should part a body is at least three cells wide, a crack one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cracks: Vec<Shape>,
-    /// A prescribed motion: of the clamped part, or of the whole body if there is none.
+    /// A prescribed motion of the clamped part, or of the whole body where nothing is clamped.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,
 }
@@ -67,6 +68,7 @@ pub enum Friction {
     /// A friction of this name.
     Named(Contact),
     /// Coulomb friction: the coefficient.
+    #[schemars(extend("minimum" = 0))]
     Coulomb(f64),
 }
 
@@ -91,16 +93,13 @@ pub enum Contact {
 #[serde(deny_unknown_fields)]
 pub struct Motion {
     /// Velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub velocity: [f64; 3],
-    /// Angular velocity `[rad s^-1]`: a number about z, or three about x, y and z.
-    #[serde(default, deserialize_with = "vector::spin")]
-    #[schemars(with = "vector::Spin")]
+    /// Angular velocity `[rad s^-1]`: a number about z, or three.
+    #[serde(default, with = "vector::Spin")]
     pub spin: [f64; 3],
-    /// The point that it turns about, at the start `[m]`; the origin when left out.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    /// The point that it turns about and that moves along, at the start `[m]`.
+    #[serde(default, with = "vector::Point")]
     pub about: [f64; 3],
     /// Velocities over time instead of the two above: linear between the entries, constant before the first and after the last.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -111,15 +110,13 @@ pub struct Motion {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionAt {
-    /// When `[s]`.
+    /// When `[s]`, in ascending order.
     pub time: f64,
     /// Velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub velocity: [f64; 3],
-    /// Angular velocity `[rad s^-1]`: a number about z, or three about x, y and z.
-    #[serde(default, deserialize_with = "vector::spin")]
-    #[schemars(with = "vector::Spin")]
+    /// Angular velocity `[rad s^-1]`: a number about z, or three.
+    #[serde(default, with = "vector::Spin")]
     pub spin: [f64; 3],
 }
 

@@ -12,25 +12,27 @@ pub enum Boundary {
     /// Slip wall: nothing passes, nothing sticks.
     #[default]
     Wall,
-    /// What leaves here enters at the opposite side, which must be periodic too.
+    /// What leaves here enters at the other end. Both sides of the axis are periodic, along 4 cells or more; there are no bodies.
     Periodic,
-    /// Gas of a fixed state flows in, faster than sound or not; solids may leave.
+    /// Gas of this state flows in; right for supersonic flow, where nothing travels upstream. Solids may leave.
     Inlet(GasState),
     /// Density and velocity are fixed, the pressure comes from inside.
     SubsonicInlet(Inflow),
-    /// Gas at rest far away flows in along the normal as fast as the pressure inside lets it.
+    /// Gas at rest in a reservoir enters along the normal, without losses, as fast as the pressure inside lets it.
     TotalInlet(Reservoir),
-    /// An inlet whose state follows a table of times.
+    /// An inlet that changes in time: linear between two entries, constant before the first and after the last.
     TimedInlet(TimedInlet),
-    /// A far field whose gas is that which lies at the side at the start, face by face.
+    /// A `far_field` of the gas that lies at the side at the start, face by face, without waves and vortices; at most 960 states.
     Outlet,
-    /// Gas leaves against a far pressure.
+    /// For ducts: sound leaves, and the pressure returns to this one at the rate `relaxation` c (1 - M^2) / L. M is the Mach number, L the
+    /// length of the domain. [Poinsot & Lele 1992]
     PressureOutlet(PressureOutlet),
-    /// Gas leaves; beyond the side the state is drawn towards a far one. [Kwatra et al. 2009; Cao et al. 2022, section 2.9]
+    /// The paper's outlet: beyond the side lies the nearest cell, mixed with a share of this state. [Kwatra et al. 2009; Cao et al. 2022,
+    /// section 2.9]
     AttenuatedOutlet(AttenuatedOutlet),
-    /// Undisturbed gas of a fixed state far away: gas may leave and enter, sound leaves.
+    /// Undisturbed gas of this state lies beyond: gas may leave and enter, sound leaves.
     FarField(GasState),
-    /// A base rule and patches with rules of their own.
+    /// Parts of the side have rules of their own.
     Patched(Patched),
 }
 
@@ -38,14 +40,15 @@ pub enum Boundary {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Inflow {
-    /// Density `[kg m^-3]`, positive.
+    /// Density `[kg m^-3]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: f64,
     /// Velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub velocity: [f64; 3],
-    /// Mass fraction of the second gas, 0 to 1.
+    /// Mass fraction of the second gas; both gases have one temperature.
     #[serde(default, skip_serializing_if = "super::is_zero")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "default" = 0))]
     pub mass_fraction: f64,
 }
 
@@ -53,12 +56,15 @@ pub struct Inflow {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reservoir {
-    /// Total density `[kg m^-3]`, positive.
+    /// Total density `[kg m^-3]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: f64,
-    /// Total pressure `[Pa]`, positive.
+    /// Total pressure `[Pa]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub pressure: f64,
-    /// Mass fraction of the second gas, 0 to 1.
+    /// Mass fraction of the second gas; both gases have one temperature.
     #[serde(default, skip_serializing_if = "super::is_zero")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "default" = 0))]
     pub mass_fraction: f64,
 }
 
@@ -82,10 +88,11 @@ pub struct TimedInlet {
     /// What the states prescribe.
     #[serde(default)]
     pub rule: InletRule,
-    /// The states, in order of time.
+    /// The states.
     pub table: Vec<TimedState>,
-    /// Mass fraction of the second gas, 0 to 1.
+    /// Mass fraction of the second gas; both gases have one temperature.
     #[serde(default, skip_serializing_if = "super::is_zero")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "default" = 0))]
     pub mass_fraction: f64,
 }
 
@@ -93,15 +100,15 @@ pub struct TimedInlet {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimedState {
-    /// When `[s]`.
+    /// When `[s]`, in ascending order.
     pub time: f64,
-    /// Density `[kg m^-3]`, positive.
+    /// Density `[kg m^-3]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: f64,
     /// Velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub velocity: [f64; 3],
-    /// Pressure `[Pa]`, positive; not needed by the rule `subsonic`.
+    /// Pressure `[Pa]`, above 0; the rule `subsonic` needs none.
     #[serde(default)]
     pub pressure: f64,
 }
@@ -110,10 +117,12 @@ pub struct TimedState {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PressureOutlet {
-    /// Far pressure `[Pa]`, positive.
+    /// Far pressure `[Pa]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub pressure: f64,
-    /// How fast the pressure returns to the far one, in sound crossings of the domain `[1]`. [Poinsot & Lele 1992]
+    /// How fast the pressure returns to it, in sound crossings of the domain.
     #[serde(default = "default_relaxation")]
+    #[schemars(extend("minimum" = 0))]
     pub relaxation: f64,
 }
 
@@ -125,18 +134,21 @@ fn default_relaxation() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AttenuatedOutlet {
-    /// Far density `[kg m^-3]`, positive.
+    /// Far density `[kg m^-3]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: f64,
     /// Far velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub velocity: [f64; 3],
-    /// Far pressure `[Pa]`, positive.
+    /// Far pressure `[Pa]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub pressure: f64,
-    /// Share of the far state in the state beyond the side, 0 to 1.
+    /// Share of the state in what lies beyond the side.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub attenuation: f64,
-    /// Mass fraction of the second gas, 0 to 1.
+    /// Mass fraction of the second gas; both gases have one temperature.
     #[serde(default, skip_serializing_if = "super::is_zero")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "default" = 0))]
     pub mass_fraction: f64,
 }
 
@@ -144,10 +156,10 @@ pub struct AttenuatedOutlet {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Patched {
-    /// Rule of what no patch covers; solids follow it everywhere on this side.
+    /// Rule of what no patch covers. Solids follow it on the whole side: a wall stops them, everything else lets them leave.
     #[serde(default)]
     pub base: Box<Boundary>,
-    /// Patches; a later one covers an earlier one.
+    /// Parts, each with a `shape` and a `rule`; a later one covers an earlier one.
     pub patches: Vec<Patch>,
 }
 
@@ -155,7 +167,7 @@ pub struct Patched {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Patch {
-    /// Faces of the side whose centre lies inside belong to the patch.
+    /// The patch holds the faces of the side whose centre lies inside.
     pub shape: Shape,
     /// What happens there.
     pub rule: Boundary,

@@ -17,11 +17,13 @@ pub struct Camera {
     /// Direction that is up in the picture.
     #[serde(default = "Camera::default_up")]
     pub up: [f64; 3],
-    /// Vertical opening angle of the pinhole `[degrees]`, 1 to 170.
+    /// Vertical opening angle of the pinhole `[degrees]`.
     #[serde(default = "Camera::default_fov")]
+    #[schemars(extend("minimum" = 1, "maximum" = 170))]
     pub fov_degrees: f64,
-    /// Height of what is seen by parallel rays `[m]`.
+    /// Height of what is seen `[m]`: rays are parallel then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub height: Option<f64>,
 }
 
@@ -38,9 +40,9 @@ impl Camera {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraPath {
-    /// Turns the camera about its target, around its `up`, counterclockwise seen from above `[degrees s^-1]`.
+    /// Turns the camera about its target around `up` on top of that, counterclockwise seen from above `[degrees s^-1]`.
     pub orbit: f64,
-    /// Where the camera is at given times; in between it moves smoothly through them, before and after it stands still.
+    /// Key frames in the order of their times; the camera stands still before the first and after the last.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub keys: Vec<CameraKey>,
     /// A camera of a glTF file, instead of keys.
@@ -57,25 +59,29 @@ pub struct CameraKey {
     /// Position of the eye `[m]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eye: Option<[f64; 3]>,
-    /// Direction from the target to the eye around `up`, from x towards y where `up` is z `[degrees]`.
+    /// Direction of the eye around `up`, from x towards y `[degrees]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub azimuth: Option<f64>,
-    /// The same direction's angle above the plane across `up`, -89.9 to 89.9 `[degrees]`.
+    /// The same above the plane across `up` `[degrees]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = -89.9, "maximum" = 89.9))]
     pub elevation: Option<f64>,
     /// From the target to the eye `[m]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub distance: Option<f64>,
     /// The point in the middle of the picture `[m]`.
     pub target: [f64; 3],
     /// Direction that is up in the picture.
     #[serde(default = "Camera::default_up")]
     pub up: [f64; 3],
-    /// Vertical opening angle of the pinhole `[degrees]`, 1 to 170.
+    /// Vertical opening angle of the pinhole `[degrees]`.
     #[serde(default = "Camera::default_fov")]
+    #[schemars(extend("minimum" = 1, "maximum" = 170))]
     pub fov_degrees: f64,
-    /// Height of what is seen by parallel rays `[m]`.
+    /// Height of what is seen `[m]`: rays are parallel then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub height: Option<f64>,
 }
 

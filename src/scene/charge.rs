@@ -32,20 +32,22 @@ pub struct Charge {
     pub explosive: String,
     /// Mass of what lies in the domain, outside of obstacles `[kg]`; in 2D per metre along z, in 1D per square metre.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 1e-9, "maximum" = 1e9))]
     pub mass: Option<f64>,
-    /// Its middle `[m]`.
+    /// Its middle `[m]`, in gas.
     #[serde(default, deserialize_with = "vector::optional_point", skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "Option<Vec<f64>>")]
+    #[schemars(with = "Option<vector::Point>")]
     pub center: Option<[f64; 3]>,
     /// What it fills, in place of `mass` and `center`. Its `species` are the products of its explosive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,
     /// Points where a charge with a shape is set off `[m]`; its middle when left out.
     #[serde(default, deserialize_with = "vector::points", skip_serializing_if = "Vec::is_empty")]
-    #[schemars(with = "Vec<Vec<f64>>")]
+    #[schemars(with = "Vec<vector::Point>")]
     pub detonate_at: Vec<[f64; 3]>,
     /// When it is set off `[s]`.
     #[serde(default)]
+    #[schemars(extend("minimum" = 0))]
     pub time: f64,
     /// Whether its products burn on in the air, as long as the near field is computed apart.
     #[serde(default)]
@@ -53,13 +55,14 @@ pub struct Charge {
     /// Name of the second gas that its products are; without it they are the first gas.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub species: Option<String>,
-    /// How uneven the ball of products is when it takes the place of the gas, as a share of its radius: real ones have jets, and an even one
+    /// How uneven the ball of products is when it takes the place of the gas, as a share of its radius. Real ones have jets, and an even one
     /// grows lobes along the axes of the grid.
     #[serde(default, skip_serializing_if = "super::is_zero")]
+    #[schemars(extend("minimum" = 0, "maximum" = 0.3, "default" = 0))]
     pub roughness: f64,
-    /// Radius up to which the near field is computed apart `[m]`; as far as nothing stands in its way, at most 8 cells or 1.6 m for a
-    /// kilogram, when left out.
+    /// Radius up to which the near field is computed apart `[m]`; as far as it is free when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub near_field: Option<f64>,
 }
 

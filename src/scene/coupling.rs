@@ -17,8 +17,8 @@ pub enum InterfacePressure {
     H,
     /// One pressure everywhere.
     Single,
-    /// `h` with `numerics.paper.ghost = "shared_volume"`, where the stress of the solid bears a part of the gas pressure and so the
-    /// ghost pressure differs from it; else `resolved`.
+    /// `h` with `ghost = "shared_volume"`, else `resolved`.
+    // The stress of the solid bears a part of the gas pressure there, and so the ghost pressure differs from it.
     #[default]
     Auto,
 }
@@ -27,10 +27,10 @@ pub enum InterfacePressure {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SolidUpdate {
-    /// The forces that the solve itself knows, (G Q + H h) / M: momentum is conserved.
+    /// The forces of the solve, (G Q + H h) / M: momentum is conserved.
     #[default]
     Forces,
-    /// The pressure gradient of the node's own cell over the density of the solid there, as the gas has it: an ablation.
+    /// The pressure gradient in the node's own cell over the density of the solid there: an ablation.
     Gradients,
 }
 
@@ -38,12 +38,10 @@ pub enum SolidUpdate {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Coupling {
-    /// The solve first, from a velocity with the elastic reaction to the load of the body in it; then elastic sub-steps, which share what
-    /// else the solve gives.
+    /// The solve first, from a velocity with the elastic reaction in it, then elastic sub-steps.
     #[default]
     First,
-    /// One explicit elastic step first, then the solve, whose velocities move the particles: an ablation. Steps are as short as
-    /// elastic waves demand, whatever `numerics.max_substeps` says.
+    /// One explicit elastic step, then the solve, whose velocities move the particles: an ablation with the steps of elastic waves.
     Last,
 }
 
@@ -51,11 +49,10 @@ pub enum Coupling {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ghost {
-    /// The ghost pressure bears a part of the law's volumetric stiffness, and the law the rest.
+    /// The ghost pressure bears a small part of the law's volumetric stiffness, and the law the rest.
     #[default]
     Absorbs,
-    /// The law bears shear alone, and the ghost pressure follows the law's volumetric part: a steady pressure strains the
-    /// body as it should. First order in the time step.
+    /// The law bears shear alone: for scenes whose static load must strain a body. Of first order in the time step.
     SharedVolume,
 }
 
@@ -66,8 +63,8 @@ pub enum Elasticity {
     /// Sub-steps as short as elastic waves demand, without loss.
     #[default]
     Explicit,
-    /// One step by backward Euler, whatever the stiffness: Newton's method and conjugate gradients on the grid. Damps waves shorter
-    /// than the step. For bodies so stiff that explicit sub-steps would be many hundreds.
+    /// One step by backward Euler, whatever the stiffness; it damps waves shorter than the step. For bodies that would need many hundreds of
+    /// sub-steps.
     Implicit,
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Warned, vector};
+use super::{Warned, schema, vector};
 
 /// What the result must satisfy at the end of the run, at the scene's own resolution. Every entry is optional.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,16 +18,16 @@ pub struct Expect {
     /// Largest relative change of the energy of gas and solids together; for closed domains.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_drift: Option<f64>,
-    /// Lowest and highest value allowed for that change with its sign; for closed domains.
+    /// Lowest and highest value allowed for that change with its sign: negative where energy is lost.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_change: Option<[f64; 2]>,
-    /// Largest speed of gas or particles, in units of the ambient speed of sound; for scenes at rest.
+    /// Largest speed of gas and particles over the ambient speed of sound; for scenes at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_speed: Option<f64>,
-    /// Lowest and highest value allowed for the largest speed of the run, in units of the ambient speed of sound.
+    /// Lowest and highest value allowed for that speed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak_speed: Option<[f64; 2]>,
-    /// Largest L1 error of the density against the exact Riemann solution along x `[kg m^-2]`, in 1D.
+    /// Largest L1 error of the density against the exact Riemann solution `[kg m^-2]`; 1D scenes of ambient gas and one region.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_l1: Option<f64>,
     /// Lowest and highest value allowed for the largest density `[kg m^-3]`.
@@ -51,7 +51,7 @@ pub struct Expect {
     /// What must hold of single bodies.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub bodies: Vec<ExpectedBody>,
-    /// Bodies in the order of a quantity.
+    /// Bodies of which each has more of a quantity than the one that follows it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub order: Vec<ExpectedOrder>,
     /// What probes must have seen.
@@ -68,9 +68,9 @@ pub struct Expect {
 pub struct ExpectedBody {
     /// Name of the body.
     pub body: String,
-    /// Its centre of mass `[m]`.
+    /// Where its centre of mass must be `[m]`.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "vector::optional_point")]
-    #[schemars(with = "Option<Vec<f64>>")]
+    #[schemars(with = "Option<vector::Point>")]
     pub center: Option<[f64; 3]>,
     /// Distance from `center` allowed `[m]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -78,7 +78,7 @@ pub struct ExpectedBody {
     /// Distance of the centre of mass from where it was at the start `[m]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<[f64; 2]>,
-    /// The same along x, with its sign.
+    /// The same along x, with its sign `[m]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved_x: Option<[f64; 2]>,
     /// The same along y.
@@ -93,7 +93,8 @@ pub struct ExpectedBody {
     /// Largest equivalent plastic strain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plastic_strain: Option<[f64; 2]>,
-    /// Rms distance of the particles from where a rigid motion would have brought them, over their rms distance from the centre.
+    /// Rms distance of its particles from where they would be had it moved as a rigid body, over their rms distance from its centre at the
+    /// start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distortion: Option<[f64; 2]>,
     /// Part of the particles that is still inside the domain.
@@ -144,16 +145,7 @@ impl Quantity {
     /// Its key.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Quantity::Moved => "moved",
-            Quantity::MovedX => "moved_x",
-            Quantity::MovedY => "moved_y",
-            Quantity::MovedZ => "moved_z",
-            Quantity::Pieces => "pieces",
-            Quantity::PlasticStrain => "plastic_strain",
-            Quantity::Distortion => "distortion",
-            Quantity::Left => "left",
-        }
+        schema::word("Quantity", self as usize)
     }
 }
 
@@ -179,10 +171,10 @@ pub struct ExpectedProbe {
     /// Pressure at the end of the run `[Pa]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure_at_end: Option<[f64; 2]>,
-    /// When the pressure first differs from that at the start by more than a twentieth `[s]`.
+    /// When the pressure first differs from that of the first step by more than a twentieth `[s]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arrival: Option<[f64; 2]>,
-    /// From then until a body covers the probe `[s]`.
+    /// From then until a body covers the probe: short where a body is faster than its shock `[s]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lead: Option<[f64; 2]>,
 }

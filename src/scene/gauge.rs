@@ -10,9 +10,9 @@ use super::{Scene, vector};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gauge {
-    /// Name of its columns in `gauges.csv`, unique.
+    /// Its columns in `gauges.csv`, unique among gauges and probes.
     pub name: String,
-    /// The walls of a side of the domain.
+    /// The walls of this side of the domain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
     /// Name of an obstacle.
@@ -21,13 +21,12 @@ pub struct Gauge {
     /// Name of a body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// Place in that body at the start `[m]`: the gauge moves with the material there.
+    /// Place in that body at the start `[m]`; the gauge moves with the nearest particle.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "vector::optional_point")]
-    #[schemars(with = "Option<Vec<f64>>")]
+    #[schemars(with = "Option<vector::Point>")]
     pub point: Option<[f64; 3]>,
     /// What moments are about `[m]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub about: [f64; 3],
 }
 

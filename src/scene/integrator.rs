@@ -9,16 +9,17 @@ use super::Scene;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
-    /// The paper's: explicit advection, one implicit solve.
+    /// The paper's, which compresses twice.
     Paper,
-    /// The same, and the solve starts from the pressure that advection has not yet compressed (consistent predictor).
+    /// One solve per step, from the pressure that advection has not yet compressed: of first order in time.
     #[default]
     Predictor,
-    /// Two such solves per step, of second order in smooth flow: the implicit half of ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section
-    /// 2.6], and three stages of advection [Wicker & Skamarock 2002], since the two of ARS let sound grow that runs with the stream.
+    /// Two solves per step, of second order: for gas alone, with `cfl` at most 0.5.
+    // The implicit half of ARS(2,2,2) [Ascher, Ruuth & Spiteri 1997, section 2.6], and three stages of advection [Wicker & Skamarock 2002],
+    // since the two of ARS let sound grow that runs with the stream.
     Ars222,
-    /// `ars222` in scenes of gas alone whose time step allows it, else `predictor`. Only the advective part of the step counts: since the
-    /// internal energy is carried implicitly, no acoustic Courant number limits `ars222`.
+    /// `ars222` where bodies, `cfl` and `fixed_step` allow it, else `predictor`.
+    // Only the advective part of the step counts: since the internal energy is carried implicitly, no acoustic Courant number limits `ars222`.
     Auto,
 }
 

@@ -9,11 +9,14 @@ use super::Scene;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Emission {
-    /// Temperature of the ambient gas \[K\]: hotter gas shines by its ratio to this.
+    /// Temperature of the ambient gas `[K]`: that of the gas is in proportion to p / rho. Below 850 K nothing shines.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub ambient_kelvin: f64,
     /// Factor on the light.
+    #[schemars(extend("minimum" = 0))]
     pub strength: f64,
-    /// Optical depth of the whole domain filled with white-hot gas.
+    /// Optical depth of the whole domain filled with gas of 2600 K or more.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub optical_depth: f64,
 }
 
@@ -28,7 +31,8 @@ impl Default for Emission {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Soot {
-    /// Extinction per mass of the second gas \[m^2 kg^-1\].
+    /// Extinction per mass of the second gas `[m^2 kg^-1]`; the default is that of products of TNT, a fifth of which is soot.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub extinction: f64,
 }
 
@@ -108,10 +112,12 @@ pub struct Light {
     /// Direction towards the light.
     pub direction: [f64; 3],
     /// Brightness of the light itself.
+    #[schemars(extend("minimum" = 0))]
     pub strength: f64,
     /// Brightness of the sky around.
+    #[schemars(extend("minimum" = 0))]
     pub ambient: f64,
-    /// Gas, bodies, obstacles cast shadows.
+    /// Bodies, obstacles and opaque gas cast shadows on everything.
     pub shadows: bool,
 }
 

@@ -17,9 +17,9 @@ pub enum Look {
     /// Fields with scales, bodies as particles: the defaults of all keys.
     #[default]
     Lab,
-    /// Black on white for paper, files with 300 pixels per inch, bodies with smooth surfaces, four rays per pixel.
+    /// Black on white, PNG files with 300 pixels per inch; in 3D smooth bodies and four rays per pixel.
     Print,
-    /// Gas as a grey veil, bodies with smooth surfaces, sun, filmic tone, four rays per pixel, nothing written.
+    /// Nothing written; in 3D gas as a grey veil, smooth bodies, filmic tone, four rays per pixel. `emission` and `ground` are added by hand.
     Film,
 }
 

@@ -31,6 +31,7 @@ mod numerics;
 mod radial_flow;
 mod region;
 mod render;
+mod schema;
 mod settings;
 mod shape;
 mod shock_tube;
@@ -67,6 +68,8 @@ pub use check::body::MAX_BODIES;
 pub use check::boundary::MAX_OPENINGS;
 pub use check::budget::MOST_PARTICLES;
 pub use check::estimate::{Estimate, IMPLICIT_COURANT};
+#[doc(hidden)]
+pub use check::limits::allowed;
 pub use color::Color;
 pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, SolidUpdate};
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
@@ -113,7 +116,7 @@ pub struct Scene {
     pub domain: Domain,
     /// The gas and its state at the start.
     pub gas: Gas,
-    /// What happens at the sides of the domain.
+    /// What happens at the sides of the domain; all are walls when left out.
     #[serde(default)]
     pub boundary: Boundaries,
     /// Materials of the bodies, by name.
@@ -132,8 +135,7 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub charges: Vec<Charge>,
     /// Acceleration of gravity `[m s^-2]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub gravity: [f64; 3],
     /// How long and how finely in time.
     pub time: Time,
@@ -146,7 +148,7 @@ pub struct Scene {
     /// Loads of the gas on walls, obstacles and bodies, and motions of points of bodies, written every step.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gauges: Vec<Gauge>,
-    /// Which files a run leaves.
+    /// Which files a run leaves; one picture of the density per frame when left out.
     #[serde(default)]
     pub output: Output,
     /// How the pictures look.
@@ -165,19 +167,17 @@ pub struct Scene {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Domain {
-    /// Number of active axes, 1 to 3.
+    /// Number of active axes: x, then y, then z.
+    #[schemars(extend("minimum" = 1, "maximum" = 3))]
     pub dimension: u32,
-    /// Cells per axis, `dimension` entries.
-    #[serde(deserialize_with = "vector::counts")]
-    #[schemars(with = "Vec<u32>")]
+    /// Cells per axis, at least 3.
+    #[serde(with = "vector::Counts")]
     pub cells: [u32; 3],
     /// Low corner `[m]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub origin: [f64; 3],
-    /// Edge lengths `[m]`, `dimension` entries.
-    #[serde(deserialize_with = "vector::lengths")]
-    #[schemars(with = "Vec<f64>")]
+    /// Edge lengths `[m]`, above 0.
+    #[serde(with = "vector::Lengths")]
     pub size: [f64; 3],
 }
 
@@ -185,10 +185,11 @@ pub struct Domain {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gas {
-    /// Ratio of specific heats, above 1.
+    /// Ratio of specific heats; air has 1.4.
     #[serde(default = "default_gamma")]
+    #[schemars(extend("exclusiveMinimum" = 1))]
     pub gamma: f64,
-    /// A second gas, by name: at most one.
+    /// A second gas, by name: a scene has one at most.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub species: BTreeMap<String, Species>,
     /// State wherever no region says otherwise.
@@ -196,20 +197,22 @@ pub struct Gas {
     /// How it starts under gravity.
     #[serde(default)]
     pub atmosphere: Atmosphere,
-    /// Regions with their own state; a later one covers an earlier one.
+    /// Parts with a `shape` and their own state; a later one covers an earlier one.
     #[serde(default)]
     pub regions: Vec<Region>,
-    /// Waves on top of that.
+    /// Sine waves on top of that.
     #[serde(default)]
     pub waves: Vec<Wave>,
-    /// Vortices on top of that.
+    /// Isentropic vortices around z on top of that.
     #[serde(default)]
     pub vortices: Vec<Vortex>,
     /// Flows towards or away from a point on top of that.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub radial_flows: Vec<RadialFlow>,
-    /// Noise on top of that, as a share of density, pressure and speed of sound.
+    /// Noise on every cell on top of that, in every run the same. It is even, between plus and minus this share of density, pressure and
+    /// speed of sound.
     #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 0.5))]
     pub noise: f64,
 }
 
@@ -221,16 +224,18 @@ fn default_gamma() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GasState {
-    /// Density `[kg m^-3]`, positive.
+    /// Density `[kg m^-3]`, where `temperature` or `air` does not tell it.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: f64,
     /// Velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub velocity: [f64; 3],
-    /// Pressure `[Pa]`, positive.
+    /// Pressure `[Pa]`, likewise.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub pressure: f64,
-    /// Mass fraction of the second gas, 0 to 1.
+    /// Mass fraction of the second gas; both gases have one temperature.
     #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "default" = 0))]
     pub mass_fraction: f64,
 }
 
@@ -244,7 +249,7 @@ fn is_zero(number: &f64) -> bool {
 pub struct Obstacle {
     /// Name in messages, unique.
     pub name: String,
-    /// What it fills.
+    /// What the gas cannot enter.
     pub shape: Shape,
 }
 
@@ -252,11 +257,10 @@ pub struct Obstacle {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Probe {
-    /// Name of its column in `probes.csv`, unique.
+    /// Its columns in `probes.csv`, unique.
     pub name: String,
-    /// Where `[m]`.
-    #[serde(deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    /// Where `[m]`, inside the domain.
+    #[serde(with = "vector::Point")]
     pub position: [f64; 3],
 }
 

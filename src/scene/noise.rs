@@ -3,15 +3,7 @@
 use super::geometry::sample::random;
 use super::{Conserved, Gas, GasState};
 
-/// Above this share a state might lose its pressure.
-const MOST: f64 = 0.5;
-
 impl Gas {
-    /// Whether the amplitude of the noise leaves something of every state.
-    pub(super) fn noise_is_possible(&self) -> bool {
-        (0.0..=MOST).contains(&self.noise)
-    }
-
     /// Puts noise on density, momentum and energy per volume of a cell: shares of density and pressure and, along `axes` axes, of the
     /// speed of sound. The same cell always gets the same noise.
     pub(super) fn disturb(&self, cell: usize, axes: usize, state: &mut Conserved) {

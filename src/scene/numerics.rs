@@ -9,22 +9,21 @@ use super::{Coupling, Elasticity, FaceVelocity, Ghost, Integrator, InterfacePres
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Numerics {
-    /// Finite element pair of velocity and pressure in the coupled solve.
+    /// Finite element pair of the coupled solve.
     pub pair: Pair,
     /// Time integration of the gas.
     pub integrator: Integrator,
     /// How the elastic part of a step is taken.
     pub elasticity: Elasticity,
-    /// Share of the mode alternating from cell to cell that a conservative filter removes per step. Left out, a fifth in steps in
-    /// which sound crosses ten cells or more, else nothing.
+    /// Share of the mode alternating from cell to cell that a conservative filter removes per step. When left out, scenes without bodies
+    /// take 0.2 in steps in which sound crosses ten cells or more.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub filter: Option<f64>,
     /// Relative residual at which the pressure solve stops; single precision reaches about 1e-6.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub tolerance: f64,
-    /// Elastic sub-steps per step at most; a step that would need more is shortened to fit. With `numerics.paper.coupling = "last"`
-    /// there is one.
+    /// Elastic sub-steps per step at most; a step that would need more is shortened to fit. With `paper.coupling = "last"` there is one.
     #[schemars(extend("minimum" = 1, "maximum" = 10_000))]
     pub max_substeps: u32,
     /// Forms of the paper, to compare with.
@@ -64,7 +63,7 @@ pub struct Paper {
     pub coupling: Coupling,
     /// What the solved pressure does to the nodes of bodies.
     pub solid_update: SolidUpdate,
-    /// A cell is solid when bodies fill more than this fraction of it.
+    /// A cell is solid when bodies fill more than this fraction of it; thin walls are found all the same.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     pub solid_threshold: f64,
 }
@@ -89,16 +88,16 @@ impl Default for Paper {
 pub struct Expert {
     /// What speeds the pressure solve up.
     pub preconditioner: Preconditioner,
-    /// The pressure solve gives up after this many iterations.
+    /// The pressure solve fails after this many iterations.
     #[schemars(extend("minimum" = 1, "maximum" = 100_000))]
     pub max_iterations: u32,
-    /// Fraction of a cell that elastic waves cross in one sub-step.
+    /// Part of a cell that elastic waves cross in one sub-step, and the strain in it.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     pub elastic_cfl: f64,
     /// Relative tolerance of the implicit elastic step.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 0.5))]
     pub elastic_tolerance: f64,
-    /// How particles give their momentum to the grid.
+    /// How particles give their momentum to the grid: by ordered sums.
     pub transfer: Transfer,
 }
 
@@ -142,9 +141,9 @@ pub enum Pair {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Obstacles {
-    /// Cells are cut by the surface: gas fills a part of them. Gas only, with the pair B1B0.
+    /// The surface cuts cells, and gas fills a part of them: in gas alone with `b1b0`.
     Cut,
-    /// Whole cells, those whose centre lies inside: slanted surfaces are staircases.
+    /// Whole cells, those whose centre lies inside: slanted walls are staircases.
     Cells,
     /// `cut` where that is possible, else `cells`.
     #[default]
@@ -155,7 +154,7 @@ pub enum Obstacles {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Preconditioner {
-    /// In 2D and 3D `multigrid` in the steps whose acoustic Courant number makes it pay, else `jacobi`.
+    /// In 2D and 3D `multigrid` in the steps where it pays; `max_courant` or `fixed_step` must allow it at the start.
     #[default]
     Auto,
     /// The diagonal.
@@ -168,7 +167,7 @@ pub enum Preconditioner {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Transfer {
-    /// Nodes on a GPU, columns on a software device.
+    /// `nodes` on a GPU, `columns` in software.
     #[default]
     Auto,
     /// Each node sums what the particles around it give.

@@ -10,8 +10,7 @@ use super::{GasState, vector};
 #[serde(deny_unknown_fields)]
 pub struct RadialFlow {
     /// Where it comes from `[m]`.
-    #[serde(deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(with = "vector::Point")]
     pub center: [f64; 3],
     /// Speed away from there `[m s^-1]`; negative towards it.
     pub speed: f64,

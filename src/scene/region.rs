@@ -22,16 +22,18 @@ pub struct Region {
 struct RegionKeys {
     /// Where.
     shape: Shape,
-    /// Density `[kg m^-3]`, positive.
+    /// Density `[kg m^-3]`, where `temperature` or `air` does not tell it.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     density: f64,
     /// Velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     velocity: [f64; 3],
-    /// Pressure `[Pa]`, positive.
+    /// Pressure `[Pa]`, likewise.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pressure: f64,
-    /// Mass fraction of the second gas, 0 to 1.
+    /// Mass fraction of the second gas; both gases have one temperature.
     #[serde(default, skip_serializing_if = "super::is_zero")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "default" = 0))]
     mass_fraction: f64,
 }
 

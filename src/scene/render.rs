@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::camera::{Camera, CameraPath};
 use super::font::Font;
 use super::look::Look;
+use super::schema;
 use super::shot::ShotKeys;
 
 /// A quantity of the gas that can be shown.
@@ -39,7 +40,7 @@ pub enum Field {
     PeakPressure,
     /// Integral over time of the pressure above that of the ambient gas `[Pa s]`.
     Impulse,
-    /// Largest plastic strain of what has passed.
+    /// Largest plastic strain of what has passed without breaking.
     PeakPlasticStrain,
 }
 
@@ -64,21 +65,7 @@ impl Field {
     /// The field's keyword in scene files.
     #[must_use]
     pub fn keyword(self) -> &'static str {
-        match self {
-            Field::Density => "density",
-            Field::Pressure => "pressure",
-            Field::Velocity => "velocity",
-            Field::Temperature => "temperature",
-            Field::Schlieren => "schlieren",
-            Field::Mach => "mach",
-            Field::Vorticity => "vorticity",
-            Field::Entropy => "entropy",
-            Field::MassFraction => "mass_fraction",
-            Field::Owed => "owed",
-            Field::PeakPressure => "peak_pressure",
-            Field::Impulse => "impulse",
-            Field::PeakPlasticStrain => "peak_plastic_strain",
-        }
+        schema::word("Field", self as usize)
     }
 
     /// Whether it is a map of what has been so far, which only scenes keep that ask for it.
@@ -92,9 +79,10 @@ impl Field {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderSettings {
-    /// One word for many of the keys below, where they are left out.
+    /// One word for many keys, where the scene does not give them; with `--set` also where it or a run does.
     pub look: Look,
-    /// Width and height in pixels, 16 to 8192 each.
+    /// Width and height in pixels.
+    #[schemars(inner(range(min = 16, max = 8192)))]
     pub size: [u32; 2],
     /// Where the eye is, in 3D; a view from the side and above when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -111,25 +99,28 @@ pub struct RenderSettings {
     pub colormap: Colormap,
     /// Draw the gas in 3D; without it slices and solids stand alone.
     pub volume: bool,
-    /// Opacity of the gas over the colour bar: points (fraction of the bar, opacity), both 0 to 1, linear between them. When
-    /// left out, what differs most from the ambient gas is most opaque.
+    /// Opacity of the gas in 3D, linear between points `[fraction of the colour bar, opacity]`, both 0 to 1. When left out, what differs
+    /// most from the ambient gas is most opaque.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub opacity: Vec<[f64; 2]>,
-    /// Optical depth of the whole domain at opacity 1.
+    /// Optical depth of the whole domain at opacity 1; by field when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub optical_depth: Option<f64>,
-    /// Light of hot gas; none when left out.
+    /// Light of hot gas, in 3D.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub emission: Option<Emission>,
-    /// Second gas that absorbs light, in 3D.
+    /// A second gas that absorbs light, in 3D.
     pub soot: Option<Soot>,
-    /// Light from outside.
+    /// Light from outside, in 3D.
     pub light: Light,
     /// From light to pixels, in 3D.
     pub tone: ToneMap,
-    /// Factor on all light before the tone map, in 3D.
+    /// Factor on all light before `tone`, in 3D.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub exposure: f64,
-    /// Rays per pixel along each axis, 1 to 4.
+    /// Rays per pixel along each axis.
+    #[schemars(extend("minimum" = 1, "maximum" = 4))]
     pub supersampling: u32,
     /// Draw the particles.
     pub particles: bool,
@@ -150,13 +141,16 @@ pub struct RenderSettings {
     /// Lines of equal value in 2D and on slices, at most 32: their number, or their values.
     #[serde(skip_serializing_if = "Contours::is_none")]
     pub contours: Contours,
-    /// Velocity arrows across a 2D picture, 0 to 200; 0 for none.
+    /// Velocity arrows across a 2D picture.
+    #[schemars(extend("minimum" = 0, "maximum" = 200))]
     pub arrows: u32,
     /// What is written over and around the picture.
     pub overlays: Overlays,
-    /// Size of what is written, 0.5 to 4; at 1 a line takes a 36th of the picture's height.
+    /// Size of what is written; at 1 a line takes a 36th of the picture's height.
+    #[schemars(extend("minimum" = 0.5, "maximum" = 4))]
     pub text_size: f64,
-    /// A font for letters that the program's own lack; they have Latin, Greek and Cyrillic.
+    /// A `.ttf` or `.otf` in the folder of the scene, for letters that the program's fonts lack: they have Latin, Greek and Cyrillic. One font
+    /// serves all views.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub font: Option<Font>,
     /// Further pictures of every frame, by name: what each changes of the keys above, and its `fields`.
@@ -210,9 +204,9 @@ pub enum RenderMode {
     Schlieren,
     /// Ray march; density is shown through the colour map.
     Density,
-    /// Brightness by the bending of light along each line of sight, in grey, like a schlieren camera.
+    /// How far light is bent across a slanted knife edge, in grey, as a schlieren camera shows it.
     LineOfSight,
-    /// Brightness by the focusing of light along each line of sight, in grey, like a shadow on a screen.
+    /// How light is focused along each line of sight, in grey, as a shadow on a screen.
     Shadowgraph,
 }
 
@@ -241,10 +235,10 @@ pub enum Colormap {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ToneMap {
-    /// Brighter than white is white; colours stay those of the colour bar.
+    /// Cut off at white; colours stay those of the colour bar.
     #[default]
     None,
-    /// The shoulder of film: bright light keeps its shape and turns white.
+    /// The shoulder of film, for pictures with `emission`: bright light keeps its shape and turns white.
     Aces,
 }
 
@@ -255,7 +249,7 @@ pub enum Surface {
     /// Every particle is a ball.
     #[default]
     Spheres,
-    /// The balls in front are smoothed into a surface.
+    /// The balls in front are smoothed into a surface (3D), closed also where a body is stretched.
     Smooth,
 }
 

@@ -16,7 +16,7 @@ pub struct Time {
     #[serde(default = "Time::default_cfl")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     pub cfl: f64,
-    /// Pictures per run, evenly spaced, besides the one of the start.
+    /// Pictures, evenly spaced, besides that of the start.
     #[serde(default = "Time::default_frames")]
     #[schemars(extend("minimum" = 1, "maximum" = 1_000_000))]
     pub frames: u32,
@@ -28,7 +28,7 @@ pub struct Time {
     #[serde(default = "Time::default_max_growth")]
     #[schemars(extend("exclusiveMinimum" = 1))]
     pub max_growth: f64,
-    /// Constant step `[s]` instead of the rules above; for measurements.
+    /// Constant step `[s]` instead of the rules above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub fixed_step: Option<f64>,
@@ -66,20 +66,22 @@ impl Time {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Output {
-    /// Fields shown in the pictures, one picture each; in 3D the first one is ray marched.
+    /// Fields shown, one picture each; in 3D the first one is ray marched.
     pub fields: Vec<Field>,
     /// Also write VTK files of all fields and particles.
     pub vtk: bool,
-    /// Write pictures with 16 bits per channel.
+    /// Write `NNNN.png` with 16 bits per channel instead of 8.
     pub png16: bool,
-    /// Also write the pictures' linear light.
+    /// Also write `NNNN.exr` for compositors: linear light with alpha, depth, objects, velocities.
     pub exr: bool,
-    /// Keep maps of the largest pressure, the impulse and the largest plastic strain so far, for files; fields that show them turn it on.
+    /// Keep maps for files, too; a field that shows one turns it on.
     pub maps: bool,
-    /// Also write what pictures are drawn from, so that `brisance render` can draw them again.
+    /// Also write `states/NNNN.npz`, from which `brisance render` draws again.
     pub states: bool,
-    /// What the ambient gas has \[K\]: volumes have temperatures in kelvin then, not as pressure over density.
+    /// What the ambient gas has `[K]`: `temperature` in volumes (`vdb`, `usd`) is in kelvin then, else pressure over density. `convert --kelvin`
+    /// gives it later.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub ambient_kelvin: Option<f64>,
 }
 

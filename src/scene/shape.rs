@@ -15,22 +15,19 @@ pub enum Shape {
     /// A box along the axes.
     Box {
         /// Middle `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         center: [f64; 3],
         /// Full edge lengths `[m]`; endless along axes that are left out.
-        #[serde(deserialize_with = "vector::extent", serialize_with = "vector::write_extent")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Extent")]
         size: [f64; 3],
-        /// Radius of rounded edges `[m]`; the size stays.
+        /// Radius of the edges `[m]`; the size stays.
         #[serde(default)]
         round: f64,
     },
     /// A ball; a disc in 2D, an interval in 1D.
     Sphere {
         /// Middle `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         center: [f64; 3],
         /// Radius `[m]`.
         radius: f64,
@@ -38,23 +35,19 @@ pub enum Shape {
     /// An ellipsoid along the axes.
     Ellipsoid {
         /// Middle `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         center: [f64; 3],
         /// Half axes `[m]`; endless along axes that are left out.
-        #[serde(deserialize_with = "vector::extent", serialize_with = "vector::write_extent")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Extent")]
         radii: [f64; 3],
     },
     /// A circular cylinder with flat ends.
     Cylinder {
         /// Middle `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         center: [f64; 3],
-        /// Direction, of any length; z when left out.
-        #[serde(default = "along_z", deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// Direction.
+        #[serde(default = "along_z", with = "vector::Point")]
         axis: [f64; 3],
         /// Radius `[m]`.
         radius: f64,
@@ -65,12 +58,10 @@ pub enum Shape {
     /// All points within a radius of a line segment.
     Capsule {
         /// One end of the segment `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         from: [f64; 3],
         /// The other end `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         to: [f64; 3],
         /// Radius `[m]`.
         radius: f64,
@@ -79,22 +70,20 @@ pub enum Shape {
     Chain {
         /// The points `[m]`, at least two.
         points: Vec<[f64; 3]>,
-        /// Radius at each point `[m]`, or one for all.
+        /// One radius for each point, or one for all `[m]`.
         radii: Vec<f64>,
     },
     /// A circular cone, or a frustum if `top_radius` is given.
     Cone {
         /// Middle of the base `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         center: [f64; 3],
-        /// Direction from the base to the tip, of any length; z when left out.
-        #[serde(default = "along_z", deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// Direction from the base to the tip.
+        #[serde(default = "along_z", with = "vector::Point")]
         axis: [f64; 3],
         /// Radius of the base `[m]`.
         radius: f64,
-        /// Radius of the top `[m]`; 0 for a tip.
+        /// Radius of the top `[m]`.
         #[serde(default)]
         top_radius: f64,
         /// Distance from base to top `[m]`.
@@ -103,12 +92,10 @@ pub enum Shape {
     /// A ring with a round cross-section.
     Torus {
         /// Middle `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         center: [f64; 3],
-        /// Axis of revolution, of any length; z when left out.
-        #[serde(default = "along_z", deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// Axis of revolution.
+        #[serde(default = "along_z", with = "vector::Point")]
         axis: [f64; 3],
         /// Distance from the axis to the middle of the cross-section `[m]`.
         major: f64,
@@ -118,17 +105,15 @@ pub enum Shape {
     /// Everything behind a plane.
     HalfSpace {
         /// A point of the plane `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         point: [f64; 3],
-        /// Direction out of the shape, of any length.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// Direction out of the shape.
+        #[serde(with = "vector::Point")]
         normal: [f64; 3],
     },
     /// A polygon in the plane of x and y, extruded along z.
     Polygon {
-        /// Corners `[m]`, in either direction of turning, without self-intersection.
+        /// Corners in the plane of x and y `[m]`, without self-intersection.
         points: Vec<[f64; 2]>,
         /// z of the lower face `[m]`.
         #[serde(default)]
@@ -139,26 +124,22 @@ pub enum Shape {
     },
     /// A polygon that is turned about an axis: pots, wheels, barrels.
     Revolve {
-        /// The point of the axis at height 0 `[m]`; the origin when left out.
-        #[serde(default, deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// The point of the axis at height 0 `[m]`.
+        #[serde(default, with = "vector::Point")]
         center: [f64; 3],
-        /// Direction of the axis, of any length; z when left out.
-        #[serde(default = "along_z", deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// Direction of the axis.
+        #[serde(default = "along_z", with = "vector::Point")]
         axis: [f64; 3],
         /// Corners: distance from the axis, height along it `[m]`.
         points: Vec<[f64; 2]>,
     },
     /// A shape and its mirror image.
     Mirror {
-        /// A point of the mirror `[m]`; the origin when left out.
-        #[serde(default, deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// A point of the mirror `[m]`.
+        #[serde(default, with = "vector::Point")]
         point: [f64; 3],
-        /// Direction across the mirror, of any length.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// Direction across the mirror.
+        #[serde(with = "vector::Point")]
         normal: [f64; 3],
         /// What.
         shape: Box<Shape>,
@@ -168,8 +149,7 @@ pub enum Shape {
         /// How many.
         count: u32,
         /// From one to the next `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         offset: [f64; 3],
         /// What.
         shape: Box<Shape>,
@@ -178,13 +158,11 @@ pub enum Shape {
     Around {
         /// How many.
         count: u32,
-        /// Direction of the axis, of any length; z when left out.
-        #[serde(default = "along_z", deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// Direction of the axis.
+        #[serde(default = "along_z", with = "vector::Point")]
         axis: [f64; 3],
-        /// A point of the axis `[m]`; the origin when left out.
-        #[serde(default, deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// A point of the axis `[m]`.
+        #[serde(default, with = "vector::Point")]
         about: [f64; 3],
         /// What.
         shape: Box<Shape>,
@@ -196,34 +174,30 @@ pub enum Shape {
     /// A shape, moved.
     Translate {
         /// By how much `[m]`.
-        #[serde(deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        #[serde(with = "vector::Point")]
         offset: [f64; 3],
         /// What.
         shape: Box<Shape>,
     },
     /// A shape, turned by the right-hand rule.
     Rotate {
-        /// Direction of the axis, of any length; z when left out.
-        #[serde(default = "along_z", deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// Direction of the axis.
+        #[serde(default = "along_z", with = "vector::Point")]
         axis: [f64; 3],
         /// Angle `[degrees]`.
         degrees: f64,
-        /// A point of the axis `[m]`; the origin when left out.
-        #[serde(default, deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// A point of the axis `[m]`.
+        #[serde(default, with = "vector::Point")]
         about: [f64; 3],
         /// What.
         shape: Box<Shape>,
     },
     /// A shape, larger or smaller.
     Scale {
-        /// Ratio of lengths, positive.
+        /// Ratio of lengths.
         factor: f64,
-        /// The point that stays `[m]`; the origin when left out.
-        #[serde(default, deserialize_with = "vector::point")]
-        #[schemars(with = "Vec<f64>")]
+        /// The point that stays `[m]`.
+        #[serde(default, with = "vector::Point")]
         about: [f64; 3],
         /// What.
         shape: Box<Shape>,
@@ -236,14 +210,14 @@ pub enum Shape {
     Difference(Vec<Shape>),
     /// Like a union, with fillets where shapes meet.
     SmoothUnion {
-        /// Distance over which shapes blend `[m]`, positive.
+        /// Distance over which shapes blend `[m]`.
         radius: f64,
         /// Which.
         shapes: Vec<Shape>,
     },
     /// The layer just inside the surface of a shape: distances from -thickness to 0. The rest of the inside is hollow.
     Shell {
-        /// Thickness of the layer `[m]`, positive.
+        /// Thickness of the layer `[m]`.
         thickness: f64,
         /// What.
         shape: Box<Shape>,

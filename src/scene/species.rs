@@ -16,15 +16,17 @@ const TRACE: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Species {
-    /// Ratio of specific heats of an ideal gas, above 1.
+    /// Ratio of specific heats of an ideal gas, in place of `explosive`; helium has 1.667.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 1))]
     pub gamma: Option<f64>,
     /// Explosive whose products it is: `tnt`, `c4`, `petn` or `comp_b`. Their pressure is that of Jones, Wilkins and Lee.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explosive: Option<String>,
-    /// Gas constant `[J kg^-1 K^-1]`; where both gases are in one state, it tells their volumes at one temperature, that of the first being
-    /// the one of air.
+    /// Gas constant `[J kg^-1 K^-1]`, by default that of air, which the first gas has. It tells temperatures, and volumes where both gases
+    /// are in one state.
     #[serde(default = "air_constant")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub gas_constant: f64,
 }
 

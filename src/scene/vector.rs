@@ -1,7 +1,55 @@
 //! Vectors in scene files: one to three numbers. A scene of `dimension` axes may leave the inactive ones out.
 
-use schemars::JsonSchema;
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// Declares vectors by what the missing entries are.
+macro_rules! vectors {
+    ($($(#[$doc:meta])* $name:ident: $number:ty = $rest:expr;)*) => {
+        $($(#[$doc])*
+        pub(super) struct $name;
+
+        impl $name {
+            pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[$number; 3], D::Error> {
+                filled(deserializer, $rest)
+            }
+
+            /// Where missing entries have no end, those without one are left out.
+            pub(super) fn serialize<S: Serializer>(value: &[$number; 3], serializer: S) -> Result<S::Ok, S::Error> {
+                let written = |v: &&$number| f64::from($rest).is_finite() || f64::from(**v).is_finite();
+                value.iter().take_while(written).collect::<Vec<_>>().serialize(serializer)
+            }
+        }
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn inline_schema() -> bool {
+                true
+            }
+
+            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                let items = generator.subschema_for::<$number>();
+                json_schema!({ "type": "array", "items": items, "minItems": 1, "maxItems": 3 })
+            }
+        })*
+    };
+}
+
+vectors! {
+    /// A point or a direction: the missing entries are 0.
+    Point: f64 = 0.0;
+    /// Sizes: along the missing axes the thing has no end.
+    Extent: f64 = f64::INFINITY;
+    /// Lengths of the domain: an inactive axis has unit thickness.
+    Lengths: f64 = 1.0;
+    /// Cells of the domain: an inactive axis has one.
+    Counts: u32 = 1;
+}
 
 /// An angular velocity in a scene file.
 #[derive(Deserialize, JsonSchema)]
@@ -13,49 +61,29 @@ pub(super) enum Spin {
     Vector([f64; 3]),
 }
 
-/// Reads an angular velocity.
-pub(super) fn spin<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
-    Ok(match Spin::deserialize(deserializer)? {
-        Spin::AboutZ(rate) => [0.0, 0.0, rate],
-        Spin::Vector(rates) => rates,
-    })
+impl Spin {
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
+        Ok(match <Self as Deserialize>::deserialize(deserializer)? {
+            Spin::AboutZ(rate) => [0.0, 0.0, rate],
+            Spin::Vector(rates) => rates,
+        })
+    }
+
+    pub(super) fn serialize<S: Serializer>(rates: &[f64; 3], serializer: S) -> Result<S::Ok, S::Error> {
+        rates.serialize(serializer)
+    }
 }
 
-/// Reads one to three numbers; the missing ones become 0.
-pub(super) fn point<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
-    filled(deserializer, 0.0)
-}
-
-/// The same for a key that may be left out.
+/// Reads a point of a key that may be left out.
 pub(super) fn optional_point<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 3]>, D::Error> {
-    point(deserializer).map(Some)
+    Point::deserialize(deserializer).map(Some)
 }
 
 /// Reads points of one to three numbers each.
 pub(super) fn points<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<[f64; 3]>, D::Error> {
     #[derive(Deserialize)]
-    struct Point(#[serde(deserialize_with = "point")] [f64; 3]);
-    Ok(Vec::<Point>::deserialize(deserializer)?.into_iter().map(|point| point.0).collect())
-}
-
-/// Reads one to three sizes; along the missing axes the thing has no end.
-pub(super) fn extent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
-    filled(deserializer, f64::INFINITY)
-}
-
-/// Reads one to three lengths; the missing ones become 1, the unit thickness of an inactive axis.
-pub(super) fn lengths<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
-    filled(deserializer, 1.0)
-}
-
-/// Reads one to three cell counts; an inactive axis has one cell.
-pub(super) fn counts<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[u32; 3], D::Error> {
-    filled(deserializer, 1)
-}
-
-/// Writes the finite entries of an extent: what [`extent`] reads back.
-pub(super) fn write_extent<S: Serializer>(value: &[f64; 3], serializer: S) -> Result<S::Ok, S::Error> {
-    value.iter().take_while(|v| v.is_finite()).collect::<Vec<_>>().serialize(serializer)
+    struct Read(#[serde(with = "Point")] [f64; 3]);
+    Ok(Vec::<Read>::deserialize(deserializer)?.into_iter().map(|point| point.0).collect())
 }
 
 fn filled<'de, D: Deserializer<'de>, T: Deserialize<'de> + Copy>(deserializer: D, rest: T) -> Result<[T; 3], D::Error> {

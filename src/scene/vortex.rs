@@ -12,13 +12,13 @@ use super::{Gas, GasState, vector};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Vortex {
-    /// Centre `[m]`.
-    #[serde(deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    /// Middle `[m]`.
+    #[serde(with = "vector::Point")]
     pub center: [f64; 3],
-    /// Radius of the fastest gas `[m]`, positive.
+    /// Where the gas is fastest `[m]`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
-    /// 2 pi times the largest speed `[m s^-1]`; positive turns from x to y.
+    /// 2 pi times the largest speed `[m s^-1]`; positive turns from x to y. Some pressure must be left in the middle.
     pub strength: f64,
 }
 
@@ -48,10 +48,6 @@ pub(super) fn findings(gas: &Gas) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (index, vortex) in gas.vortices.iter().enumerate() {
         let path = format!("gas.vortices[{index}]");
-        if !(vortex.radius > 0.0 && vortex.radius.is_finite()) {
-            let help = "give a positive number [m]";
-            findings.push(Finding::out_of_range(format!("{path}.radius"), vortex.radius, help));
-        }
         let fall = std::f64::consts::E * vortex.cooling(gas.gamma);
         if fall >= least {
             let message =

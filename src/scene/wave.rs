@@ -13,9 +13,8 @@ pub struct Wave {
     /// Where it is added; everywhere when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,
-    /// Wave vector, 2 pi over the wave length along the direction `[m^-1]`.
-    #[serde(deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    /// Wave vector: 2 pi over the wave length, along the direction `[m^-1]`.
+    #[serde(with = "vector::Point")]
     pub vector: [f64; 3],
     /// Phase at the origin `[rad]`.
     #[serde(default)]
@@ -24,8 +23,7 @@ pub struct Wave {
     #[serde(default)]
     pub density: f64,
     /// Amplitude of the velocity `[m s^-1]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub velocity: [f64; 3],
     /// Amplitude of the pressure `[Pa]`.
     #[serde(default)]

@@ -8,6 +8,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
+use crate::math::greatest_divisor;
 use crate::numerics::{PcgControl, Scan, pcg};
 use crate::scene::{MAX_BODIES, Scene};
 
@@ -300,8 +301,4 @@ pub fn finest_resolution(scene: &Scene, fits: impl Fn(u32) -> bool) -> Option<u3
         if fits(middle * step) { good = middle } else { bad = middle }
     }
     (good > 0).then_some(good * step)
-}
-
-fn greatest_divisor(a: u32, b: u32) -> u32 {
-    if b == 0 { a } else { greatest_divisor(b, a % b) }
 }

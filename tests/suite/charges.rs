@@ -103,7 +103,7 @@ fn what_is_no_charge_is_refused() {
         ("charges[0].explosive=\"tmt\"", "did you mean `tnt`"),
         ("charges[0].mass=-1.0", "out of range"),
         ("charges[0].mass=1e6", "all of the domain would be products"),
-        ("charges[0].time=-1.0", "give a time from 0 on"),
+        ("charges[0].time=-1.0", "give a number of at least 0"),
         ("charges[0].species=\"products\"", "add a table [gas.species.products]"),
         ("charges[0].center=[5.0, 1.0]", "lies outside the domain"),
         ("charges[0].center=[2.3, 1.2]", "nearer to an open or periodic side"),

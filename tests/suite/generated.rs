@@ -3,9 +3,12 @@
 use std::path::Path;
 
 use brisance::render::View;
+use brisance::scene::schema;
 use brisance::stage::structures;
 use brisance::state::{arrays, stages};
 use brisance::structure::Shared;
+
+use crate::keys;
 
 /// For each file below `shaders/` that shows structures of Rust: a kernel that takes it, and the structures.
 pub(crate) fn shown() -> Vec<(&'static str, &'static str, Vec<Shared>)> {
@@ -13,7 +16,7 @@ pub(crate) fn shown() -> Vec<(&'static str, &'static str, Vec<Shared>)> {
 }
 
 /// File, table that it follows from, and the text.
-fn parts() -> Vec<(String, &'static str, String)> {
+fn parts() -> Vec<(String, String, String)> {
     let tables = [
         ("shaders/shared/state.wgsl", "src/state/arrays.rs", arrays::constants()),
         ("docs/inside/arrays.md", "src/state/arrays.rs", format!("\n{}\n", arrays::table())),
@@ -21,9 +24,10 @@ fn parts() -> Vec<(String, &'static str, String)> {
     ];
     let structures = shown().into_iter().map(|(file, _, shown)| {
         let texts: Vec<&str> = shown.iter().map(|own| own.wgsl.as_str()).collect();
-        (format!("shaders/{file}"), shown[0].source, texts.join("\n"))
+        (format!("shaders/{file}"), shown[0].source.to_owned(), texts.join("\n"))
     });
-    tables.into_iter().map(|(file, source, text)| (file.to_owned(), source, text)).chain(structures).collect()
+    let tables = tables.into_iter().map(|(file, source, text)| (file.to_owned(), source.to_owned(), text));
+    tables.chain(structures).chain(keys::parts()).collect()
 }
 
 /// The text of a file with a part of it written anew.
@@ -39,19 +43,19 @@ fn with_part(text: &str, source: &str, part: &str) -> Option<String> {
 fn what_is_generated_is_up_to_date() {
     let write = std::env::var_os("BRISANCE_GENERATE").is_some();
     let mut failures = Vec::new();
-    for (name, source, part) in parts() {
+    let mut settle = |name: String, wanted: &dyn Fn(&str) -> String| {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&name);
         let text = std::fs::read_to_string(&path).unwrap();
-        let wanted =
-            with_part(&text, source, &part).unwrap_or_else(|| panic!("{name}: no lines around a generated part"));
-        if text == wanted {
-            continue;
-        }
-        if write {
+        let wanted = wanted(&text);
+        if text != wanted && write {
             std::fs::write(&path, wanted).unwrap();
-        } else {
+        } else if text != wanted {
             failures.push(name);
         }
+    };
+    settle("docs/scene.schema.json".to_owned(), &|_| schema() + "\n");
+    for (name, source, part) in parts() {
+        settle(name, &|text| with_part(text, &source, &part).expect("lines around the generated part"));
     }
     assert!(failures.is_empty(), "run scripts/generate: {failures:?} differ from their tables");
 }

@@ -30,6 +30,7 @@ mod gpu;
 mod hardware;
 mod images;
 mod kernels;
+mod keys;
 mod layering;
 mod layouts;
 mod least_step;

@@ -5,10 +5,6 @@ use crate::scene::check::{Check, shape};
 
 /// Charges of a scene at most.
 const MOST_CHARGES: usize = 100;
-/// Share of its radius by which a ball is uneven at most.
-const MOST_ROUGHNESS: f64 = 0.3;
-/// Masses \[kg\] that are taken for masses.
-const MASSES: [f64; 2] = [1e-9, 1e9];
 
 impl Check<'_> {
     /// What charges are.
@@ -38,22 +34,12 @@ impl Check<'_> {
         } else {
             self.ball(path, charge)
         }
-        if !(charge.time >= 0.0 && charge.time.is_finite()) {
-            self.out_of_range(format!("{path}.time"), charge.time, "give a time from 0 on [s]");
-        }
         if let Some(name) = charge.species.as_ref().filter(|name| !self.scene.gas.species.contains_key(*name)) {
             let help = match self.scene.gas.species.keys().next() {
                 Some(own) => format!("give \"{own}\", or leave it out"),
                 None => format!("add a table [gas.species.{name}] with gamma; products of TNT have 1.3"),
             };
             self.wrong_value(format!("{path}.species"), format!("there is no gas `{name}`"), help);
-        }
-        if !(0.0..=MOST_ROUGHNESS).contains(&charge.roughness) {
-            let help = format!("give a share of the radius from 0 to {MOST_ROUGHNESS}");
-            self.out_of_range(format!("{path}.roughness"), charge.roughness, help);
-        }
-        if let Some(reach) = charge.near_field {
-            self.positive(format!("{path}.near_field"), reach, "[m]");
         }
     }
 
@@ -63,16 +49,10 @@ impl Check<'_> {
             let help = "leave it out: a ball is set off in its middle; or give a shape in place of mass and center";
             self.add(format!("{path}.detonate_at"), "it is for a charge with a shape", help);
         }
-        let (Some(mass), Some(center)) = (charge.mass, charge.center) else {
+        if charge.ball().is_none() {
             let help = "give mass [kg] and center [m], or shape";
-            return self.add(path, "it does not say how much there is, and where", help);
-        };
-        if !(MASSES[0]..=MASSES[1]).contains(&mass) {
-            let help =
-                format!("give a number from {:e} to {:e} [kg]; the scene must be in kg, m and s", MASSES[0], MASSES[1]);
-            self.out_of_range(format!("{path}.mass"), mass, help);
+            self.add(path, "it does not say how much there is, and where", help);
         }
-        self.planar(format!("{path}.center"), center);
     }
 
     /// A charge that stands on the grid.

@@ -14,7 +14,6 @@ impl Check<'_> {
         }
         for (index, gauge) in scene.gauges.iter().enumerate() {
             let path = format!("gauges[{index}]");
-            self.planar(format!("{path}.about"), gauge.about);
             if scene.probes.iter().any(|probe| probe.name == gauge.name) {
                 let message = format!("`{}` is the name of a probe", gauge.name);
                 self.add(format!("{path}.name"), message, "give gauges and probes names of their own");
@@ -63,7 +62,6 @@ impl Check<'_> {
     }
 
     fn gauge_point(&mut self, path: String, body: usize, point: [f64; 3]) {
-        self.planar(&path, point);
         let (shape, spacing) = (&self.scene.bodies[body].shape, self.scene.domain.spacing());
         let distance = shape.distance(point);
         if distance > 0.5 * spacing || distance.is_nan() {

@@ -1,9 +1,11 @@
 //! Numbers that the device sees: it computes in single precision, and kernels square, multiply and divide.
 
+use serde_json::Value;
+
 use crate::math::plain;
+use crate::scene::Material;
 use crate::scene::check::Check;
 use crate::scene::finding::Told;
-use crate::scene::{Boundary, GasState, Material};
 
 /// Least number whose square is a normal number in single precision.
 const LEAST: f64 = 1.1e-19;
@@ -13,6 +15,12 @@ const MOST: f64 = 1.8e19;
 const LEAST_PLAIN: f64 = 1.2e-38;
 /// Largest number that is finite in single precision.
 const MOST_PLAIN: f64 = 3.4e38;
+/// Sizes that numbers of these keys may have.
+const SEEN: [(&[&str], [f64; 2]); 3] = [
+    (&["density", "pressure", "max_courant"], [LEAST, MOST]),
+    (&["velocity", "spin", "gravity", "origin", "until", "fixed_step", "time"], [LEAST_PLAIN, MOST]),
+    (&["max_growth"], [1.0, MOST]),
+];
 /// Ratios of specific heats that single precision tells from 1, and that energies bear.
 const GAMMA: [f64; 2] = [1.0001, 1000.0];
 
@@ -37,29 +45,37 @@ impl Check<'_> {
             self.add("gas.gamma", format!("{} is out of the range of single precision", scene.gas.gamma), help);
         }
         self.cell_range();
-        self.seen("gravity", &scene.gravity, LEAST_PLAIN, MOST);
-        self.state_range("gas.ambient", &scene.gas.ambient);
-        for (index, region) in scene.gas.regions.iter().enumerate() {
-            self.state_range(&format!("gas.regions[{index}]"), &region.state);
-        }
-        for (side, name) in scene.boundary.sides().into_iter().zip(crate::scene::Boundaries::NAMES) {
-            for rule in side.rules() {
-                self.rule_range(&format!("boundary.{name}"), rule);
-            }
+        // numbers that are not finite become null, and others have told them
+        let values = serde_json::to_value(scene).unwrap_or_default();
+        for section in ["domain", "gravity", "gas", "boundary", "bodies", "time"] {
+            self.seen_below(section, section, &values[section]);
         }
         for (name, material) in &scene.materials {
             self.material_range(name, material);
         }
-        for (index, body) in scene.bodies.iter().enumerate() {
-            self.seen(&format!("bodies[{index}].density"), scene.density_of(body).as_slice(), LEAST, MOST);
-            self.seen(&format!("bodies[{index}].velocity"), &body.velocity, LEAST_PLAIN, MOST);
-            self.seen(&format!("bodies[{index}].spin"), &body.spin, LEAST_PLAIN, MOST);
+    }
+
+    /// Numbers of the keys that kernels see; amplitudes of waves, and sizes of shapes, may be as small as they like.
+    fn seen_below(&mut self, path: &str, key: &str, value: &Value) {
+        match value {
+            Value::Object(values) => {
+                for (key, value) in values.iter().filter(|(key, _)| !["waves", "shape"].contains(&key.as_str())) {
+                    self.seen_below(&format!("{path}.{key}"), key, value);
+                }
+            }
+            Value::Array(entries) if entries.iter().any(Value::is_object) => {
+                let each = entries.iter().enumerate();
+                each.for_each(|(index, entry)| self.seen_below(&format!("{path}[{index}]"), key, entry));
+            }
+            value => {
+                let numbers: Vec<f64> = match value {
+                    Value::Array(entries) => entries.iter().filter_map(Value::as_f64).collect(),
+                    single => single.as_f64().into_iter().collect(),
+                };
+                let bounds = SEEN.iter().find(|(keys, _)| keys.contains(&key));
+                bounds.into_iter().for_each(|(_, [least, most])| self.seen(path, &numbers, *least, *most));
+            }
         }
-        let time = &scene.time;
-        self.seen("time.until", &[time.until], LEAST_PLAIN, MOST);
-        self.seen("time.fixed_step", time.fixed_step.as_slice(), LEAST_PLAIN, MOST);
-        self.seen("time.max_courant", &[time.max_courant], LEAST, MOST);
-        self.seen("time.max_growth", &[time.max_growth], 1.0, MOST);
     }
 
     /// Numbers that are 0, or lie in a range.
@@ -88,44 +104,6 @@ impl Check<'_> {
                 message,
                 format!("give cells of edge {} to {} m; use other units", plain(least), plain(most)),
             );
-        }
-        self.seen("domain.origin", &domain.origin, LEAST_PLAIN, MOST);
-    }
-
-    fn state_range(&mut self, path: &str, state: &GasState) {
-        self.seen(&format!("{path}.density"), &[state.density], LEAST, MOST);
-        self.seen(&format!("{path}.pressure"), &[state.pressure], LEAST, MOST);
-        self.seen(&format!("{path}.velocity"), &state.velocity, LEAST_PLAIN, MOST);
-    }
-
-    fn rule_range(&mut self, path: &str, rule: &Boundary) {
-        match rule {
-            Boundary::Inlet(state) | Boundary::FarField(state) => self.state_range(path, state),
-            Boundary::SubsonicInlet(inflow) => {
-                self.seen(&format!("{path}.density"), &[inflow.density], LEAST, MOST);
-                self.seen(&format!("{path}.velocity"), &inflow.velocity, LEAST_PLAIN, MOST);
-            }
-            Boundary::TotalInlet(total) => {
-                self.seen(&format!("{path}.density"), &[total.density], LEAST, MOST);
-                self.seen(&format!("{path}.pressure"), &[total.pressure], LEAST, MOST);
-            }
-            Boundary::TimedInlet(inlet) => {
-                for (number, at) in inlet.table.iter().enumerate() {
-                    let path = format!("{path}.timed_inlet.table[{number}]");
-                    self.seen(&format!("{path}.time"), &[at.time], LEAST_PLAIN, MOST);
-                    self.seen(&format!("{path}.density"), &[at.density], LEAST, MOST);
-                    self.seen(&format!("{path}.pressure"), &[at.pressure], LEAST, MOST);
-                    self.seen(&format!("{path}.velocity"), &at.velocity, LEAST_PLAIN, MOST);
-                }
-            }
-            Boundary::PressureOutlet(outlet) => {
-                self.seen(&format!("{path}.pressure"), &[outlet.pressure], LEAST, MOST);
-            }
-            Boundary::AttenuatedOutlet(outlet) => {
-                let (density, velocity, pressure) = (outlet.density, outlet.velocity, outlet.pressure);
-                self.state_range(path, &GasState { density, velocity, pressure, mass_fraction: 0.0 });
-            }
-            Boundary::Wall | Boundary::Outlet | Boundary::Periodic | Boundary::Patched(_) => {}
         }
     }
 

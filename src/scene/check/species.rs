@@ -6,39 +6,20 @@ use crate::scene::check::Check;
 use crate::spelling::did_you_mean;
 
 impl Check<'_> {
-    /// Of the second gas, in what a key holds.
-    pub(crate) fn mass_fraction(&mut self, path: &str, share: f64) {
-        let key = format!("{path}.mass_fraction");
-        if !(0.0..=1.0).contains(&share) {
-            self.out_of_range(key, share, "give a share from 0 to 1");
-        } else if share > 0.0 && self.scene.gas.species.is_empty() {
-            self.add(
-                key,
-                "there is no second gas",
-                "add a table such as [gas.species.helium] with gamma and gas_constant",
-            );
-        }
-    }
-
     pub(crate) fn species(&mut self) {
-        let species = &self.scene.gas.species;
-        for (index, (name, own)) in species.iter().enumerate() {
+        for (index, (name, own)) in self.scene.gas.species.iter().enumerate() {
             let path = format!("gas.species.{name}");
             if index > 0 {
                 self.add(&path, "there is a second gas already", "leave one: a scene has two gases at most");
             }
             self.species_law(&path, own);
-            self.positive(format!("{path}.gas_constant"), own.gas_constant, "[J kg^-1 K^-1]");
         }
     }
 
     /// Either an ideal gas or the products of an explosive.
     fn species_law(&mut self, path: &str, own: &Species) {
         match (own.gamma, &own.explosive) {
-            (Some(gamma), None) if gamma > 1.0 && gamma.is_finite() => {}
-            (Some(gamma), None) => {
-                self.out_of_range(format!("{path}.gamma"), gamma, "give a number above 1; helium has 1.667");
-            }
+            (Some(_), None) => {}
             (None, Some(name)) => self.known_explosive(format!("{path}.explosive"), name),
             (Some(_), Some(_)) => {
                 let help = "leave one of them out: products have the ratio that follows from their explosive";

@@ -163,13 +163,16 @@ fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
 pub(crate) fn add_keys(schema: &mut Value) {
     for name in ["GasState", "Region"] {
         let state = &mut schema["$defs"][name];
-        state["properties"]["temperature"] = json!({ "type": "number", "format": "double", "description": "Temperature of air `[K]`, in place of density or pressure." });
+        state["properties"]["temperature"] = json!({
+            "type": "number", "format": "double", "exclusiveMinimum": 0,
+            "description": "Temperature `[K]`, of which p = 287.053 rho T as in air; in place of density or pressure."
+        });
         state["properties"]["air"] = json!({
             "type": "object",
-            "description": "The standard atmosphere, in place of density and pressure.",
+            "description": "The standard atmosphere at an `altitude` from -5000 to 11000 `[m]`, in place of density and pressure.",
             "additionalProperties": false,
             "properties": {
-                "altitude": { "type": "number", "format": "double", "default": 0.0, "description": "Height above sea level `[m]`, -5000 to 11000." }
+                "altitude": { "type": "number", "format": "double", "default": 0.0, "minimum": LAYER[0], "maximum": LAYER[1], "description": "Height above sea level `[m]`." }
             }
         });
         if let Some(required) = state["required"].as_array_mut() {

@@ -8,6 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use crate::material::{PRESETS, Units};
+use crate::math::greatest_divisor;
 use crate::scene::check;
 use crate::scene::check::budget;
 use crate::scene::file::gas_state;
@@ -141,10 +142,6 @@ fn unreadable(path: &Path, source: io::Error) -> Error {
         }
         _ => Error::io(path, source),
     }
-}
-
-fn greatest_divisor(a: u32, b: u32) -> u32 {
-    if b == 0 { a } else { greatest_divisor(b, a % b) }
 }
 
 fn least_multiple(a: u32, b: u32) -> u32 {

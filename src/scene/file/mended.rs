@@ -7,8 +7,8 @@ use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::scene::check::limits::{meant, schema};
 use crate::scene::finding::{About, Finding};
+use crate::scene::schema::{choices, meant, schema};
 
 /// Values inside each other that stand for one that is missing.
 const DEEPEST: u32 = 16;
@@ -109,13 +109,6 @@ fn descend<'v, 'a>(
 fn property<'s>(schema: &'s Value, key: &str) -> &'s Value {
     let known = choices(schema).find_map(|choice| choice["properties"].get(key));
     known.unwrap_or_else(|| &meant(schema)["additionalProperties"])
-}
-
-/// What a schema lets one choose from: itself where there is no choice.
-fn choices(schema: &Value) -> impl Iterator<Item = &Value> {
-    let schema = meant(schema);
-    let several = ["oneOf", "anyOf"].iter().find_map(|key| schema[key].as_array());
-    several.map_or(std::slice::from_ref(schema), Vec::as_slice).iter().map(meant)
 }
 
 /// Any value that a schema allows.

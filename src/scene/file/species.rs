@@ -80,7 +80,6 @@ impl Walk<'_> {
 /// Adds the key to the schema that editors use.
 pub(crate) fn add_keys(schema: &mut Value) {
     for name in ["GasState", "Region", "Inflow", "Reservoir", "TimedInlet", "AttenuatedOutlet"] {
-        schema["$defs"][name]["properties"][KEY] =
-            json!({ "type": "string", "description": "Name of the second gas, in place of `mass_fraction = 1`." });
+        schema["$defs"][name]["properties"][KEY] = json!({ "type": "string", "description": "Name of the second gas, in place of `mass_fraction = 1`; the first gas when left out." });
     }
 }

@@ -7,10 +7,10 @@ use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::scene::check::limits;
 use crate::scene::file::mended::{self, Mended, words_of, wrong_type};
 use crate::scene::finding::Finding;
 use crate::scene::numerics::GONE;
+use crate::scene::schema::{meant, schema};
 use crate::spelling::{closest, did_you_mean};
 
 /// Reports words that the schema does not know, values of another type and keys that are missing. Unknown keys are taken out, or take the
@@ -18,7 +18,7 @@ use crate::spelling::{closest, did_you_mean};
 pub(crate) fn findings(root: &mut Spanned<DeTable<'_>>) -> (Vec<Finding>, Mended) {
     let mut words = Words { findings: Vec::new(), mended: Mended::default() };
     let place = root.span();
-    words.table("", root.get_mut(), limits::schema(), &place);
+    words.table("", root.get_mut(), schema(), &place);
     words.findings.sort_by_key(|finding| finding.span.as_ref().map(|place| place.start));
     (words.findings, words.mended)
 }
@@ -35,7 +35,7 @@ struct Words {
 
 impl Words {
     fn value(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &'static Value) {
-        let schema = limits::meant(schema);
+        let schema = meant(schema);
         if let Some(choices) = schema["oneOf"].as_array() {
             return self.choice(path, value, schema, choices);
         }
@@ -70,7 +70,7 @@ impl Words {
     /// One of several types of value; one that may be left out is what it is.
     fn any(&mut self, path: &str, value: &mut Spanned<DeValue<'_>>, schema: &'static Value, choices: &'static [Value]) {
         let own = || choices.iter().filter(|choice| choice["type"] != "null");
-        let misfit = |choice: &&Value| match limits::meant(choice) {
+        let misfit = |choice: &&Value| match meant(choice) {
             plain if plain["oneOf"].is_array() || plain["enum"].is_array() => {
                 !matches!(value.get_ref(), DeValue::String(_) | DeValue::Table(_))
             }
@@ -86,7 +86,7 @@ impl Words {
             }
             return;
         }
-        let kind = |choice| mended::kind_name(limits::meant(choice)["type"].as_str().unwrap_or("word"));
+        let kind = |choice| mended::kind_name(meant(choice)["type"].as_str().unwrap_or("word"));
         let wanted: Vec<&str> = own().map(kind).collect();
         let message = format!("invalid type: {}, expected {}", value.get_ref().type_str(), wanted.join(" or "));
         self.add(path, Some(value.span()), message, "see docs/scenes for this key");
@@ -124,7 +124,7 @@ impl Words {
             self.add(&below(&key), Some(place.clone()), message, &there_are(names()));
             let value = table.remove(key.as_str());
             let Some(mut value) = value else { continue };
-            let fits = |name: &&str| wrong_type(limits::meant(&known[*name]), value.get_ref()).is_none();
+            let fits = |name: &&str| wrong_type(meant(&known[*name]), value.get_ref()).is_none();
             let meant = self.closest(&key, names().filter(|name| !table.contains_key(*name))).into_iter().find(fits);
             if let Some(meant) = meant {
                 missing.retain(|own| *own != meant);
@@ -168,7 +168,7 @@ impl Words {
                     self.stand_in(path, value, schema);
                 }
             }
-            other if choices.iter().any(|choice| wrong_type(limits::meant(choice), other).is_none()) => {}
+            other if choices.iter().any(|choice| wrong_type(meant(choice), other).is_none()) => {}
             other => {
                 let names = || choices.iter().flat_map(|choice| words_of(choice).into_iter().chain(keys_of(choice)));
                 let or_table =
@@ -246,7 +246,7 @@ fn elsewhere(known: &serde_json::Map<String, Value>, path: &str, key: &str) -> O
     if let Some((_, help)) = GONE.iter().find(|(own, _)| own.strip_prefix(path) == Some(key)) {
         return Some((format!("unknown field `{key}`"), (*help).to_owned()));
     }
-    let (table, _) = known.iter().find(|(_, schema)| limits::meant(schema)["properties"].get(key).is_some())?;
+    let (table, _) = known.iter().find(|(_, schema)| meant(schema)["properties"].get(key).is_some())?;
     let message = format!("unknown field `{key}`; it is a key of `{path}{table}`");
     Some((message, format!("write {path}{table}.{key}, or the key below the header [{path}{table}]")))
 }

@@ -19,27 +19,26 @@ const MOST_FRAMES: f64 = 100_000.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CameraFile {
-    /// The file, from the folder of the scene.
+    /// The file, from the folder of the scene: `.glb` or `.gltf`.
     pub path: String,
-    /// The node of the camera; left out where the file has one camera.
+    /// Name of the node whose camera; may be left out where the file has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
-    /// Frames of a second of the file: frame 0 is its first key, frame n comes n / fps seconds later.
+    /// Frame 0 shows the first key of the file's animation, frame n what comes n / fps seconds later.
     #[serde(default = "default_fps")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub fps: f64,
-    /// Ratio of lengths, positive; 1 when left out.
+    /// Ratio of lengths.
     #[serde(default = "one")]
     pub scale: f64,
-    /// Direction of the axis it is turned about, of any length; z when left out.
-    #[serde(default = "shape::along_z", deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    /// Axis that it is turned about.
+    #[serde(default = "shape::along_z", with = "vector::Point")]
     pub axis: [f64; 3],
-    /// Angle `[degrees]`, by the right-hand rule; 0 when left out.
+    /// Angle, by the right-hand rule `[degrees]`.
     #[serde(default)]
     pub degrees: f64,
     /// Where the file's origin comes to lie `[m]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub offset: [f64; 3],
 }
 

@@ -35,29 +35,27 @@ const MAX_TRIANGLES: usize = 4_000_000;
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// The file, from the folder of the scene: `.obj`, `.stl`, `.ply`, `.gltf` or `.glb`.
+    /// The file.
     pub path: String,
-    /// Ratio of lengths, positive; 1 when left out.
+    /// Ratio of lengths.
     #[serde(default = "one")]
     pub scale: f64,
-    /// Direction of the axis it is turned about, of any length; z when left out.
-    #[serde(default = "shape::along_z", deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    /// Axis that it is turned about.
+    #[serde(default = "shape::along_z", with = "vector::Point")]
     pub axis: [f64; 3],
-    /// Angle `[degrees]`, by the right-hand rule; 0 when left out.
+    /// Angle, by the right-hand rule `[degrees]`.
     #[serde(default)]
     pub degrees: f64,
     /// Where its origin comes to lie `[m]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub offset: [f64; 3],
-    /// Direction that is up in the file. In `.gltf` and `.glb` that is y, as their standard says; other files are taken as they are.
+    /// Direction that is up in the file; y in glTF, and others are taken as they are, when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub up: Option<Up>,
-    /// Only this node of a `.gltf` or `.glb`, with those below it.
+    /// Only this node of a glTF.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
-    /// Accept a surface that is open or crosses itself: inside is where the winding number is above 1/2.
+    /// Take a surface that is open or crosses itself.
     #[serde(default)]
     pub repair: bool,
     /// The surface, once the scene that names it has been read; nothing before.

@@ -25,19 +25,17 @@ const MOST_NAMES: usize = 40;
 pub struct Named {
     /// An entry of the scene's `shapes`, or a model that the program carries.
     pub name: String,
-    /// Ratio of lengths, positive; 1 when left out.
+    /// Ratio of lengths.
     #[serde(default = "one")]
     pub scale: f64,
-    /// Direction of the axis it is turned about, of any length; z when left out.
-    #[serde(default = "shape::along_z", deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    /// Axis that it is turned about.
+    #[serde(default = "shape::along_z", with = "vector::Point")]
     pub axis: [f64; 3],
-    /// Angle `[degrees]`, by the right-hand rule; 0 when left out.
+    /// Angle, by the right-hand rule `[degrees]`.
     #[serde(default)]
     pub degrees: f64,
     /// Where its origin comes to lie `[m]`.
-    #[serde(default, deserialize_with = "vector::point")]
-    #[schemars(with = "Vec<f64>")]
+    #[serde(default, with = "vector::Point")]
     pub offset: [f64; 3],
     /// The shape, once the scene that names it has been read; nothing before.
     #[serde(skip)]

@@ -1,17 +1,9 @@
 //! Every kind of mistake is reported with its line, its key and what is allowed.
 
-use super::{BASE, parse, report};
+use super::{BASE, expect, parse, report};
 use crate::scene::file::load::read;
 use crate::scene::file::source::Source;
 use crate::scene::{Changes, Scene};
-
-/// The report must hold every one of the words.
-fn expect(text: &str, overrides: &[&str], words: &[&str]) {
-    let report = report(text, overrides);
-    for word in words {
-        assert!(report.contains(word), "no `{word}` in\n{report}");
-    }
-}
 
 fn with(extra: &str) -> String {
     format!("{BASE}{extra}")
@@ -121,7 +113,11 @@ fn domains() {
     expect(&BASE.replace("[20, 10]", "[20, 20]"), &[], &["domain.cells", "cubes", "cells = [20, 10]"]);
     expect(&BASE.replace("[20, 10]", "[20]"), &[], &["domain.cells", "1 entries", "give 2 numbers"]);
     expect(&BASE.replace("[2.0, 1.0]", "[2.0, -1.0]"), &[], &["domain.size", "axis y"]);
-    expect(&BASE.replace("dimension = 2", "dimension = 4"), &[], &["test.toml:4:13", "domain.dimension", "1, 2 or 3"]);
+    expect(
+        &BASE.replace("dimension = 2", "dimension = 4"),
+        &[],
+        &["test.toml:4:13", "domain.dimension", "from 1 to 3"],
+    );
     expect(&BASE.replace("[20, 10]", "[200000, 100000]"), &[], &["domain.cells", "at most"]);
 }
 
@@ -140,7 +136,11 @@ fn bodies() {
     expect(&beyond, &[], &["bodies[0].shape", "reaches out of the domain"]);
     let tiny = body("sphere = { center = [0.5, 0.5], radius = 0.001 }");
     expect(&tiny, &[], &["bodies[0].shape", "holds no particle"]);
-    expect(&format!("{sphere}particles_per_cell = 0\n"), &[], &["particles_per_cell", "1 to 8"]);
+    expect(
+        &format!("{sphere}particles_per_cell = 0\n"),
+        &[],
+        &["bodies[0].particles_per_cell", "give a whole number from 1 to 8"],
+    );
     expect(&format!("{sphere}velocity = [0.0, 0.0, 1.0]\n"), &[], &["bodies[0].velocity", "active axes"]);
     let twice = format!("{sphere}{}", sphere.strip_prefix(BASE).expect("it starts with the base"));
     expect(&twice, &[], &["bodies[1].name", "`b` is taken"]);
@@ -319,7 +319,7 @@ fn every_mistake_is_told_at_once() {
         "bodies[1].densty: unknown field",
         "bodies[1].shape.sphere.radius: -0.1",
         "render.mode: invalid type: integer",
-        "render.size: 0",
+        "render.size[0]: 0",
     ];
     let told = report(&format!("{text}{more}"), &[]);
     for words in wanted {

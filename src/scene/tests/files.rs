@@ -1,13 +1,11 @@
-//! The shipped scenes load, and every key is documented.
+//! The shipped scenes load.
 
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use serde_json::Value;
 
 use super::{BASE, parse};
-use crate::scene::check::limits::allowed;
-use crate::scene::{Boundary, Changes, SMALL, Scene, schema};
+use crate::scene::{Boundary, Changes, SMALL, Scene};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -108,75 +106,6 @@ fn defaults_depend_on_the_dimension() {
     assert_eq!(parse(&format!("{line}{body}"), &[]).bodies[0].particles_per_cell, Some(4));
     let plane = body.replace("[0.5]", "[0.5, 0.5]");
     assert_eq!(parse(&format!("{BASE}{plane}"), &[]).bodies[0].particles_per_cell, Some(2));
-}
-
-/// Collects the names of properties and the values of enumerations.
-fn keys(schema: &Value, found: &mut Vec<String>) {
-    match schema {
-        Value::Object(entries) => {
-            for (name, value) in entries {
-                match (name.as_str(), value) {
-                    ("properties", Value::Object(properties)) => found.extend(properties.keys().cloned()),
-                    ("const", Value::String(text)) => found.push(text.clone()),
-                    ("enum", Value::Array(texts)) => {
-                        found.extend(texts.iter().filter_map(|text| text.as_str().map(str::to_owned)));
-                    }
-                    _ => {}
-                }
-                keys(value, found);
-            }
-        }
-        Value::Array(entries) => entries.iter().for_each(|entry| keys(entry, found)),
-        _ => {}
-    }
-}
-
-#[test]
-fn every_key_is_documented() {
-    let pages = std::fs::read_dir(root().join("docs/scenes")).expect("docs/scenes exists");
-    let text: String =
-        pages.map(|page| std::fs::read_to_string(page.expect("listed").path()).expect("a page")).collect();
-    let schema = serde_json::from_str(&schema()).expect("the schema is JSON");
-    let mut found = Vec::new();
-    keys(&schema, &mut found);
-    assert!(found.len() > 120, "{}", found.len());
-    for key in ["smooth_union", "von_mises", "yield_stress", "b2b1", "outlet", "tolerance"] {
-        assert!(found.iter().any(|other| other == key), "the schema lost {key}");
-    }
-    let written =
-        std::fs::read_to_string(root().join("docs/scene.schema.json")).expect("docs/scene.schema.json exists");
-    assert_eq!(
-        written.trim_end(),
-        crate::scene::schema().trim_end(),
-        "write it again: brisance schema > docs/scene.schema.json"
-    );
-    let missing = found.iter().filter(|key| !text.contains(&format!("`{key}`"))).collect::<Vec<_>>();
-    assert!(missing.is_empty(), "docs/scenes does not mention {missing:?}");
-}
-
-/// Defaults and limits stand in the types; rows of the page about time and numerics say the same.
-#[test]
-fn the_page_of_numerics_has_the_defaults_and_limits_of_the_types() {
-    let page = std::fs::read_to_string(root().join("docs/scenes/numerics.md")).expect("a page");
-    let schema = crate::scene::check::limits::schema();
-    for (heading, table) in
-        [("time", "Time"), ("numerics", "Numerics"), ("numerics.paper", "Paper"), ("numerics.expert", "Expert")]
-    {
-        let (_, part) = page.split_once(&format!("\n## `{heading}`\n")).unwrap_or_else(|| panic!("no {heading}"));
-        let part = part.split("\n## ").next().unwrap_or_default();
-        for (key, own) in schema["$defs"][table]["properties"].as_object().expect("a table") {
-            let row = part.lines().find_map(|line| line.strip_prefix(&format!("| `{key}` | ")));
-            let cells: Vec<&str> = row.unwrap_or_else(|| panic!("no row of {heading}.{key}")).split(" | ").collect();
-            if let Some(limits) = allowed(own) {
-                assert_eq!(cells[1], limits, "{heading}.{key}");
-            }
-            match &own["default"] {
-                Value::String(word) => assert_eq!(cells[0], format!("`{word}`"), "{heading}.{key}"),
-                Value::Number(number) => assert_eq!(cells[0].parse().ok(), number.as_f64(), "{heading}.{key}"),
-                _ => assert!(["none", "required", "|"].contains(&cells[0]), "{heading}.{key}: {}", cells[0]),
-            }
-        }
-    }
 }
 
 #[test]

@@ -2,15 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::{BASE, owned, parse, report};
+use super::{BASE, expect, owned, parse, report};
 use crate::scene::Scene;
-
-fn expect(text: &str, overrides: &[&str], words: &[&str]) {
-    let report = report(text, overrides);
-    for word in words {
-        assert!(report.contains(word), "no `{word}` in\n{report}");
-    }
-}
 
 fn body(shape: &str) -> String {
     format!("{BASE}[[bodies]]\nname = \"b\"\nmaterial = \"rubber\"\ndensity = 1.0\nshape = {shape}\n")

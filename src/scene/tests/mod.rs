@@ -42,6 +42,14 @@ fn report(text: &str, overrides: &[&str]) -> String {
     }
 }
 
+/// The report must hold every one of the words.
+fn expect(text: &str, overrides: &[&str], words: &[&str]) {
+    let report = report(text, overrides);
+    for word in words {
+        assert!(report.contains(word), "no `{word}` in\n{report}");
+    }
+}
+
 fn owned(overrides: &[&str]) -> Vec<String> {
     overrides.iter().map(|text| (*text).to_owned()).collect()
 }
