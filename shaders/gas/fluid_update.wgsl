@@ -107,6 +107,7 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
         conserved[slot] *= left;
         energy[slot] *= left;
         if SPECIES { energy[part(SPECIES_DENSITY, slot)] *= left; }
+        if PRODUCTS { energy[part(UNBURNED, slot)] *= left; }
     }
     if any(impulse != vec3f(0.0)) {
         conserved[slot] += vec4f(0.0, impulse * control.dt / params.spacing);

@@ -103,7 +103,7 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     let c = cell_of(slot);
     let sum = fill_from_neighbours(c);
     let count = max(sum.count, 1.0);
-    var filled = gas_of_sums(sum.flow / count, sum.energy / count, sum.species / count, 0.0);
+    var filled = gas_of_sums(sum.flow / count, sum.energy / count, sum.species / count, gas_at(slot));
     if sum.count == 0.0 { filled = trapped_gas(c, slot); }
     owed_flow[slot] += (conserved[slot] - filled.flow) * cell_volume();
     owed_energy[slot] += (energy[slot] - filled.energy) * cell_volume();
@@ -126,7 +126,7 @@ fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
 // Gas with a part of what is owed.
 fn with_part(gas: Gas, slot: u32, part: f32) -> Gas {
     let each = part / cell_volume();
-    return gas_of_sums(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot], summed_species(gas) + each * owed_species(slot), gas.unburned);
+    return gas_of_sums(gas.flow + each * owed_flow[slot], gas.energy + each * owed_energy[slot], summed_species(gas) + each * owed_species(slot), gas);
 }
 
 fn at_surface(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && neighbours_of_kind(cell_of(slot), GAS) > 0u; }

@@ -16,8 +16,12 @@ fn owe_species(slot: u32, species: vec2f) {
     owed_energy[part(OWED_SPECIES_ENERGY, slot)] = species.y;
 }
 
+// Explosive that has not burned goes with the density of the second gas.
+fn unburned_with(unburned: f32, before: f32, density: f32) -> f32 { return unburned * clamp(density / max(before, 1e-30), 0.0, 1.0); }
+
 fn hold_species(slot: u32, species: vec2f) {
     if !SPECIES { return; }
+    if PRODUCTS { energy[part(UNBURNED, slot)] = unburned_with(energy[part(UNBURNED, slot)], energy[part(SPECIES_DENSITY, slot)], species.x); }
     energy[part(SPECIES_DENSITY, slot)] = species.x;
     energy[part(SPECIES_VOLUME, slot)] = species.y;
 }
@@ -28,12 +32,13 @@ fn summed_species(gas: Gas) -> vec2f {
     return vec2f(gas.species.x, energy_share_of(gas.species.y) * gas.energy);
 }
 
-// Gas of a density, momentum, energy and sums of the second gas, of which so much has not burned.
-fn gas_of_sums(flow: vec4f, total: f32, sums: vec2f, unburned: f32) -> Gas {
+// Gas of a density, momentum, energy and sums of the second gas, in the place of another.
+fn gas_of_sums(flow: vec4f, total: f32, sums: vec2f, before: Gas) -> Gas {
     if !SPECIES { return Gas(flow, total, vec2f(0.0), 0.0); }
     let share = clamp(sums.y / max(total, 1e-30), 0.0, 1.0);
     let volumes = vec2f(share * (params.species_gamma - 1.0), (1.0 - share) * (params.gamma - 1.0));
-    return Gas(flow, total, vec2f(sums.x, volumes.x / (volumes.x + volumes.y)), unburned);
+    return Gas(flow, total, vec2f(sums.x, volumes.x / (volumes.x + volumes.y)),
+        unburned_with(before.unburned, before.species.x, sums.x));
 }
 
 // Least p / rho^gamma that settling may leave.

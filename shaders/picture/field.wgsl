@@ -58,7 +58,7 @@ fn gamma(slot: u32) -> f32 {
 fn expansions(slot: u32) -> vec2f {
     let own = species_of(slot);
     let trace = 1e-6 * conserved[slot].x;
-    return view.products.zw / max((own.x + trace) / (own.y + 1e-6), trace);
+    return min(view.products.zw / clamp((own.x + trace) / (own.y + 1e-6), trace, view.densest), vec2f(80.0));
 }
 
 // Of an explosive: density of what has not burned, and volume fraction of what has.

@@ -59,6 +59,7 @@ struct View {
     arrows: vec2u,              // Velocity arrows along x and y
     products: vec4f,            // Products of an explosive: A and B [Pa], R1 and R2 times its density [kg m^-3]; 0 without
     chemical_energy: f32,       // Energy that the explosive holds [J kg^-1]
+    densest: f32,               // Density beyond which the law of its products does not hold [kg m^-3]
     background: array<vec4f, 2>, // Light behind everything in 3D, at the top and the bottom of the picture
     slices: array<vec4f, 4>,    // Slices: the points x with dot(xyz, x) = w
     contours: array<vec4f, 8>,  // Values of the contour lines, as fractions of the range

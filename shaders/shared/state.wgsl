@@ -6,7 +6,6 @@
 // -- Switches and parameters --
 
 // Pipeline overrides: a switched-off branch costs nothing.
-
 override DIM: u32;
 override SOLIDS: bool;          // the scene has bodies
 override QUADRATIC: bool;       // gas element pair B2B1 (true) or B1B0 (false)
@@ -70,6 +69,7 @@ struct Params {
     ambient_volume: f32,        // Its volume fraction there [1]
     chemical_energy: f32,       // Energy that the explosive holds [J kg^-1]
     burn_rate: f32,             // Share of it that burns per time where a detonation passes [s^-1]
+    densest: f32,               // Density beyond which the law of its products does not hold [kg m^-3]
     products: vec4f,            // A and B [Pa], R1 and R2 times the density of the explosive [kg m^-3]
     scan: array<vec4u, SCAN_DISPATCHES>, // Groups of each dispatch of a prefix sum over all slots and one more
 }
@@ -272,9 +272,9 @@ fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32, species: vec
 // UCRL-52997] What has not burned still holds its chemical energy, and has the pressure of a heavy ideal gas.
 
 const TRACE = 1e-6; // share of the density that a gas of no volume has in it
-// x of both terms, at most what exp() takes.
 fn expansions_of(gas: Gas) -> vec2f {
-    return min(params.products.zw * (max(gas.species.y, 0.0) + TRACE) / (max(gas.species.x, 0.0) + TRACE * gas.flow.x), vec2f(80.0));
+    let density = (max(gas.species.x, 0.0) + TRACE * gas.flow.x) / (max(gas.species.y, 0.0) + TRACE);
+    return min(params.products.zw / min(density, params.densest), vec2f(80.0));
 }
 fn chemical_energy_of(gas: Gas) -> f32 { return select(0.0, params.chemical_energy * gas.unburned, PRODUCTS); }
 // Volume fraction of what has burned.

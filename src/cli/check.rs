@@ -12,7 +12,9 @@ use crate::export::png;
 use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::render::Renderer;
-use crate::scene::{Breaking, ChargeEstimate, Estimate, Overlap, PlaceEstimate, Scene, ThinBody, ThinObstacle};
+use crate::scene::{
+    Breaking, ChargeEstimate, Estimate, GridCharge, Overlap, PlaceEstimate, Scene, ThinBody, ThinObstacle,
+};
 use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -38,9 +40,9 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
     let breaking = scene.breaking();
-    let (lost, charges) = (scene.thin_obstacles(), scene.charge_estimates());
+    let (lost, charges, on_grid) = (scene.thin_obstacles(), scene.charge_estimates(), scene.charges_on_grid());
     let texts = estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning));
-    for warning in texts.chain(lost.iter().map(lost_text)) {
+    for warning in texts.chain(lost.iter().map(lost_text)).chain(on_grid.iter().filter_map(GridCharge::warning)) {
         tell!("warning: {warning}");
     }
     let duration = Duration::of(&scene, &plan, &estimate, cli);
@@ -53,7 +55,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "thin_obstacles": lost, "breaking": breaking, "charges": charges,
+            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "thin_obstacles": lost, "breaking": breaking, "charges": charges, "charges_on_grid": on_grid,
             "scene": scene });
         say!("{object}");
         return Ok(());
@@ -66,6 +68,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     say!("# cells      {cells} = {} of edge {} m", plan.cells, plain(domain.spacing()));
     say!("# particles  {}", plan.particles);
     say_things(&overlaps, &thin, &breaking, &charges);
+    on_grid.iter().for_each(say_charge_on_grid);
     if !scene.variants.is_empty() {
         say!("# variants   {}", scene.variants.keys().cloned().collect::<Vec<_>>().join(", "));
     }
@@ -95,6 +98,15 @@ fn say_things(overlaps: &[Overlap], thin: &[ThinBody], breaking: &[Breaking], ch
         say!("# breaks     {}", breaking_text(body));
     }
     charges.iter().for_each(say_charge);
+}
+
+/// A charge that stands on the grid, for people.
+fn say_charge_on_grid(charge: &GridCharge) {
+    let GridCharge { charge, explosive, mass, cells_across, burned_after } = charge;
+    let (mass, end) = (plain(*mass), plain(1e3 * burned_after));
+    say!(
+        "# charge     `{charge}`: {mass} kg of {explosive} on the grid, {cells_across:.1} cells across, burned after {end} ms"
+    );
 }
 
 /// A charge and what it does by the curves of Kingery and Bulmash, for people.

@@ -29,6 +29,9 @@ pub struct Explosive {
     pub tnt_equivalent: f64,
 }
 
+/// The law of products does not hold beyond so many times the density of the explosive: its part without temperature turns negative.
+pub const DENSEST: f64 = 3.0;
+
 impl Explosive {
     /// Energy of detonation \[J kg^-1\].
     pub fn specific_energy(&self) -> f64 {

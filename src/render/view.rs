@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3, Vec4};
 use super::camera::{Eye, middle_of};
 use super::kernels::LIGHT_CELLS;
 use super::paper::Paper;
+use crate::explosive::DENSEST;
 use crate::scene::{RenderSettings, Scene};
 use crate::state::Grid;
 use crate::structure::structure;
@@ -144,8 +145,10 @@ structure! {
         products: vec4f,
         /// Energy that the explosive holds \[J kg^-1\].
         chemical_energy: f32,
+        /// Density beyond which the law of its products does not hold \[kg m^-3\].
+        densest: f32,
         /// Fills the space before vectors.
-        unused: vec3f,
+        unused: vec2u,
         /// Light behind everything in 3D, at the top and the bottom of the picture.
         background: [vec4f; 2],
         /// Slices: the points x with dot(xyz, x) = w.
@@ -192,6 +195,7 @@ impl View {
             species_gamma: scene.gas.equation_of_state().species.map_or(0.0, |species| species.gamma as f32),
             products: products.map_or([0.0; 4], |own| own.products.rates(own.density).map(|term| term as f32)),
             chemical_energy: products.map_or(0.0, |own| own.specific_energy() as f32),
+            densest: products.map_or(0.0, |own| (DENSEST * own.density) as f32),
             species_constant: scene.gas.equation_of_state().constant_ratio(1.0) as f32,
             background: Paper::sky(look).map(|[red, green, blue]| [red, green, blue, 1.0]),
             ..Self::zeroed()

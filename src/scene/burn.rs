@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::geometry::fill::lattice;
 use super::{Charge, Conserved, Domain, GasState, Scene, Shape};
@@ -48,6 +49,38 @@ impl Domain {
     }
 }
 
+/// What is to be known of a charge that stands on the grid.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GridCharge {
+    /// Its name.
+    pub charge: String,
+    /// What it is made of.
+    pub explosive: String,
+    /// As the cells hold it \[kg\]; in 2D per metre, in 1D per square metre.
+    pub mass: f64,
+    /// Of the thickest place.
+    pub cells_across: f64,
+    /// When the detonation has reached all of it \[s\].
+    pub burned_after: f64,
+}
+
+/// Fewer cells across show no detonation: it is three cells wide itself.
+const FEWEST_ACROSS: f64 = 6.0;
+
+impl GridCharge {
+    /// What is wrong with it.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        let Self { charge, cells_across, .. } = self;
+        (*cells_across < FEWEST_ACROSS).then(|| {
+            format!(
+                "charge `{charge}` is {cells_across:.1} cells across, and a detonation three: use smaller cells, at least {FEWEST_ACROSS} \
+                 across, or mass and center in place of the shape"
+            )
+        })
+    }
+}
+
 impl Charge {
     /// The charge as one that stands on the grid, if it has a shape and a known explosive.
     pub(crate) fn shaped(&self) -> Option<Shaped<'_>> {
@@ -65,19 +98,25 @@ impl Charge {
 }
 
 impl Scene {
-    /// Mass of explosive that stands on the grid \[kg\], as the cells hold it.
+    /// Charges that stand on the grid.
     #[must_use]
-    pub fn mass_on_grid(&self) -> f64 {
-        if self.charges.iter().all(|charge| charge.shape.is_none()) {
-            return 0.0;
-        }
-        let explosive = |state: &Conserved| state[5] * self.domain.cell_volume();
-        let share = |(cell, state): (usize, &Conserved)| if self.is_explosive(cell) { explosive(state) } else { 0.0 };
-        self.initial_gas().iter().enumerate().map(share).sum()
-    }
-
-    fn is_explosive(&self, cell: usize) -> bool {
-        self.charges.iter().filter_map(Charge::shaped).any(|shaped| self.touches(&shaped, cell))
+    pub fn charges_on_grid(&self) -> Vec<GridCharge> {
+        let shaped: Vec<_> = self.charges.iter().filter_map(Charge::shaped).collect();
+        let gas = if shaped.is_empty() { Vec::new() } else { self.initial_gas() };
+        let of = |own: &Shaped<'_>| {
+            let cells: Vec<usize> = (0..gas.len()).into_par_iter().filter(|cell| self.touches(own, *cell)).collect();
+            let depth = |cell: &usize| -own.shape.distance(self.domain.cell_center(self.domain.cell_at(*cell)));
+            let times = self.burn_of(own);
+            let end = |cell: &usize| times[*cell].filter(|time| time.is_finite());
+            GridCharge {
+                charge: own.charge.name.clone(),
+                explosive: own.explosive.name.to_owned(),
+                mass: self.domain.cell_volume() * cells.iter().map(|cell| gas[*cell][5]).sum::<f64>(),
+                cells_across: 2.0 * cells.iter().map(depth).fold(0.0, f64::max) / self.domain.spacing(),
+                burned_after: cells.iter().filter_map(end).fold(0.0, f64::max),
+            }
+        };
+        shaped.iter().map(of).collect()
     }
 
     /// What a charge is before it burns, at a point: at rest, with the pressure of the gas around it.

@@ -60,6 +60,7 @@ pub use boundary::{
     TimedState,
 };
 pub use build::SceneBuilder;
+pub use burn::GridCharge;
 pub(crate) use burn::{BURN_WIDTH, NEVER};
 pub use camera::{Camera, CameraKey, CameraPath};
 pub use charge::{Charge, Placed};

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Gas, GasState};
-use crate::explosive::{Explosive, explosive};
+use crate::explosive::{DENSEST, Explosive, explosive};
 
 /// Gas constant of dry air \[J kg^-1 K^-1\]. [U.S. Standard Atmosphere, 1976]
 pub(super) const AIR_CONSTANT: f64 = 287.053;
@@ -153,7 +153,7 @@ impl EquationOfState {
 /// Volume of products over that of the explosive.
 fn expansion(own: &Explosive, [density, _, _, _, _, part, phi]: Conserved) -> f64 {
     let trace = TRACE * density;
-    own.density / ((part + trace) / (phi + TRACE)).max(trace)
+    (own.density / ((part + trace) / (phi + TRACE)).max(trace)).max(1.0 / DENSEST)
 }
 
 impl Gas {

@@ -5,6 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::constants::SCAN_DISPATCHES;
 use super::gas::ring_ledger;
 use super::{Grid, constants, surface};
+use crate::explosive::DENSEST;
 use crate::gpu::WORKGROUP;
 use crate::numerics::Scan;
 use crate::scene::{BURN_WIDTH, Boundary, Ghost, Integrator, InterfacePressure, Pair, Scene};
@@ -93,8 +94,8 @@ structure! {
         chemical_energy: f32,
         /// Share of it that burns per time where a detonation passes \[s^-1\].
         burn_rate: f32,
-        /// Fills the space before vectors.
-        unused: u32,
+        /// Density beyond which the law of its products does not hold \[kg m^-3\].
+        densest: f32,
         /// A and B \[Pa\], R1 and R2 times the density of the explosive \[kg m^-3\].
         products: vec4f,
         /// Groups of each dispatch of a prefix sum over all slots and one more.
@@ -212,7 +213,7 @@ impl Params {
             ambient_volume: gases.volume_fraction(ambient.mass_fraction) as f32,
             chemical_energy: burn.energy as f32,
             burn_rate: burn.rate as f32,
-            unused: 0,
+            densest: burn.densest as f32,
             products: burn.terms.map(|term| term as f32),
             scan: [[0; 4]; SCAN_DISPATCHES],
         };
@@ -225,11 +226,12 @@ impl Params {
     }
 }
 
-/// Numbers of an explosive: energy \[J kg^-1\], share that burns per time \[s^-1\], and A, B, R1 and R2 as the shaders have them.
+/// Numbers of an explosive: energy \[J kg^-1\], share that burns per time \[s^-1\], largest density \[kg m^-3\], and A, B, R1 and R2 as the shaders have them.
 #[derive(Debug, Default)]
 struct Burn {
     energy: f64,
     rate: f64,
+    densest: f64,
     terms: [f64; 4],
 }
 
@@ -239,6 +241,7 @@ impl Burn {
         Self {
             energy: own.specific_energy(),
             rate: own.detonation_speed / (BURN_WIDTH * scene.domain.spacing()),
+            densest: DENSEST * own.density,
             terms: own.products.rates(own.density),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::math::plain;
 
-use crate::scene::{Boundary, Elasticity, Gas, GasState, Scene, Wave};
+use crate::scene::{Boundary, Charge, Elasticity, Gas, GasState, Scene, Wave};
 
 /// Cells that an elastic wave may cross in an implicit step: the motion of a whole body is (c dt / dx)^2 times softer than that of
 /// neighbouring nodes against each other, and single precision must still tell it from rounding.
@@ -97,6 +97,8 @@ impl Scene {
                 see(state);
             }
         }
+        let on_grid = self.charges.iter().filter(|charge| charge.shape.is_some());
+        sound = on_grid.filter_map(Charge::made_of).map(|own| own.detonation_speed).fold(sound, f64::max);
         [sound, speed]
     }
 
