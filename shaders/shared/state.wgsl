@@ -274,7 +274,7 @@ fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32, species: vec
 const TRACE = 1e-6; // share of the density that a gas of no volume has in it
 fn expansions_of(gas: Gas) -> vec2f {
     let density = (max(gas.species.x, 0.0) + TRACE * gas.flow.x) / (max(gas.species.y, 0.0) + TRACE);
-    return min(params.products.zw / min(density, params.densest), vec2f(80.0));
+    return min(params.products.zw / clamp(density, 1e-9 * params.densest, params.densest), vec2f(80.0));
 }
 fn chemical_energy_of(gas: Gas) -> f32 { return select(0.0, params.chemical_energy * gas.unburned, PRODUCTS); }
 // Volume fraction of what has burned.

@@ -37,9 +37,8 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
             draw_start(&gpu, &scene, path)?;
         }
     }
-    let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
+    let (overlaps, thin, breaking) = (scene.overlaps(), scene.thin_bodies(), scene.breaking());
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
-    let breaking = scene.breaking();
     let (lost, charges, on_grid) = (scene.thin_obstacles(), scene.charge_estimates(), scene.charges_on_grid());
     let texts = estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning));
     for warning in texts.chain(lost.iter().map(lost_text)).chain(on_grid.iter().filter_map(GridCharge::warning)) {

@@ -117,6 +117,7 @@ scenes! {
     helium_shock: "validation/helium_shock.toml";
     plane_detonation: "validation/plane_detonation.toml";
     copper_cylinder: "validation/copper_cylinder.toml" [small];
+    lined_charge: "demos/lined_charge_2d.toml" [small], "time.until=8e-6";
     helium_bubble: "validation/helium_bubble.toml", "domain.cells=[125, 25]", "time.until=1e-4";
     hot_bubble: "validation/hot_bubble.toml", "domain.cells=[20, 40]", "time.until=20.0";
     kelvin_helmholtz: "gas/kelvin_helmholtz.toml", "domain.cells=[48, 48]", "time.until=0.5";
