@@ -239,7 +239,7 @@ impl Material {
     /// A material of the given kind; parameters that are left out take their default.
     ///
     /// # Errors
-    /// A sentence that names the unknown kind, the unknown or the missing parameter. Limits are checked by [`Material::findings`].
+    /// A sentence that names the unknown kind, the unknown or the missing parameter. Limits are checked with the scene.
     pub fn new(kind: &str, given: &[(String, f64)]) -> Result<Self, String> {
         let Some(index) = KINDS.iter().position(|k| k.name == kind) else {
             return Err(format!("unknown material `{kind}`, expected one of {}", kind_names()));

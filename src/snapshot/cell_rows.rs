@@ -15,7 +15,7 @@ pub struct CellRows {
     pub species: Vec<f32>,
     /// Mass owed \[kg\]; empty where only the ring has a ledger.
     pub owed: Vec<f32>,
-    /// Maps, see [`State::maps`]; empty where none are kept.
+    /// Maps, see [`crate::state::State::maps`]; empty where none are kept.
     pub maps: Vec<[f32; 4]>,
     /// Kinds.
     pub kind: Vec<u8>,
