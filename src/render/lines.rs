@@ -6,7 +6,7 @@ use super::plot::Line;
 use super::stored::elements;
 use crate::Result;
 use crate::gpu::Gpu;
-use crate::scene::Scene;
+use crate::scene::{Scene, burned_share};
 use crate::snapshot::kind;
 
 /// Reads a one-dimensional state; the exact solution beside it has a few points per pixel of `width`.
@@ -22,10 +22,9 @@ pub(super) fn read(gpu: &Gpu, sources: &Sources, scene: &Scene, width: u32, time
     let parts: Vec<Vec<f32>> = species.chunks(grid.slots()).map(|part| grid.unpadded(part)).collect();
     let thermal = |(cell, (state, energy)): (usize, (&[f32; 4], &f32))| {
         let [own, phi, unburned] = [0, 1, 2].map(|k: usize| parts.get(k).map_or(0.0, |own| own[cell]));
-        let burned = 1.0 - (unburned / own.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
         let [density, x, y, z] = *state;
         let all = [density, x, y, z, *energy, own, phi].map(f64::from);
-        gases.pressure(all, burned.into()) as f32
+        gases.pressure(all, burned_share(own, unburned).into()) as f32
     };
     let pressure = conserved.iter().zip(&energy).enumerate().map(thermal).collect();
     let density = conserved.iter().map(|state| state[0]).collect();

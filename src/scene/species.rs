@@ -150,6 +150,11 @@ impl EquationOfState {
     }
 }
 
+/// Share of an explosive that has burned, from the density of the second gas and of what has not \[kg m^-3\].
+pub(crate) fn burned_share(density: f32, unburned: f32) -> f32 {
+    1.0 - (unburned / density.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0)
+}
+
 /// Volume of products over that of the explosive.
 fn expansion(own: &Explosive, [density, _, _, _, _, part, phi]: Conserved) -> f64 {
     let trace = TRACE * density;

@@ -1,7 +1,7 @@
 //! Cells in the layout of the device.
 
 use super::kind;
-use crate::scene::EquationOfState;
+use crate::scene::{EquationOfState, burned_share};
 use crate::state::Grid;
 
 /// The cells in the layout of the device, ring included.
@@ -49,9 +49,7 @@ impl CellRows {
     /// Share of the explosive in a slot that has burned.
     fn burned(&self, grid: &Grid, slot: usize) -> f32 {
         let part = |k: usize| self.species.get(k * grid.slots() + slot).copied();
-        part(2)
-            .zip(part(0))
-            .map_or(1.0, |(left, density)| 1.0 - (left / density.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0))
+        part(2).zip(part(0)).map_or(1.0, |(unburned, density)| burned_share(density, unburned))
     }
 
     pub(super) fn species_fractions(&self, grid: &Grid) -> Vec<[f32; 3]> {
