@@ -1,18 +1,22 @@
 // What compositors take of a picture, pixel by pixel.
-// finish_layers: reads light, solid, nearest, depth_in, deformation, velocity; writes layers, three entries per pixel: light without the
+// finish_layers: reads light, surface, nearest, depth_in, deformation, velocity, bends; writes layers, three entries per pixel: light without the
 // background, times alpha, and alpha; the depth of what is nearest, negative for nothing, and its number; its velocity.
 
 #include "picture/view.wgsl"
 #include "picture/samples.wgsl"
 #include "picture/surface.wgsl"
+#include "picture/color.wgsl"
+#include "picture/backdrop.wgsl"
+#include "picture/bent.wgsl"
 
 @group(0) @binding(1) var<storage, read> light: array<vec4f>;
-@group(0) @binding(2) var<storage, read> solid: array<vec4u>;
+@group(0) @binding(2) var<storage, read> surface: array<vec4u>;
 @group(0) @binding(3) var<storage, read> nearest: array<u32>;
 @group(0) @binding(4) var<storage, read> depth_in: array<u32>;
 @group(0) @binding(5) var<storage, read> deformation: array<vec4f>;
 @group(0) @binding(6) var<storage, read> velocity: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> layers: array<vec4f>;
+@group(0) @binding(8) var<storage, read> bends: array<vec2f>;
 
 // Number of obstacles and the floor: one more than that of the last body, which has its place among the bodies and one more.
 override OBSTACLES: u32 = 1u;
@@ -43,7 +47,7 @@ fn nearer_particle(ray: u32, before: Nearest) -> Nearest {
 
 // An obstacle or the floor in a ray.
 fn nearer_solid(ray: u32, before: Nearest) -> Nearest {
-    let wall = unpack_surface(solid[ray]);
+    let wall = unpack_surface(surface[solid_place(ray)]);
     let along = dot(ray_through(vec2f(place_of(ray)) + 0.5).direction, view.forward);
     let depth = wall.depth * along;
     if wall.coverage < 0.5 || (before.depth >= 0.0 && before.depth <= depth) { return before; }
@@ -63,10 +67,11 @@ fn finish_layers(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocat
         let at = place + vec2u(k % n, k / n);
         let ray = at.x + view.size.x * at.y;
         let own = light[ray];
-        let row = (f32(at.y + view.first_row) + 0.5) / f32(view.size.y);
-        let background = mix(view.background[0].rgb, view.background[1].rgb, row);
-        let behind = view.exposure * (1.0 - own.a) * background;
-        sum += vec4f(max(own.rgb - behind, vec3f(0.0)), own.a);
+        let pixel = vec2f(place_of(ray)) + 0.5;
+        read_bend(pixel);
+        let seen = beyond(pixel, ray_through(pixel));
+        let background = view.exposure * (1.0 - own.a) * behind(seen.pixel, seen.direction);
+        sum += vec4f(max(own.rgb - background, vec3f(0.0)), own.a);
         if view.particles > 0u { found = nearer_particle(ray, found); }
         found = nearer_solid(ray, found);
     }

@@ -1,7 +1,7 @@
 // What light that crosses a 3D domain shows of its density: pictures along lines of sight [Settles 2001].
 // integrate_lines: reads field (the density); writes columns, its integral along each ray of the whole picture.
 // measure_lines: reads columns; writes ranges, the mean square of the picture that each workgroup saw, and its rays.
-// draw_lines: reads columns, surface, solid; writes light: grey, bodies and obstacles in front as shadows.
+// draw_lines: reads columns, surface; writes light: grey, bodies and obstacles in front as shadows.
 
 #include "shared/reduce.wgsl"
 #include "picture/view.wgsl"
@@ -11,8 +11,7 @@
 @group(0) @binding(2) var<storage, read_write> columns: array<f32>;
 @group(0) @binding(3) var<storage, read_write> ranges: array<vec2f>;
 @group(0) @binding(4) var<storage, read> surface: array<vec4u>;
-@group(0) @binding(5) var<storage, read> solid: array<vec4u>;
-@group(0) @binding(6) var<storage, read_write> light: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> light: array<vec4f>;
 
 // Steps of the integral per cell.
 const STEPS: f32 = 1.5;
@@ -96,7 +95,7 @@ fn draw_lines(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
     // Like film, the grey approaches black and white slowly.
     var grey = 0.5 + 0.5 * bent / (1.0 + abs(bent));
     grey = grey * grey;
-    let wall = unpack_surface(solid[i]);
+    let wall = unpack_surface(surface[solid_place(i)]);
     let body = unpack_surface(surface[i]);
     grey = mix(grey, 0.01, max(wall.coverage, body.coverage));
     light[i] = vec4f(vec3f(grey), 1.0);

@@ -1,19 +1,22 @@
 // What stands still in a 3D scene: obstacles and the floor.
-// trace_solids: reads distance, shadow_map, light_grid, glow_grid; writes solid, the nearest of them along each ray of the band.
+// trace_solids: reads distance, shadow_map, light_grid, glow_grid, bends; writes surface, the nearest of them along each ray of the band.
 
 #include "picture/view.wgsl"
 #include "picture/surface.wgsl"
 #include "picture/distance.wgsl"
 #include "picture/lit.wgsl"
+#include "picture/color.wgsl"
+#include "picture/backdrop.wgsl"
+#include "picture/bent.wgsl"
 
 @group(0) @binding(1) var<storage, read> distance: array<f32>;
 @group(0) @binding(2) var<storage, read> shadow_map: array<u32>;
 @group(0) @binding(3) var<storage, read> light_grid: array<u32>;
-@group(0) @binding(4) var<storage, read_write> solid: array<vec4u>;
+@group(0) @binding(4) var<storage, read_write> surface: array<vec4u>;
 @group(0) @binding(5) var<storage, read> glow_grid: array<vec4f>;
+@group(0) @binding(6) var<storage, read> bends: array<vec2f>;
 
 const WALL_COLOR: vec3f = vec3f(0.30, 0.31, 0.33);
-const GROUND_COLOR: vec3f = vec3f(0.060, 0.062, 0.068);
 
 // Direction out of an obstacle; where the domain's side cuts it, that of the side.
 fn wall_normal(ray: Ray, s: f32, span: vec2f) -> vec3f {
@@ -31,25 +34,16 @@ fn wall_normal(ray: Ray, s: f32, span: vec2f) -> vec3f {
     return gradient / max(length(gradient), 1e-12);
 }
 
-// The floor fades into the background far from the domain.
-fn floor_coverage(point: vec3f) -> f32 {
-    let extent = vec3f(view.cells) * view.spacing;
-    let away = length(point - view.origin - 0.5 * extent) / max(extent.x, max(extent.y, extent.z));
-    return 1.0 - smoothstep(0.7, 2.2, away);
-}
-
-@compute @workgroup_size(WORKGROUP)
-fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, local);
-    if i >= band_rays() { return; }
-    let ray = ray_through(vec2f(place_of(i)) + 0.5);
+// The obstacle or the floor that a stretch of a ray meets between two distances.
+fn meet(ray: Ray, from_distance: f32, to_distance: f32) -> Surface {
     var found = Surface(0.0, 0.0, vec3f(0.0));
     if view.fineness > 0u {
-        let span = domain_span(ray);
+        let whole = domain_span(ray);
+        let span = vec2f(max(whole.x, from_distance), min(whole.y, to_distance));
         let hit = hit_obstacle(ray, span);
         if hit >= 0.0 {
             let point = ray.start + hit * ray.direction;
-            let normal = wall_normal(ray, hit, span);
+            let normal = wall_normal(ray, hit, whole);
             let arriving = arriving_at(point, 0.5 * view.spacing);
             found = Surface(hit, 1.0, lit_surface(WALL_COLOR, point, normal, -ray.direction, arriving));
         }
@@ -57,12 +51,29 @@ fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
     let descent = dot(view.ground.xyz, ray.direction);
     if descent < -1e-6 {
         let s = (view.ground.w - dot(view.ground.xyz, ray.start)) / descent;
-        if s > 0.0 && (found.coverage == 0.0 || s < found.depth) {
+        if s > from_distance && s <= to_distance && (found.coverage == 0.0 || s < found.depth) {
             let point = ray.start + s * ray.direction;
             let arriving = arriving_at(point, 0.2 * view.spacing);
-            let color = lit_surface(GROUND_COLOR, point, view.ground.xyz, -ray.direction, arriving);
-            found = Surface(s, floor_coverage(point), color);
+            let color = lit_surface(floor_color(point, ray, s), point, view.ground.xyz, -ray.direction, arriving);
+            found = Surface(s, floor_coverage(point, s), color);
         }
     }
-    solid[i] = pack_surface(found);
+    return found;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn trace_solids(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
+    if i >= band_rays() { return; }
+    let pixel = vec2f(place_of(i)) + 0.5;
+    let ray = ray_through(pixel);
+    read_bend(pixel);
+    var found = Surface(0.0, 0.0, vec3f(0.0));
+    var s = 0.0;
+    for (var k = 0u; k < STRETCHES && s < 1e29 && found.coverage == 0.0; k++) {
+        let part = stretch(ray, k);
+        found = meet(part.ray, s, part.end);
+        s = part.end;
+    }
+    surface[solid_place(i)] = pack_surface(found);
 }

@@ -1,4 +1,4 @@
-// The surface that a ray meets, as the kernels hand it on.
+// The surface that a ray meets, as the kernels hand it on: `surface` has that of bodies of each ray of the band, in 3D then what stands still.
 
 struct Surface {
     // Distance along the ray [m].
@@ -22,3 +22,6 @@ fn pack_surface(s: Surface) -> vec4u {
     let root = sqrt(max(s.color, vec3f(0.0)) / BRIGHTEST);
     return vec4u(bitcast<u32>(s.depth), bitcast<u32>(s.coverage), pack2x16unorm(root.rg), pack2x16unorm(vec2f(root.b, 0.0)));
 }
+
+// Where `surface` has what stands still, in 3D.
+fn solid_place(i: u32) -> u32 { return arrayLength(&surface) / 2u + i; }

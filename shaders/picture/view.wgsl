@@ -60,6 +60,12 @@ struct View {
     products: vec4f,            // Products of an explosive: A and B [Pa], R1 and R2 times its density [kg m^-3]; 0 without
     chemical_energy: f32,       // Energy that the explosive holds [J kg^-1]
     densest: f32,               // Density beyond which the law of its products does not hold [kg m^-3]
+    bend_pitch: u32,            // Rays from one that is followed through the gas to the next
+    backdrop: u32,              // What is behind everything, a BACKDROP_ constant of the shaders
+    refraction: f32,            // n - 1 per density of what bends rays, exaggerated [m^3 kg^-1]; 0 where nothing does
+    ambient_density: f32,       // Density of the ambient gas [kg m^-3]
+    bend_near: f32,             // Distance along rays from which they may be bent [m]
+    bend_far: f32,              // The same up to which [m]
     background: array<vec4f, 2>, // Light behind everything in 3D, at the top and the bottom of the picture
     slices: array<vec4f, 4>,    // Slices: the points x with dot(xyz, x) = w
     contours: array<vec4f, 8>,  // Values of the contour lines, as fractions of the range

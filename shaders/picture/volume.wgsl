@@ -1,6 +1,6 @@
 // Ray march through a three-dimensional field, with bodies, obstacles and slices inside it and the edges of the domain around.
 // Emission, absorption and single scattering [Max 1995]: dC/ds = sigma (c - C) along the ray, front to back.
-// draw_volume: reads corners, glow, bricks, colors, light_grid, surface, solid; writes light, and as fourth number how much of it is no background.
+// draw_volume: reads corners, glow, bricks, colors, light_grid, bends, surface; writes light, and as fourth number how much of it is no background.
 
 #include "picture/view.wgsl"
 #include "picture/color.wgsl"
@@ -8,6 +8,8 @@
 #include "picture/gas_look.wgsl"
 #include "picture/in_light.wgsl"
 #include "picture/contour.wgsl"
+#include "picture/backdrop.wgsl"
+#include "picture/bent.wgsl"
 
 // One edge of the domain on the picture: end points in rays and their depth along the view axis [m].
 struct Edge {
@@ -24,8 +26,8 @@ struct Edge {
 @group(0) @binding(5) var<uniform> edges: array<Edge, 12>;
 @group(0) @binding(6) var<storage, read_write> light: array<vec4f>;
 @group(0) @binding(7) var<storage, read> bricks: array<u32>;
-@group(0) @binding(8) var<storage, read> solid: array<vec4u>;
 @group(0) @binding(9) var<storage, read> light_grid: array<u32>;
+@group(0) @binding(8) var<storage, read> bends: array<vec2f>;
 
 const EDGE_COLOR: vec3f = vec3f(0.36, 0.42, 0.52);
 const LINE_COLOR: vec3f = vec3f(0.02, 0.02, 0.025);
@@ -94,30 +96,44 @@ fn gas_light(before: Gathered, place: vec3f, lit: f32) -> Gathered {
 // Cells of gas before a body that show the gas in front of them: between the middles of cells the gas behind a thin wall would shine through.
 const CLEARANCE: f32 = 1.2;
 
+// A ray in cells of the light grid, which is read at its nearest cell, half a cell off at random: steps add up to the mean.
+fn light_along(ray: Ray, jitter: f32) -> Ray {
+    let start = in_light(ray.start);
+    return Ray(start + select(0.8 * (jitter - 0.5), 0.0, has_soot()), in_light(ray.start + ray.direction) - start);
+}
+
 // Gathers light from the gas between two distances.
 fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Gathered) -> Gathered {
     var gathered = before;
     if view.volume == 0u { return gathered; }
-    // The light grid is read at its nearest cell, half a cell off at random: steps add up to the mean.
-    let light_start = in_light(ray.start) + select(0.8 * (jitter - 0.5), 0.0, has_soot());
-    let light_step = in_light(ray.start + ray.direction) - in_light(ray.start);
     let clear = max(to_distance - CLEARANCE * view.spacing, from_distance);
     var s = from_distance + jitter * view.step;
+    var number = 0u;
+    var part = stretch(ray, number);
+    var lights = light_along(part.ray, jitter);
     var brick = Brick(-1.0, false);
     while (s < to_distance && gathered.passing > DARK) {
-        let place = in_cells(ray.start + min(s, clear) * ray.direction);
-        if s >= brick.end { brick = brick_at(ray, place, s); }
+        if s >= part.end {
+            while (s >= part.end) {
+                number++;
+                part = stretch(ray, number);
+            }
+            lights = light_along(part.ray, jitter);
+            brick.end = -1.0;
+        }
+        let place = in_cells(part.ray.start + min(s, clear) * part.ray.direction);
+        if s >= brick.end { brick = brick_at(part.ray, place, s); }
         var steps = 1.0;
         if brick.visible {
             var lit = 1.0;
             if view.shadows == 1u {
-                let at = light_start + s * light_step;
+                let at = lights.start + s * lights.direction;
                 if has_soot() { lit = light_between(at); } else { lit = light_inside(at).y; }
             }
             gathered = gas_light(gathered, place, lit);
         } else {
             // Steps are whole, so that leaping changes no sample.
-            steps = max(ceil((brick.end - s) / view.step), 1.0);
+            steps = max(ceil((min(brick.end, part.end) - s) / view.step), 1.0);
         }
         s += steps * view.step;
     }
@@ -161,8 +177,9 @@ fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     let corner = place_of(i);
     let pixel = vec2f(corner) + 0.5;
     let ray = ray_through(pixel);
+    read_bend(pixel);
     let body = unpack_surface(surface[i]);
-    let wall = unpack_surface(solid[i]);
+    let wall = unpack_surface(surface[solid_place(i)]);
     let span = domain_span(ray);
     let jitter = hash_unit(corner.x + view.size.x * corner.y);
     // Edges before the middle of the domain are drawn over the gas, the others behind it.
@@ -193,7 +210,8 @@ fn draw_volume(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     }
     gathered = over(gathered, EDGE_COLOR, select(edge.y, 0.0, wall_depth * along < middle));
     gathered = over(gathered, wall.color, wall.coverage);
-    let background = mix(view.background[0].rgb, view.background[1].rgb, pixel.y / f32(view.size.y));
+    let seen = beyond(pixel, ray);
+    let background = behind(seen.pixel, seen.direction);
     let alpha = 1.0 - gathered.passing;
     gathered = over(gathered, background, 1.0);
     light[i] = vec4f(view.exposure * gathered.color, alpha);

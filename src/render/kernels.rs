@@ -28,11 +28,17 @@ pub(super) const GLOW_CELLS: u32 = 12;
 /// Cells along each axis of the grid of bodies that the light of hot gas meets.
 pub(super) const BLOCK_CELLS: u32 = 2 * GLOW_CELLS;
 
+/// Distances at which the offset of a bent ray is known, along each ray that is followed.
+pub(super) const BEND_KNOTS: u32 = 8;
+
 /// Rows of samples above and below a band that smoothing may look at.
 pub(super) const SAMPLE_MARGIN: u32 = 48;
 
 /// Tone map of [`crate::scene::ToneMap::Aces`].
 pub(super) const TONE_ACES: u32 = 1;
+
+/// What is behind of [`crate::scene::Backdrop::Daylight`].
+pub(super) const BACKDROP_DAYLIGHT: u32 = 1;
 
 /// Line-of-sight pictures: of [`crate::scene::RenderMode::LineOfSight`] and [`crate::scene::RenderMode::Shadowgraph`].
 pub(super) const OPTICS: [u32; 2] = [1, 2];
@@ -49,6 +55,8 @@ pub fn constants() -> String {
     );
     let _ = writeln!(text, "const LIGHT_CELLS: u32 = {LIGHT_CELLS}u;\nconst SHADOW_TEXELS: u32 = {SHADOW_TEXELS}u;");
     let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;\nconst BLOCK_CELLS: u32 = {BLOCK_CELLS}u;");
+    let _ =
+        writeln!(text, "const BEND_KNOTS: u32 = {BEND_KNOTS}u;\nconst BACKDROP_DAYLIGHT: u32 = {BACKDROP_DAYLIGHT}u;");
     let _ = writeln!(text, "const RANGE_GROUPS: u32 = {}u;", super::gas::RANGE_GROUPS);
     let _ = writeln!(text, "const TONE_ACES: u32 = {TONE_ACES}u;\nconst OPTICS_SHADOWGRAPH: u32 = {}u;", OPTICS[1]);
     text

@@ -86,11 +86,12 @@ pub(super) struct LayerKernel {
 }
 
 impl LayerKernel {
-    /// For so many pixels of a band, with its rays' light and solids, and depths and particles of its samples if there are any.
+    /// For so many pixels of a band, with its rays' light, solids and bends, and depths and particles of its samples if there are any.
     pub(super) fn new(
         shared: &Shared,
         pixels: usize,
-        drawn: [(&str, &wgpu::Buffer); 2],
+        drawn: [(&str, &wgpu::Buffer); 3],
+        switches: &[(&str, bool)],
         samples: Option<[&Buffer<u32>; 2]>,
     ) -> Result<Self> {
         let Shared { gpu, sources, gas, .. } = *shared;
@@ -108,8 +109,9 @@ impl LayerKernel {
             ("velocity", velocity),
             ("layers", layers.raw()),
         ];
-        let number = [("OBSTACLES", shared.bodies as f64 + 1.0)];
-        let finish = bind_numbers(gpu, "picture/layers.wgsl", "finish_layers", &number, &[&own[..], &drawn].concat())?;
+        let mut numbers = vec![("OBSTACLES", shared.bodies as f64 + 1.0)];
+        numbers.extend(switches.iter().map(|&(name, on)| (name, f64::from(u8::from(on)))));
+        let finish = bind_numbers(gpu, "picture/layers.wgsl", "finish_layers", &numbers, &[&own[..], &drawn].concat())?;
         Ok(Self { finish, layers })
     }
 

@@ -5,6 +5,7 @@
 //! the files show the same bytes.
 
 mod arrows;
+mod bend;
 mod buffers;
 mod camera;
 mod canvas;
@@ -257,6 +258,7 @@ impl Renderer {
             view.heat_offset = (cold / (hot - cold)) as f32;
             view.heat_opacity = emission.optical_depth as f32 / longest(grid.extent());
         }
+        bend::set(&mut view, look, &self.scene.gas.ambient);
         if self.sources.species.is_some() && grid.dimension == 3 && look.volume {
             view.soot = look.soot.map_or(0.0, |soot| soot.extinction as f32);
         }

@@ -2,6 +2,7 @@
 
 use glam::Vec4;
 
+use super::bend::Bend;
 use super::buffers::Sources;
 use super::frame::{Depth, Drawn};
 use super::gas::{Gas, RANGE_GROUPS};
@@ -43,10 +44,10 @@ pub(super) struct Screen {
     band_rows: u32,
     edges: Buffer<[Vec4; 2]>,
     surface: Buffer<[u32; 4]>,
-    solid: Buffer<[u32; 4]>,
     pixels: Buffer<u32>,
     skin: Option<Skin>,
     trace_solids: Option<Bound>,
+    bend: Bend,
     optics: Option<Optics>,
     draw: Bound,
     finish: Bound,
@@ -100,6 +101,7 @@ struct Key {
     soot: bool,
     slices: bool,
     smooth: bool,
+    refraction: bool,
     depth: Depth,
 }
 
@@ -112,12 +114,19 @@ impl Key {
             soot: view.soot > 0.0,
             slices: view.slice_count > 0,
             smooth: view.smooth_skin == 1,
+            refraction: view.refraction > 0.0,
             depth,
         }
     }
 
-    fn switches(&self) -> [(&'static str, bool); 4] {
-        [("EMISSION", self.emission), ("SOOT", self.soot), ("SLICES", self.slices), ("SMOOTH", self.smooth)]
+    fn switches(&self) -> [(&'static str, bool); 5] {
+        [
+            ("EMISSION", self.emission),
+            ("SOOT", self.soot),
+            ("SLICES", self.slices),
+            ("SMOOTH", self.smooth),
+            ("REFRACTION", self.refraction),
+        ]
     }
 }
 
@@ -131,18 +140,19 @@ impl Screen {
         let band_rows = (most / width / n * n).clamp(n, height);
         let rays = width as usize * band_rows as usize;
         let edges: Buffer<[Vec4; 2]> = Buffer::uniform(gpu, "edges", 12)?;
-        let surface: Buffer<[u32; 4]> = Buffer::new(gpu, "surface", rays)?;
-        let solid: Buffer<[u32; 4]> = Buffer::new(gpu, "solids", rays)?;
+        let volume = sources.grid.dimension == 3;
+        let surface: Buffer<[u32; 4]> = Buffer::new(gpu, "surface", if volume { 2 * rays } else { rays })?;
         let gathered: Buffer<[f32; 4]> = Buffer::new(gpu, "light", rays)?;
         let pixels: Buffer<u32> = Buffer::new(gpu, "pixels", rays / (n * n) as usize)?;
         let of_view = ("view", gas.view.raw());
         let drawn = [of_view, ("surface", surface.raw()), ("light", gathered.raw())];
-        let volume = sources.grid.dimension == 3;
+        let bend = Bend::new(shared, view)?;
+        let of_bends = ("bends", bend.bends.raw());
         let tables = ("colors", gas.colors.raw());
         let draw = if volume {
             let field =
                 [("corners", gas.corners.raw()), ("glow", gas.glow.raw()), ("bricks", gas.bricks.raw()), tables];
-            let own = [("edges", edges.raw()), ("solid", solid.raw()), ("light_grid", light.grid.raw())];
+            let own = [("edges", edges.raw()), ("light_grid", light.grid.raw()), of_bends];
             bind_with(gpu, "picture/volume.wgsl", "draw_volume", &key.switches(), &[&drawn[..], &field, &own].concat())?
         } else {
             let own = [
@@ -156,13 +166,14 @@ impl Screen {
         };
         let trace = || {
             let shade = light.of_surfaces();
-            let own = [of_view, ("distance", distance.nodes.raw()), ("solid", solid.raw())];
+            let own = [of_view, ("distance", distance.nodes.raw()), drawn[1], of_bends];
             bind_with(gpu, "picture/solids.wgsl", "trace_solids", &key.switches(), &[&shade[..], &own].concat())
         };
         let skin = shared.particles.map(|own| Skin::new(shared, own, (view, &key), band_rows, &surface)).transpose()?;
         let samples = skin.as_ref().map(|skin| [&skin.depth, if key.smooth { &skin.kept } else { &skin.nearest }]);
-        let layered = || LayerKernel::new(shared, pixels.len(), [drawn[2], ("solid", solid.raw())], samples);
-        let optics = || Optics::new(shared, width as usize * height as usize, &surface, &solid, &gathered);
+        let layered =
+            || LayerKernel::new(shared, pixels.len(), [drawn[2], drawn[1], of_bends], &key.switches(), samples);
+        let optics = || Optics::new(shared, width as usize * height as usize, &surface, &gathered);
         Ok(Self {
             key,
             band_rows,
@@ -173,9 +184,9 @@ impl Screen {
             deep: depth.fine.then(|| Deep::new(gpu, &[of_view, drawn[2]], pixels.len())).transpose()?,
             layers: depth.layers.then(layered).transpose()?,
             skin,
+            bend,
             edges,
             surface,
-            solid,
             pixels,
         })
     }
@@ -192,6 +203,7 @@ impl Screen {
         if let Some(optics) = self.optics.as_ref().filter(|_| view.optics > 0) {
             view.gain = optics.measure(shared, view)?;
         }
+        self.bend.follow(shared, view)?;
         let n = view.supersampling;
         let mut drawn = Drawn::default();
         for first_row in (0..view.size[1]).step_by(self.band_rows as usize) {
@@ -220,9 +232,9 @@ impl Screen {
         if let Some(skin) = self.skin.as_ref().filter(|_| view.particles > 0) {
             skin.record(gpu, pass, view, &rays);
         }
-        match self.trace_solids.as_ref().filter(|_| view.fineness > 0 || view.ground != [0.0; 4]) {
-            Some(trace_solids) => pass.dispatch(trace_solids, &rays),
-            None => pass.clear(&self.solid),
+        if let Some(trace_solids) = self.trace_solids.as_ref().filter(|_| view.fineness > 0 || view.ground != [0.0; 4])
+        {
+            pass.dispatch(trace_solids, &rays);
         }
         let optics = self.optics.as_ref().filter(|_| view.optics > 0);
         pass.dispatch(optics.map_or(&self.draw, |optics| &optics.draw_lines), &rays);
@@ -327,13 +339,7 @@ impl Skin {
 }
 
 impl Optics {
-    fn new(
-        shared: &Shared,
-        rays: usize,
-        surface: &Buffer<[u32; 4]>,
-        solid: &Buffer<[u32; 4]>,
-        light: &Buffer<[f32; 4]>,
-    ) -> Result<Self> {
+    fn new(shared: &Shared, rays: usize, surface: &Buffer<[u32; 4]>, light: &Buffer<[f32; 4]>) -> Result<Self> {
         let Shared { gpu, gas, .. } = *shared;
         let columns: Buffer<f32> = Buffer::new(gpu, "columns", rays)?;
         let ranges: Buffer<[f32; 2]> = Buffer::new(gpu, "column ranges", RANGE_GROUPS as usize)?;
@@ -341,7 +347,7 @@ impl Optics {
         let bind = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
             bind(gpu, "picture/optics.wgsl", entry, &[&both[..], own].concat())
         };
-        let drawn = [("surface", surface.raw()), ("solid", solid.raw()), ("light", light.raw())];
+        let drawn = [("surface", surface.raw()), ("light", light.raw())];
         Ok(Self {
             integrate_lines: bind("integrate_lines", &[("field", gas.field.raw())])?,
             measure_lines: bind("measure_lines", &[("ranges", ranges.raw())])?,

@@ -147,8 +147,18 @@ structure! {
         chemical_energy: f32,
         /// Density beyond which the law of its products does not hold \[kg m^-3\].
         densest: f32,
-        /// Fills the space before vectors.
-        unused: vec2u,
+        /// Rays from one that is followed through the gas to the next.
+        bend_pitch: u32,
+        /// What is behind everything, a `BACKDROP_` constant of the shaders.
+        backdrop: u32,
+        /// n - 1 per density of what bends rays, exaggerated \[m^3 kg^-1\]; 0 where nothing does.
+        refraction: f32,
+        /// Density of the ambient gas \[kg m^-3\].
+        ambient_density: f32,
+        /// Distance along rays from which they may be bent \[m\].
+        bend_near: f32,
+        /// The same up to which \[m\].
+        bend_far: f32,
         /// Light behind everything in 3D, at the top and the bottom of the picture.
         background: [vec4f; 2],
         /// Slices: the points x with dot(xyz, x) = w.

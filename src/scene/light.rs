@@ -43,6 +43,44 @@ impl Default for Soot {
     }
 }
 
+/// Differences of density bend light, in 3D: n - 1 is in proportion to the density.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Refraction {
+    /// The constant of Gladstone and Dale, n - 1 over density `[m^3 kg^-1]`; the default is that of air in visible light.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub gladstone_dale: f64,
+    /// Factor on the bending; 0 turns it off.
+    #[schemars(extend("minimum" = 0))]
+    pub exaggeration: f64,
+}
+
+impl Default for Refraction {
+    /// Air at 589 nm. \[Merzkirch 1987\]
+    fn default() -> Self {
+        Refraction { gladstone_dale: 2.26e-4, exaggeration: 1.0 }
+    }
+}
+
+/// What is behind everything, in 3D.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Backdrop {
+    /// A dark wall; `ground` is plain and fades into it.
+    #[default]
+    Studio,
+    /// A bright sky; `ground` is bare earth up to the horizon.
+    Daylight,
+}
+
+impl Backdrop {
+    /// Whether it is the usual one.
+    #[must_use]
+    pub fn is_studio(&self) -> bool {
+        *self == Backdrop::Studio
+    }
+}
+
 /// Temperatures at the ends of the black-body ramp \[K\]: the Draper point is 798 K, light of the eye begins a little above.
 pub const RAMP_KELVIN: [f64; 2] = [850.0, 6000.0];
 /// Temperature from which hot gas is fully opaque in its own light \[K\].

@@ -19,7 +19,8 @@ pub enum Look {
     Lab,
     /// Black on white, PNG files with 300 pixels per inch; in 3D smooth bodies and four rays per pixel.
     Print,
-    /// Nothing written; in 3D gas as a grey veil, smooth bodies, filmic tone, four rays per pixel. `emission` and `ground` are added by hand.
+    /// Nothing written; in 3D a grey veil of gas, smooth bodies, filmic tone, four rays per pixel, a view bent tenfold. `emission`, `ground` and
+    /// `backdrop` are added by hand.
     Film,
 }
 
@@ -30,6 +31,7 @@ opacity = [[0.0, 0.0], [0.12, 0.0], [1.0, 0.35]]
 tone = "aces"
 surface = "smooth"
 supersampling = 2
+refraction = { exaggeration = 10.0 }
 overlays = { title = false, time = false, color_bar = false, scale_bar = false, edges = false }
 "#;
 

@@ -88,7 +88,7 @@ pub use geometry::polyhedron::Part;
 pub(crate) use geometry::sample::random;
 pub use geometry::sample::{Overlap, Seed, ThinBody, ThinObstacle};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
-pub use light::{Emission, Fire, Light, RAMP_KELVIN, Soot, brightness, shining};
+pub use light::{Backdrop, Emission, Fire, Light, RAMP_KELVIN, Refraction, Soot, brightness, shining};
 pub use look::Look;
 pub use numerics::{Expert, Numerics, Obstacles, Pair, Paper, Preconditioner, Transfer};
 pub use radial_flow::RadialFlow;

@@ -1,6 +1,6 @@
 //! What pictures show and how: fields, camera, colours.
 
-use super::light::{Emission, Light, Soot};
+use super::light::{Backdrop, Emission, Light, Refraction, Soot};
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
@@ -112,6 +112,9 @@ pub struct RenderSettings {
     pub emission: Option<Emission>,
     /// A second gas that absorbs light, in 3D.
     pub soot: Option<Soot>,
+    /// Shock fronts and hot gas bend the view, in 3D.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refraction: Option<Refraction>,
     /// Light from outside, in 3D.
     pub light: Light,
     /// From light to pixels, in 3D.
@@ -135,6 +138,9 @@ pub struct RenderSettings {
     pub particle_colormap: Colormap,
     /// A floor on the side of a 3D domain that gravity points to, low z without gravity; it catches shadows.
     pub ground: bool,
+    /// What is behind everything, in 3D.
+    #[serde(skip_serializing_if = "Backdrop::is_studio")]
+    pub backdrop: Backdrop,
     /// Planes through a 3D domain that show the field, at most 4.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub slices: Vec<Slice>,
@@ -174,6 +180,7 @@ impl Default for RenderSettings {
             optical_depth: None,
             emission: None,
             soot: None,
+            refraction: None,
             light: Light::default(),
             tone: ToneMap::default(),
             exposure: 1.0,
@@ -184,6 +191,7 @@ impl Default for RenderSettings {
             particle_range: None,
             particle_colormap: Colormap::Plasma,
             ground: false,
+            backdrop: Backdrop::default(),
             slices: Vec::new(),
             contours: Contours::default(),
             arrows: 0,

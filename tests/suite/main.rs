@@ -5,6 +5,7 @@
 mod analytic;
 mod arrays;
 mod bench;
+mod bent;
 mod bits;
 mod boundaries;
 mod budgets;

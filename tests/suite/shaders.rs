@@ -9,8 +9,9 @@ use wgpu::naga;
 use crate::common::{files_below, is_kind, report, slashed};
 
 /// Shaders of the pictures; all others belong to the step.
-const PICTURES: [&str; 13] = [
+const PICTURES: [&str; 14] = [
     "picture/arrows.wgsl",
+    "picture/bend.wgsl",
     "picture/bricks.wgsl",
     "picture/field.wgsl",
     "picture/finish.wgsl",
