@@ -191,7 +191,7 @@ scenes! {
     bursting_shell_3d: "demos/bursting_shell_3d.toml" takes "59 s";
     bursting_vessel_3d: "demos/bursting_vessel_3d.toml" [small];
     gelatine_3d: "demos/gelatine_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
-    fireball: "demos/fireball_3d.toml", "domain.cells=[18, 18, 24]", "time.until=0.05";
+    fireball: "demos/fireball_3d.toml", "domain.cells=[16, 16, 24]", "time.until=0.05";
     street_blast: "demos/street_blast_3d.toml" [small], "time.until=0.003";
     ball_in_blast_3d: "demos/ball_in_blast_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
 }
