@@ -18,7 +18,7 @@ pub fn bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
         let text = if about.is_dir() { "is a folder" } else { "is no regular file" };
         return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
     }
-    read(std::fs::File::open(path)?, most)
+    read(std::fs::File::open(path)?, most, about.len())
 }
 
 /// As [`bytes`], for text.
@@ -34,11 +34,12 @@ pub fn text(path: &Path, most: u64) -> io::Result<String> {
 /// # Errors
 /// As [`text`].
 pub fn standard(most: u64) -> io::Result<String> {
-    utf8(read(io::stdin().lock(), most)?)
+    utf8(read(io::stdin().lock(), most, 0)?)
 }
 
-fn read(from: impl Read, most: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
+/// `about`: how many there seem to be.
+fn read(from: impl Read, most: u64, about: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(usize::try_from(about.min(most)).unwrap_or(0) + 1);
     from.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         let text = format!("is larger than {} MiB, the most that is read", most >> 20);

@@ -189,11 +189,13 @@ fn difference(snapshot: &Snapshot, [low, high, span]: [usize; 3], value: impl Fn
 /// Along each axis the cells between which a difference is taken, and how many cells they are apart.
 fn neighbours(snapshot: &Snapshot, i: usize) -> [[usize; 3]; 3] {
     let grid = &snapshot.grid;
-    let mut stride = 1;
+    // quotients of 32 bits take half the time of longer ones
+    let [wide, high, _] = grid.cells;
+    let (row, plane) = (i as u32 / wide, i as u32 / wide / high);
+    let places = [i as u32 - row * wide, row - plane * high, plane];
+    let steps = [1, wide as usize, wide as usize * high as usize];
     std::array::from_fn(|axis| {
-        let (step, cells) = (stride, grid.cells[axis] as usize);
-        stride *= cells;
-        let at = i / step % cells;
+        let (step, cells, at) = (steps[axis], grid.cells[axis], places[axis]);
         let open = |near: bool, j: usize| if near && snapshot.kind[j] == kind::GAS { j } else { i };
         let low = open(at > 0, i.wrapping_sub(step));
         let high = open(at + 1 < cells, i + step);

@@ -4,11 +4,10 @@
 
 use std::path::{Path, PathBuf};
 
-use bytemuck::cast_slice;
 use rayon::prelude::*;
 
 use super::container::{self, Array, Form};
-use super::npy::Kind;
+use super::npy::Numbers;
 use crate::Result;
 use crate::export::{Exporter, Moment, Needs};
 use crate::quantity::{Place, Quantity, Values, all};
@@ -45,17 +44,16 @@ impl Exporter for ArrayExporter {
 fn arrays(snapshot: &Snapshot) -> impl IndexedParallelIterator<Item = Array> {
     let (grid, particles) = (&snapshot.grid, &snapshot.particles);
     let position: Vec<f32> = particles.iter().flat_map(|particle| particle.position).collect();
-    let real = |name: &str, shape: &[usize], values: &[f32], about: &str| Array {
+    let real = |name: &str, shape: &[usize], values: Vec<f32>, about: &str| Array {
         name: name.to_owned(),
-        kind: Kind::F32,
         shape: shape.to_vec(),
-        bytes: cast_slice(values).to_vec(),
+        numbers: Numbers::F32(values),
         about: about.to_owned(),
     };
     let places = vec![
-        real("origin", &[3], &grid.origin, "low corner of the cells [m]"),
-        real("spacing", &[1], &[grid.spacing], "edge of a cell [m]"),
-        real("particle_position", &[particles.len(), 3], &position, "position [m]"),
+        real("origin", &[3], grid.origin.to_vec(), "low corner of the cells [m]"),
+        real("spacing", &[1], vec![grid.spacing], "edge of a cell [m]"),
+        real("particle_position", &[particles.len(), 3], position, "position [m]"),
     ];
     let mut quantities: Vec<&Quantity> = all(snapshot, Place::Cell).chain(all(snapshot, Place::Particle)).collect();
     quantities.sort_by_key(|quantity| std::cmp::Reverse(quantity.components)); // the long ones are not to be waited for at the end
@@ -71,9 +69,9 @@ fn array(snapshot: &Snapshot, quantity: &Quantity) -> Array {
     if quantity.components > 1 {
         shape.push(quantity.components);
     }
-    let (kind, bytes) = match quantity.of(snapshot) {
-        Values::Real(values) => (Kind::F32, cast_slice(&values).to_vec()),
-        Values::Whole(values) => (Kind::U32, cast_slice(&values).to_vec()),
+    let numbers = match quantity.of(snapshot) {
+        Values::Real(values) => Numbers::F32(values),
+        Values::Whole(values) => Numbers::U32(values),
     };
-    Array { name, kind, shape, bytes, about: format!("{}, unit {}", quantity.caption, quantity.unit) }
+    Array { name, shape, numbers, about: format!("{}, unit {}", quantity.caption, quantity.unit) }
 }

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use bytemuck::cast_slice;
 use rayon::prelude::*;
 
 use super::container::{self, Array, Contents, Form, Head, SCENE, Source};
-use super::npy::Kind;
+use super::npy::{Kind, Numbers};
 use super::states::numbered;
 use crate::simulation::{Host, Saved, SavedArray};
 use crate::{Error, Result};
@@ -46,8 +47,9 @@ pub fn write(run: &Path, source: &Source, saved: &Saved, about: &str, keep: usiz
 }
 
 fn array(saved: &SavedArray) -> Array {
-    let kind = if saved.real { Kind::F32 } else { Kind::U32 };
-    Array::rows(&saved.name, kind, saved.columns, bytemuck::cast_slice(&saved.words).to_vec())
+    let words = &saved.words;
+    let numbers = if saved.real { Numbers::F32(cast_slice(words).to_vec()) } else { Numbers::U32(words.clone()) };
+    Array::rows(&saved.name, saved.columns, numbers)
 }
 
 /// The texts of a checkpoint: its head, the scene, and what the run says of itself.
@@ -75,12 +77,12 @@ pub fn read(path: &Path, most: u64) -> Result<Saved> {
     let mut saved = Saved { time: head.time, step: head.step, host: Host::default(), arrays: Vec::new() };
     for array in arrays {
         let columns = array.columns();
-        let Array { name, kind, bytes, .. } = array;
+        let Array { name, numbers, .. } = array;
+        let kind = numbers.kind();
         if !matches!(kind, Kind::F32 | Kind::U32) {
             return Err(container::broken(path, &format!("array `{name}` has no words of 32 bits")));
         }
-        let words = bytemuck::pod_collect_to_vec(&bytes);
-        saved.arrays.push(SavedArray { name, real: kind == Kind::F32, columns, words });
+        saved.arrays.push(SavedArray { name, real: kind == Kind::F32, columns, words: numbers.cast() });
     }
     Ok(saved)
 }

@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, ZipArchive};
 
-use super::npy::{self, Kind};
+use super::npy;
+pub use super::npy::Numbers;
 use super::units;
 use crate::export::atomic;
 use crate::scene::{self, RenderSettings, Scene};
@@ -32,8 +33,6 @@ const fn level(form: Form) -> i64 {
         Form::Full | Form::Arrays => 1,
     }
 }
-/// Bytes that one thread copies at least.
-const CHUNK: usize = 1 << 18;
 /// Texts of a file at most.
 const MOST_TEXTS: usize = 16;
 /// Bytes of texts and heads of arrays, and what arrays that do not compress may grow by.
@@ -116,12 +115,10 @@ pub struct Head {
 pub struct Array {
     /// Name.
     pub name: String,
-    /// Of its numbers.
-    pub kind: Kind,
     /// Elements along each axis, the last one fastest.
     pub shape: Vec<usize>,
-    /// All numbers, lowest byte first.
-    pub bytes: Vec<u8>,
+    /// All of them.
+    pub numbers: Numbers,
     /// What it is, with units.
     pub about: String,
 }
@@ -129,10 +126,10 @@ pub struct Array {
 impl Array {
     /// Rows of so many numbers.
     #[must_use]
-    pub fn rows(name: &str, kind: Kind, columns: usize, bytes: Vec<u8>) -> Self {
-        let rows = bytes.len() / (kind.width() * columns.max(1));
+    pub fn rows(name: &str, columns: usize, numbers: Numbers) -> Self {
+        let rows = numbers.bytes().len() / (numbers.kind().width() * columns.max(1));
         let shape = if columns == 1 { vec![rows] } else { vec![rows, columns] };
-        Self { name: name.to_owned(), kind, shape, bytes, about: units::of(name).to_owned() }
+        Self { name: name.to_owned(), shape, numbers, about: units::of(name).to_owned() }
     }
 
     /// Numbers of a row.
@@ -145,12 +142,9 @@ impl Array {
     ///
     /// # Errors
     /// If they are of another size.
-    pub fn typed<T: bytemuck::Pod>(&self) -> std::result::Result<Vec<T>, String> {
-        if self.bytes.len().is_multiple_of(size_of::<T>()) && size_of::<T>() == self.kind.width() * self.columns() {
-            let mut all = vec![T::zeroed(); self.bytes.len() / size_of::<T>()];
-            let into = bytemuck::cast_slice_mut(&mut all).par_chunks_mut(CHUNK);
-            into.zip(self.bytes.par_chunks(CHUNK)).for_each(|(into, from)| into.copy_from_slice(from));
-            return Ok(all);
+    pub fn typed<T: bytemuck::Pod>(self) -> std::result::Result<Vec<T>, String> {
+        if size_of::<T>() == self.numbers.kind().width() * self.columns() {
+            return Ok(self.numbers.cast());
         }
         Err(format!(
             "array `{}` has elements of {} numbers, which is not what belongs there",
@@ -225,10 +219,11 @@ fn deflated(level: i64) -> SimpleFileOptions {
 /// An array as an archive of its own, of which files take over what is deflated.
 fn packed(array: &Array, level: i64) -> io::Result<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    let large = array.bytes.len() as u64 >= u64::from(u32::MAX);
+    let bytes = array.numbers.bytes();
+    let large = bytes.len() as u64 >= u64::from(u32::MAX);
     zip.start_file(format!("{}.npy", array.name), deflated(level).large_file(large))?;
-    zip.write_all(&npy::head(array.kind, &array.shape))?;
-    zip.write_all(&array.bytes)?;
+    zip.write_all(&npy::head(array.numbers.kind(), &array.shape))?;
+    zip.write_all(bytes)?;
     Ok(zip.finish()?.into_inner())
 }
 
@@ -336,7 +331,7 @@ fn parse(bytes: &[u8], most: u64, wanted: impl Fn(&str) -> bool) -> std::result:
     let mut arrays: Vec<Array> = names.par_iter().with_max_len(1).map(read).collect::<std::result::Result<_, _>>()?;
     let mut left = most;
     for array in &mut arrays {
-        left = left.checked_sub(array.bytes.len() as u64).ok_or_else(|| too_many(&array.name, most))?;
+        left = left.checked_sub(array.numbers.bytes().len() as u64).ok_or_else(|| too_many(&array.name, most))?;
         array.about = head.arrays.get(&array.name).cloned().unwrap_or_default();
     }
     let missing = head.arrays.keys().find(|name| wanted(name) && arrays.iter().all(|array| array.name != **name));
@@ -352,9 +347,12 @@ fn too_many(name: &str, most: u64) -> String {
 
 /// An array that has a member to itself; nothing is known of what it is.
 fn array<R: Read + Seek>(archive: &mut ZipArchive<R>, name: &str, most: u64) -> std::result::Result<Array, String> {
-    let mut bytes = member(archive, name, most.saturating_add(npy::MOST_HEAD))?;
-    let (kind, shape, start) = npy::parse(&bytes).map_err(|reason| format!("{name}: {reason}"))?;
-    bytes.drain(..start);
+    let file = archive.by_name(name).map_err(|error| format!("{name}: {error}"))?;
+    let size = file.size();
+    if size > most.saturating_add(npy::MOST_HEAD) {
+        return Err(too_many(name, most));
+    }
+    let (shape, numbers) = npy::read(file, size).map_err(|reason| format!("{name}: {reason}"))?;
     let own = name.strip_suffix(".npy").unwrap_or(name);
-    Ok(Array { name: own.to_owned(), kind, shape, bytes, about: String::new() })
+    Ok(Array { name: own.to_owned(), shape, numbers, about: String::new() })
 }

@@ -162,15 +162,14 @@ fn part(one: &Fragment, snapshot: &Snapshot) -> Part {
 fn read_pieces(path: &Path) -> Result<BTreeMap<u32, u32>> {
     let wrong = |reason: String| Error::io(path, std::io::Error::new(std::io::ErrorKind::InvalidData, reason));
     let bytes = input::bytes(path, MOST_PIECES).map_err(|source| Error::io(path, source))?;
-    let (kind, shape, start) = npy::parse(&bytes).map_err(wrong)?;
-    if kind != npy::Kind::U32 || shape.len() != 2 || shape[1] != 2 || bytes.len() - start != 8 * shape[0] {
-        return Err(wrong(format!(
-            "no pairs of particles and pieces: {} bytes of shape {shape:?}",
-            bytes.len() - start
-        )));
+    let (shape, numbers) = npy::read(&bytes[..], bytes.len() as u64).map_err(wrong)?;
+    match (numbers, &shape[..]) {
+        (npy::Numbers::U32(words), [_, 2]) => Ok(words.as_chunks().0.iter().map(|[id, piece]| (*id, *piece)).collect()),
+        (numbers, _) => {
+            let bytes = numbers.bytes().len();
+            Err(wrong(format!("no pairs of particles and pieces: {bytes} bytes of shape {shape:?}")))
+        }
     }
-    let word = |at: &[u8]| u32::from_le_bytes([at[0], at[1], at[2], at[3]]);
-    Ok(bytes[start..].chunks_exact(8).map(|pair| (word(pair), word(&pair[4..]))).collect())
 }
 
 /// Where a file comes from.

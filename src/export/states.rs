@@ -7,7 +7,7 @@ use bytemuck::{Pod, cast_slice};
 use rayon::prelude::*;
 
 use super::container::{self, Array, Contents, Form, Source};
-use super::npy::Kind;
+use super::npy::Numbers;
 use crate::export::{Exporter, Moment, Needs};
 use crate::render::{Stored, StoredParticles};
 use crate::scene::EquationOfState;
@@ -85,27 +85,19 @@ pub(super) fn numbered(folder: &Path) -> Result<Vec<(u64, PathBuf)>> {
 /// # Errors
 /// [`Error::Io`].
 pub fn write(path: &Path, source: &Source, state: &Stored) -> Result<()> {
-    let mut arrays: Vec<(&str, Kind, usize, &[u8])> = vec![
-        ("conserved", Kind::F32, 4, cast_slice(&state.conserved)),
-        ("energy", Kind::F32, 1, cast_slice(&state.energy)),
-        ("kind", Kind::U8, 1, &state.kind),
-    ];
-    if !state.species.is_empty() {
-        arrays.push(("species", Kind::F32, 1, cast_slice(&state.species)));
-    }
-    if !state.owed.is_empty() {
-        arrays.push(("owed", Kind::F32, 1, cast_slice(&state.owed)));
-    }
-    if !state.maps.is_empty() {
-        arrays.push(("maps", Kind::F32, 4, cast_slice(&state.maps)));
-    }
+    let mut arrays: Vec<(&str, usize, &[f32])> =
+        vec![("conserved", 4, cast_slice(&state.conserved)), ("energy", 1, &state.energy)];
+    let further = [("species", 1, &state.species[..]), ("owed", 1, &state.owed), ("maps", 4, cast_slice(&state.maps))];
+    arrays.extend(further.into_iter().filter(|(_, _, values)| !values.is_empty()));
     let affine = state.particles.as_ref().map_or(Vec::new(), |own| turning_alone(&own.affine));
     if let Some(particles) = &state.particles {
         let own = particles.arrays().map(|(name, values)| (name, if name == "affine" { &affine } else { values }));
-        arrays.extend(own.map(|(name, values)| (name, Kind::F32, 4, cast_slice(values))));
+        arrays.extend(own.map(|(name, values)| (name, 4, cast_slice(values))));
     }
-    let rows =
-        arrays.into_par_iter().map(|(name, kind, columns, bytes)| Array::rows(name, kind, columns, bytes.to_vec()));
+    let real =
+        |(name, columns, values): (&str, usize, &[f32])| Array::rows(name, columns, Numbers::F32(values.to_vec()));
+    let kind = rayon::iter::once(()).map(|()| Array::rows("kind", 1, Numbers::U8(state.kind.clone())));
+    let rows = arrays.into_par_iter().map(real).chain(kind);
     container::write(path, (Form::Fields, source), (state.time, state.step), &[], rows)
 }
 

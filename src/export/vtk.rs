@@ -8,8 +8,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use bytemuck::{Pod, cast_slice};
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
+use flate2::{Compress, Compression, FlushCompress, Status};
 use rayon::prelude::*;
 
 use crate::Result;
@@ -153,6 +152,8 @@ fn write_script(path: &Path, snapshot: &Snapshot) -> Result<()> {
 const HIDDEN: u8 = 32;
 /// Bytes of a block that is compressed on its own.
 const BLOCK: usize = 1 << 17;
+/// Bytes that a block may grow by which does not compress.
+const SPARE: usize = 1 << 10;
 
 /// A VTK XML file in the making: the head, and the compressed arrays that follow it.
 struct Appended {
@@ -226,8 +227,8 @@ impl Appended {
             Values::Real(values) => (own, f32::TYPE, compressed(cast_slice(&values))),
             Values::Whole(values) => (own, u32::TYPE, compressed(cast_slice(&values))),
         });
-        for (own, kind, block) in packed.collect::<Vec<_>>() {
-            self.block(own.name, own.components, kind, block);
+        for (own, kind, blocks) in packed.collect::<Vec<_>>() {
+            self.block(own.name, own.components, kind, blocks);
         }
     }
 
@@ -235,14 +236,14 @@ impl Appended {
         self.block(name, components, T::TYPE, compressed(cast_slice(values)));
     }
 
-    fn block(&mut self, name: &str, components: usize, kind: &str, block: Vec<u8>) {
+    fn block(&mut self, name: &str, components: usize, kind: &str, blocks: Vec<Vec<u8>>) {
         let _ = writeln!(
             self.head,
             "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{}\"/>",
             self.offset
         );
-        self.offset += block.len() as u64;
-        self.blocks.push(block);
+        self.offset += blocks.iter().map(|block| block.len() as u64).sum::<u64>();
+        self.blocks.extend(blocks);
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -256,15 +257,24 @@ impl Appended {
 }
 
 /// Blocks of an array behind their number, their size, that of a last shorter one, and their sizes when compressed.
-fn compressed(bytes: &[u8]) -> Vec<u8> {
-    let deflated = |block: &[u8]| {
-        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-        // writing into memory does not fail
-        let _ = encoder.write_all(block);
-        encoder.finish().unwrap_or_default()
+fn compressed(bytes: &[u8]) -> Vec<Vec<u8>> {
+    let deflated = |encoder: &mut Compress, block: &[u8]| {
+        encoder.reset();
+        let mut out = Vec::with_capacity(block.len() + SPARE);
+        loop {
+            let rest = &block[encoder.total_in() as usize..];
+            match encoder.compress_vec(rest, &mut out, FlushCompress::Finish) {
+                Ok(Status::Ok | Status::BufError) => out.reserve(SPARE),
+                // it ended: memory takes all
+                _ => return out,
+            }
+        }
     };
-    let blocks: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(deflated).collect();
-    let mut head = vec![blocks.len() as u64, BLOCK as u64, (bytes.len() % BLOCK) as u64];
-    head.extend(blocks.iter().map(|block| block.len() as u64));
-    [cast_slice(&head), &blocks.concat()].concat()
+    let encoder = || Compress::new(Compression::fast(), true);
+    let blocks = bytes.par_chunks(BLOCK).map_init(encoder, deflated);
+    let mut all: Vec<Vec<u8>> = blocks.collect();
+    let mut head = vec![all.len() as u64, BLOCK as u64, (bytes.len() % BLOCK) as u64];
+    head.extend(all.iter().map(|block| block.len() as u64));
+    all.insert(0, cast_slice(&head).to_vec());
+    all
 }

@@ -23,6 +23,7 @@ mod font;
 mod fracture;
 mod gauge;
 mod geometry;
+mod going_on;
 mod integrator;
 mod light;
 mod look;

@@ -79,17 +79,19 @@ impl Grid {
     }
 
     /// The unpadded part of a padded array, x fastest.
-    pub fn unpadded<T: Copy + Send + Sync>(&self, padded: &[T]) -> Vec<T> {
+    pub fn unpadded<T: Copy + Default + Send + Sync>(&self, padded: &[T]) -> Vec<T> {
         self.unpadded_by(|slot| padded[slot])
     }
 
     /// What `value` makes of the slot of each cell, x fastest.
-    pub(crate) fn unpadded_by<T: Send>(&self, value: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
-        let [wide, high, _] = self.cells;
-        let own = |cell: u32| {
-            let row = cell / wide;
-            value(self.slot([(cell % wide) as i32, (row % high) as i32, (row / high) as i32]))
-        };
-        (0..self.cell_count() as u32).into_par_iter().with_min_len(LEAST).map(own).collect()
+    pub(crate) fn unpadded_by<T: Copy + Default + Send>(&self, value: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
+        let [wide, high, _] = self.cells.map(|n| n as usize);
+        let mut all = vec![T::default(); self.cell_count()];
+        let rows = all.par_chunks_mut(wide.max(1)).enumerate().with_min_len(LEAST.div_ceil(wide.max(1)));
+        rows.for_each(|(row, cells)| {
+            let first = self.slot([0, (row % high) as i32, (row / high) as i32]);
+            cells.iter_mut().zip(first..).for_each(|(cell, slot)| *cell = value(slot));
+        });
+        all
     }
 }

@@ -190,7 +190,7 @@ impl Desk {
             None => self.gpu.insert(Gpu::new(&self.options)?).clone(),
         };
         let session = match request.run() {
-            Some(run) => Session::open_run(&gpu, run, request.changes.outside)?,
+            Some(run) => Session::open_run(&gpu, run, &request.changes)?,
             None => Session::open(&gpu, scene)?,
         };
         let look = look.map_or_else(|| session.look(), |look| *look);

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::past;
+use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::render::Picture;
 use crate::scene::{Camera, Changes, Field, RenderSettings, Scene};
-use crate::{Error, Result};
 
 /// A scene to open: file or name of a shipped one, and what to change about it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -29,15 +29,11 @@ impl Request {
     /// Reads the scene.
     ///
     /// # Errors
-    /// Those of [`Scene::find`].
+    /// Those of [`Scene::find`]; [`Error::Usage`] where a run cannot go on with what is to change.
     pub fn load(&self) -> Result<Scene> {
         if let Some(run) = self.run() {
-            if !self.changes.words().is_empty() || self.resolution.is_some() {
-                let text =
-                    "a run is shown as it was; what may change does so in the window, or by `brisance run --branch`";
-                return Err(Error::Usage(format!("{}: {text}", run.display())));
-            }
-            return past::of_run(run, self.changes.outside).map(|recorded| recorded.scene);
+            self.changes.of_a_state(self.resolution, "a run in the window")?;
+            return past::of_run(run, &self.changes).map(|recorded| recorded.scene);
         }
         let scene = Scene::find(&self.name, &self.changes)?;
         match self.resolution {

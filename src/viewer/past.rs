@@ -8,7 +8,7 @@ use serde::Deserialize;
 use crate::expect::{Budget, Summary};
 use crate::export::{self, checkpoint, container, forms, states};
 use crate::render::Stored;
-use crate::scene::Scene;
+use crate::scene::{Changes, Scene};
 use crate::simulation::{Host, Saved};
 use crate::{Error, Result};
 
@@ -151,6 +151,8 @@ struct About {
 #[derive(Debug)]
 pub(super) struct Recorded {
     /// Its scene.
+    pub(super) was: Scene,
+    /// The same with what is to change.
     pub(super) scene: Scene,
     /// Its checkpoints, and the states of its frames between them.
     pub(super) kept: Vec<Kept>,
@@ -160,11 +162,12 @@ pub(super) struct Recorded {
     pub(super) goes_on: bool,
 }
 
-/// Reads what a run left. `outside`: its meshes may lie elsewhere.
+/// Reads what a run left, to go on with changes.
 ///
 /// # Errors
 /// [`Error::Usage`] if the folder has neither checkpoints nor states, or some of another scene; [`Error::Io`]; [`Error::Scene`].
-pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
+pub(super) fn of_run(run: &Path, changes: &Changes) -> Result<Recorded> {
+    let outside = changes.outside;
     forms::known(run, outside)?;
     let (whole, light) = (checkpoint::list(run)?, states::list(run)?);
     let all = || whole.iter().map(|(_, path)| path).chain(light.iter().map(|(_, path)| path));
@@ -179,7 +182,8 @@ pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
     let text = texts.get(container::SCENE).map_or("", String::as_str);
     let text = Scene::text_of_form(head.version, text)
         .map_err(|error| Error::Scene(format!("{}: {}: {error}", last.display(), container::SCENE)))?;
-    let scene = Scene::recorded(&text, (run, &head.source.scene_file), &[], outside)?;
+    let recorded = |set: &[String]| Scene::recorded(&text, (run, &head.source.scene_file), set, outside);
+    let (was, scene) = (recorded(&[])?, recorded(&changes.set)?);
     for path in all() {
         if container::read_texts(path)?.0.source.scene_hash != head.source.scene_hash {
             return Err(Error::Usage(format!("{}: a state of another scene than the last one", path.display())));
@@ -203,7 +207,7 @@ pub(super) fn of_run(run: &Path, outside: bool) -> Result<Recorded> {
         }
     }
     kept.sort_by(|a, b| a.time.total_cmp(&b.time));
-    Ok(Recorded { scene, kept, start, goes_on })
+    Ok(Recorded { was, scene, kept, start, goes_on })
 }
 
 #[cfg(test)]

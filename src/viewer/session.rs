@@ -11,7 +11,7 @@ use crate::expect::{self, Budget, Ending, Summary, Warning};
 use crate::export::states;
 use crate::gpu::{Detail, Gpu};
 use crate::render::{Picture, Renderer, SceneBuffers, Stored};
-use crate::scene::{Camera, Field, RenderSettings, Scene};
+use crate::scene::{Camera, Changes, Field, RenderSettings, Scene};
 use crate::simulation::{Blast, Saved, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
@@ -46,19 +46,19 @@ impl Session {
     /// # Errors
     /// If it does not fit, or a shader or the driver fails.
     pub fn open(gpu: &Gpu, scene: Scene) -> Result<Self> {
-        let mut session = Self::new(gpu, scene, Vec::new())?;
+        let mut session = Self::new(gpu, scene, None, Vec::new())?;
         session.keep()?;
         Ok(session)
     }
 
-    /// Opens a run on the disk at its last state; `outside`: its meshes may lie outside of its folder.
+    /// Opens a run on the disk at its last state, to go on with changes.
     ///
     /// # Errors
-    /// [`Error::Usage`] if it has none; [`Error::Io`]; those of [`Session::open`].
-    pub fn open_run(gpu: &Gpu, run: &Path, outside: bool) -> Result<Self> {
-        let Recorded { scene, kept, start, goes_on } = past::of_run(run, outside)?;
+    /// [`Error::Usage`] if it has none, or cannot go on with them; [`Error::Io`]; those of [`Session::open`].
+    pub fn open_run(gpu: &Gpu, run: &Path, changes: &Changes) -> Result<Self> {
+        let Recorded { was, scene, kept, start, goes_on } = past::of_run(run, changes)?;
         let begins = goes_on && kept.first().is_some_and(|first| first.time == 0.0);
-        let mut session = Self { of_a_run: true, ..Self::new(gpu, scene, kept)? };
+        let mut session = Self { of_a_run: true, ..Self::new(gpu, scene, Some(&was), kept)? };
         match start {
             Some(start) => session.start = start,
             // a branch of another run begins later, from a state that is not here
@@ -72,9 +72,12 @@ impl Session {
         Ok(session)
     }
 
-    fn new(gpu: &Gpu, scene: Scene, kept: Vec<Kept>) -> Result<Self> {
+    /// A scene at its start, which takes over states of the scene `was`.
+    fn new(gpu: &Gpu, scene: Scene, was: Option<&Scene>, kept: Vec<Kept>) -> Result<Self> {
         let plan = MemoryPlan::fitting(&scene, gpu)?;
-        let mut simulation = Simulation::new(gpu, &scene)?;
+        let built = was.map_or_else(|| Ok(scene.clone()), |was| scene.taking_over(was))?;
+        let mut simulation = Simulation::new(gpu, &built)?;
+        simulation.change(&built, &scene, &mut Vec::new())?;
         let renderer = Renderer::of(&simulation, &scene)?;
         simulation.set_target(scene.time.until)?;
         let particles = plan.particles;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-use brisance::export::container::{self, Array, Form, Source};
+use brisance::export::container::{self, Array, Form, Numbers, Source};
 use brisance::gpu::Gpu;
 use brisance::scene::{Changes, Scene};
 use brisance::simulation::{Saved, SavedArray, Simulation};
@@ -368,13 +368,17 @@ fn spoiled_states_are_refused(run: &Path, convert: &[&str]) {
     };
     let cut = |arrays: &mut Vec<Array>| {
         let array = energy(arrays);
-        array.bytes.truncate(12);
+        array.numbers = Numbers::F32(vec![1.0; 3]);
         array.shape = vec![3];
+    };
+    let not_finite = |arrays: &mut Vec<Array>| {
+        let array = energy(arrays);
+        array.numbers = Numbers::F32(vec![f32::NAN; array.shape[0]]);
     };
     let spoilt: [(Spoil, &str); 3] = [
         (&one_more, "`banana` is none of a state"),
         (&cut, "`energy` has a wrong length"),
-        (&|arrays| energy(arrays).bytes.fill(0xff), "`energy` holds numbers that are not finite"),
+        (&not_finite, "`energy` holds numbers that are not finite"),
     ];
     for (spoil, told) in spoilt {
         let mut state = container::read(&path, 1 << 20).unwrap();

@@ -55,7 +55,8 @@ fn a_run_of_the_first_form_is_looked_at() {
     let place = tempfile::tempdir().unwrap();
     let run = copy(place.path());
     for _ in 0..2 {
-        let mut session = brisance::viewer::session::Session::open_run(&gpu, &run, false).unwrap();
+        let mut session =
+            brisance::viewer::session::Session::open_run(&gpu, &run, &brisance::scene::Changes::default()).unwrap();
         assert!((session.time() - 0.2).abs() < 1e-6 && session.next().is_none(), "{}", session.time());
         let look = session.look();
         let last = session.draw(&look).unwrap();

@@ -268,6 +268,17 @@ fn installed(program: &str) -> bool {
     Command::new(program).arg("-version").output().is_ok_and(|output| output.status.success())
 }
 
+/// Whether a film says which colours it has, and begins with its index, so that it plays while it is still loaded. [ITU-R BT.709-6]
+fn has_its_colours(film: &Path) {
+    let tags = "stream=color_range,color_space,color_transfer,color_primaries";
+    let asked = ["-v", "error", "-show_entries", tags, "-of", "csv=p=0", film.to_str().unwrap()];
+    let probed = Command::new("ffprobe").args(asked).output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&probed.stdout).trim(), "tv,bt709,bt709,bt709", "{}", film.display());
+    let bytes = std::fs::read(film).unwrap();
+    let at = |kind: &[u8]| bytes.windows(4).position(|window| window == kind);
+    assert!(at(b"moov").unwrap() < at(b"mdat").unwrap(), "{}: the index stands at the end", film.display());
+}
+
 #[test]
 fn a_film_is_made_where_there_is_ffmpeg() {
     let Some(folder) = folder_or_skip() else { return };
@@ -297,6 +308,7 @@ fn a_film_is_made_where_there_is_ffmpeg() {
             .output()
             .unwrap();
         assert_eq!(String::from_utf8_lossy(&probed.stdout).trim(), "96,64,25/1,4", "{name}: {}", err(&probed));
+        has_its_colours(&film.with_file_name(name));
     }
     assert_eq!(std::fs::read_dir(film.parent().unwrap()).unwrap().count(), 2, "no drafts stay");
 }

@@ -96,7 +96,7 @@ fn a_run_on_the_disk_is_looked_at_and_goes_on() {
     let out = run.to_str().unwrap();
     let every = ["--checkpoint", "3steps", "--keep", "9", "--no-frames", "-q", "--no-expect", "--out", out];
     crate::cli::succeeds(&[&["run", file.to_str().unwrap(), "--until", "0.2"][..], &every].concat());
-    let mut session = Session::open_run(&gpu, &run, false).unwrap();
+    let mut session = Session::open_run(&gpu, &run, &Changes::default()).unwrap();
     assert!((session.time() - 0.2).abs() < 1e-7 && session.kept().len() > 2, "{:?}", session.kept());
     let first = session.kept()[0];
     assert_eq!(session.rewind(first).unwrap(), first);
@@ -107,9 +107,48 @@ fn a_run_on_the_disk_is_looked_at_and_goes_on() {
     assert_eq!((f64::from(records[0].step), records[0].time), (rows[3][0], rows[3][1]));
     let mut request = Request::of(out);
     request.resolution = Some(20);
-    assert!(request.load().unwrap_err().to_string().contains("as it was"));
+    assert!(request.load().unwrap_err().to_string().contains("the cells and bodies of its run"));
     std::fs::remove_dir_all(run.join("checkpoints")).unwrap();
-    assert!(Session::open_run(&gpu, &run, false).unwrap_err().to_string().contains("--checkpoint"));
+    assert!(Session::open_run(&gpu, &run, &Changes::default()).unwrap_err().to_string().contains("--checkpoint"));
+}
+
+/// With other parameters a run goes on from any of its checkpoints as a branch of it does, to the bit: asked for when it is opened, or in the
+/// window behind that.
+#[test]
+fn a_run_on_the_disk_goes_on_another_way() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [file, run, branch] = ["charge.toml", "run", "branch"].map(|name| folder.path().join(name));
+    std::fs::write(&file, SPACE).unwrap();
+    let [file, out, other] = [&file, &run, &branch].map(|path| path.to_str().unwrap());
+    let quiet = ["--no-frames", "-q", "--no-expect", "--checkpoint", "3steps", "--keep", "9", "--out"];
+    crate::cli::succeeds(&[&["run", file, "--until", "0.2"], &quiet[..], &[out]].concat());
+    let down = ["--set", "gravity=[0.0, 0.0, -5.0]", "--set", "time.max_courant=0.4"];
+    let changes = Changes::default().set(down[1]).set(down[3]);
+    let mut asked = Session::open_run(&gpu, &run, &changes).unwrap();
+    let mut moved = Session::open_run(&gpu, &run, &Changes::default()).unwrap();
+    // what lies behind a state is forgotten where the scene goes on from it
+    for place in [1, 0] {
+        let from = asked.kept()[place];
+        let at = format!("{out}@{from}");
+        crate::cli::succeeds(&[&["run", "--branch", &at, "--force"], &down[..], &quiet, &[other]].concat());
+        let (_, rows) = crate::cli::table(&branch.join("diagnostics.csv"));
+        let rows = &rows[rows.iter().position(|row| row[1] > from).unwrap()..];
+        moved.rewind(from).unwrap();
+        moved.change((**asked.scene()).clone(), &mut Vec::new()).unwrap();
+        asked.rewind(from).unwrap();
+        for session in [&mut asked, &mut moved] {
+            let mut records = Vec::new();
+            session.advance(2, &mut records).unwrap();
+            let seen: Vec<_> = records.iter().map(|own| (own.step, own.time, own.gas.momentum[2])).collect();
+            let rows = &rows[..seen.len()];
+            let expected: Vec<_> = rows.iter().map(|row| (row[0] as u32, row[1], row[6] as f32)).collect();
+            assert_eq!(seen, expected, "from {from} s");
+            assert!(!session.finished() && seen[0].0 == 3 * (place as u32 + 1) + 1);
+        }
+    }
+    let refused = crate::cli::fails(2, &["view", out, "--set", "gas.gamma=1.3"]);
+    assert!(refused.contains("gas.gamma") && refused.contains("what may change is probes"), "{refused}");
 }
 
 /// States of frames are looked at, and played; from there the scene goes on from the last checkpoint, or from its start.
@@ -123,7 +162,7 @@ fn states_of_frames_are_shown_and_the_scene_goes_on_before_them() {
     let out = run.to_str().unwrap();
     let kept = ["--export", "fields", "--frames", "4", "--checkpoint", "off", "-q", "--no-expect", "--out", out];
     crate::cli::succeeds(&[&["run", file.to_str().unwrap(), "--until", "0.2"][..], &kept].concat());
-    let mut session = Session::open_run(&gpu, &run, false).unwrap();
+    let mut session = Session::open_run(&gpu, &run, &Changes::default()).unwrap();
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
     assert!(near(session.time(), 0.2) && session.kept().len() == 6, "{:?}", session.kept());
     let look = session.look();
@@ -163,7 +202,7 @@ fn states_of_frames_are_shown_and_the_scene_goes_on_before_them() {
     assert!(seen.notes.is_empty() && !seen.status.replay, "{:?}", seen.notes);
     // what is left of a branch has no start to go back to
     std::fs::remove_file(run.join("states/0000.npz")).unwrap();
-    let mut session = Session::open_run(&gpu, &run, false).unwrap();
+    let mut session = Session::open_run(&gpu, &run, &Changes::default()).unwrap();
     let told = session.advance(1, &mut records).unwrap_err().to_string();
     assert!(told.contains("left no checkpoint up to it"), "{told}");
 }

@@ -20,23 +20,6 @@ use crate::simulation::{Saved, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result, input};
 
-/// Keys that a branch may change, with what may follow; materials of the same model may change their strength.
-const CHANGEABLE: [&str; 12] = [
-    "title",
-    "description",
-    "probes",
-    "gauges",
-    "output.",
-    "render.",
-    "expect.",
-    "boundary.",
-    "gravity",
-    "time.",
-    "numerics.tolerance",
-    "materials.",
-];
-/// Last parts of the keys of materials that a branch may change.
-const STRENGTHS: [&str; 5] = ["yield_stress", "hardening", "tensile_strength", "cohesion", "friction_angle"];
 /// A frame counts as a multiple of the distance of frames up to this part of it.
 const ROUNDING: f64 = 1e-6;
 
@@ -119,14 +102,8 @@ impl Beginning {
         let wrong = || Error::Usage(format!("--branch {text}: write DIR@TIME, as in out/sod@0.1"));
         let (run, time) = text.rsplit_once('@').ok_or_else(wrong)?;
         let time: f64 = time.parse().map_err(|_| wrong())?;
-        if given.scene.resolution.is_some() || !given.scene.variant.is_empty() {
-            let reason = "the state has the cells and bodies of its run; --set changes what may change";
-            return Err(Error::Usage(format!("--resolution and --variant with --branch: {reason}")));
-        }
-        let key = |set: &str| set.split('=').next().unwrap_or_default().trim().to_owned();
-        if let Some(key) = given.scene.set.iter().map(|set| key(set)).find(|key| !may_change(key)) {
-            return Err(Error::Usage(format!("--set {key} with --branch: {REFUSED}")));
-        }
+        let scene = &given.scene;
+        scenes::changes(scene, &[]).of_a_state(scene.resolution, "--branch")?;
         forms::known(Path::new(run), true)?;
         let path = latest_before(Path::new(run), time)?;
         let mut from = From::read(Path::new(run), &path, &[])?;
@@ -166,18 +143,8 @@ impl Beginning {
     /// Those of [`Simulation::new`]; [`Error::Usage`] if the checkpoint is not of this scene and program.
     pub(super) fn simulation(&self, gpu: &Gpu, plan: &MemoryPlan) -> Result<Simulation> {
         let Some(from) = &self.from else { return Simulation::new(gpu, &self.scene) };
-        if self.scene.keeps_maps() && !from.scene.keeps_maps() {
-            let text = "maps of the largest values begin with the run: this one kept none, run the scene anew with output.maps=true";
-            return Err(Error::Usage(text.to_owned()));
-        }
+        let before = self.scene.taking_over(&from.scene)?;
         from.warn(gpu);
-        // built as the run was, and then changed as a run at work is
-        let mut before = self.scene.clone();
-        let was = &from.scene;
-        (before.gravity, before.time, before.boundary) = (was.gravity, was.time.clone(), was.boundary.clone());
-        before.time.frames = self.scene.time.frames;
-        before.output.clone_from(&was.output);
-        before.numerics.tolerance = was.numerics.tolerance;
         let mut simulation = Simulation::new(gpu, &before)?;
         let read = checkpoint::read(&from.path, plan.bytes(None).max(simulation.saved_bytes()))?;
         let saved = Saved { host: from.about.host.clone(), ..read };
@@ -205,16 +172,6 @@ impl Beginning {
         // a branch with other frames: those up to its time count as drawn
         Some(((from.head.time / new + ROUNDING).floor() as u32, false))
     }
-}
-
-const REFUSED: &str = "a state goes on only with the cells, bodies and gas that it has; a branch may change probes, gauges, output.*, render.*, \
-                       expect.*, boundary.* (states, not rules), gravity, time.*, numerics.tolerance, and the \
-                       strength of materials; run the scene anew for the rest";
-
-/// Whether a branch may change a key.
-fn may_change(key: &str) -> bool {
-    let strength = |key: &str| STRENGTHS.iter().any(|name| key.rsplit('.').next() == Some(name));
-    CHANGEABLE.iter().any(|own| key.starts_with(own)) && (!key.starts_with("materials.") || strength(key))
 }
 
 /// A run that goes on does so as it began.
