@@ -130,6 +130,9 @@ pub struct StepRecord {
     pub floored: u32,
     /// Cells whose pressure had to be raised before one of two solves (`numerics.integrator = "ars222"`).
     pub raised: u32,
+    /// Cells whose products were denser than the law of their explosive allows: it was taken at its limit there.
+    #[serde(default)]
+    pub dense: u32,
     /// Particles held back at a wall.
     pub clamped: u32,
     /// Loads of the gas: on each body, if one of them is held or driven or has a gauge, then on each obstacle, then on the walls of each
@@ -168,6 +171,7 @@ impl StepRecord {
             gas_speed: gas_speed[0].max(0.0),
             courant: gas_speed[1].max(0.0),
             raised: gas_speed[2].to_bits(),
+            dense: raw[14][0].to_bits(),
             min_entropy: -gas_speed[3],
             coldest_slot: heat[3].to_bits(),
             gas_kinetic: more[0],

@@ -50,7 +50,7 @@ pub struct Snapshot {
     pub pressure: Vec<f32>,
     /// Total gas energy per volume \[J m^-3\].
     pub energy: Vec<f32>,
-    /// Mass fraction of the second gas, its volume fraction, and the share of an explosive that has burned; empty without one.
+    /// Mass fraction of the second gas, its volume fraction, and what it holds, in energies of detonation; empty without one.
     pub species: Vec<[f32; 3]>,
     /// Gas that cells owe, and in covered cells all that they hold \[kg m^-3\].
     pub owed: Vec<f32>,
@@ -165,8 +165,8 @@ impl Snapshot {
         if self.gases.products().is_none() {
             return (self.gamma_at(cell) * f64::from(self.pressure[cell]) / f64::from(self.density[cell])).sqrt();
         }
-        let (state, burned) = self.conserved_at(cell);
-        self.gases.sound_speed(state, burned)
+        let (state, held) = self.conserved_at(cell);
+        self.gases.sound_speed(state, held)
     }
 
     /// Temperature times the gas constant of the first gas in a cell \[J kg^-1\]: p / rho of it.
@@ -179,16 +179,16 @@ impl Snapshot {
         if self.gases.products().is_none() {
             return plain();
         }
-        let (state, burned) = self.conserved_at(cell);
-        plain() * (1.0 - self.gases.cold_pressure(state, burned) as f32 / self.pressure[cell])
+        let (state, held) = self.conserved_at(cell);
+        plain() * (1.0 - self.gases.cold_pressure(state, held) as f32 / self.pressure[cell])
     }
 
-    /// What is conserved in a cell, and the share of the explosive that has burned.
+    /// What is conserved in a cell, and what the second gas holds, in energies of detonation.
     fn conserved_at(&self, cell: usize) -> (Conserved, f64) {
-        let [share, phi, burned] = self.species.get(cell).map_or([0.0, 0.0, 1.0], |own| own.map(f64::from));
+        let [share, phi, held] = self.species.get(cell).map_or([0.0; 3], |own| own.map(f64::from));
         let density = f64::from(self.density[cell]);
         let [u, v, w] = self.velocity[cell].map(|speed| density * f64::from(speed));
-        ([density, u, v, w, self.energy[cell].into(), share * density, phi], burned)
+        ([density, u, v, w, self.energy[cell].into(), share * density, phi], held)
     }
 
     /// Mass fraction of the second gas in a cell.

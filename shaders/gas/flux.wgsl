@@ -174,7 +174,7 @@ fn conserved_of(primitive: Gas) -> Gas {
     if PRODUCTS {
         let own = primitive.species.y * primitive.species.x;
         let both = own + (1.0 - primitive.species.y) * primitive.flow.x;
-        return gas_from_primitive(both, velocity, primitive.energy, vec2f(own, primitive.species.y), clamp(primitive.unburned, 0.0, 1.0) * own);
+        return gas_from_primitive(both, velocity, primitive.energy, vec2f(own, primitive.species.y), clamp(primitive.unburned, 0.0, 1.0 + params.fuel) * own);
     }
     let density = primitive.flow.x;
     let flow = vec4f(density, density * velocity);

@@ -16,15 +16,28 @@
 
 fn advected(slot: u32) -> Gas {
     let species = species_at(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, slot);
-    return Gas(in_space(work[part(ADVECTED_FLOW, slot)]), energy[part(ADVECTED_ENERGY, slot)], species, left_unburned(slot, species.x));
+    let flow = in_space(work[part(ADVECTED_FLOW, slot)]);
+    return Gas(flow, energy[part(ADVECTED_ENERGY, slot)], species, left_unburned(slot, flow.x, species.x));
 }
 
-// What has not burned when the solve ends: a detonation passes a cell at its own speed, whatever the gas does.
-fn left_unburned(slot: u32, density: f32) -> f32 {
+// What has not burned when the solve ends: a detonation passes a cell at its own speed, whatever the gas does. Its products burn on where
+// there is air, with a rate, until it is used up.
+fn left_unburned(slot: u32, both: f32, density: f32) -> f32 {
     if !PRODUCTS { return 0.0; }
-    let then = control.time + select(control.dt, control.duration, ARS && control.stage == 1u);
-    let burned = clamp((then - energy[part(BURN_TIME, slot)]) * params.burn_rate, 0.0, 1.0);
-    return clamp(energy[part(ADVECTED_UNBURNED, slot)], 0.0, (1.0 - burned) * max(density, 0.0));
+    let span = select(control.dt, control.duration, ARS && control.stage == 1u);
+    let burned = clamp((control.time + span - energy[part(BURN_TIME, slot)]) * params.burn_rate, 0.0, 1.0);
+    let own = max(density, 0.0);
+    let held = clamp(energy[part(ADVECTED_UNBURNED, slot)], 0.0, (1.0 - burned + params.fuel) * own);
+    if params.fuel == 0.0 { return held; }
+    let rest = max(held - params.fuel * own, 0.0);
+    let kept = params.fuel * max(own - max(both - own, 0.0) / params.air_needed, 0.0);
+    let fuel = held - rest;
+    return rest + min(fuel, kept + (fuel - kept) * exp(-span * params.afterburn_rate));
+}
+
+// Whether products are denser than their law allows. Where they are a trace, their volume may be gone before their mass.
+fn too_dense(gas: Gas) -> bool {
+    return PRODUCTS && gas.species.y > PURE && gas.species.x > params.densest * gas.species.y;
 }
 
 // Velocity beyond a face: the neighbour's, or what the boundary prescribes.
@@ -143,6 +156,7 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         return;
     }
     var p = pressure_of(here);
+    if too_dense(here) { atomicAdd(&control.dense, 1u); }
     // The start of a second solve is no state of the gas: behind very strong shocks it may lack internal energy. Every such cell is counted.
     if ARS {
         let least = LEAST_STARTED * pressure_of(gas_at(slot));

@@ -65,7 +65,7 @@ fn expansions(slot: u32) -> vec2f {
 fn unburned(slot: u32) -> f32 { return species[view.species_start + 2u * arrayLength(&conserved) + slot]; }
 fn products_volume(slot: u32) -> f32 {
     let own = species_of(slot);
-    return own.y * (1.0 - clamp(unburned(slot) / max(own.x, 1e-30), 0.0, 1.0));
+    return own.y * (1.0 - clamp(unburned(slot) / max(own.x, 1e-30) - view.fuel, 0.0, 1.0));
 }
 
 fn reference_energy(slot: u32) -> f32 {

@@ -66,6 +66,7 @@ struct View {
     ambient_density: f32,       // Density of the ambient gas [kg m^-3]
     bend_near: f32,             // Distance along rays from which they may be bent [m]
     bend_far: f32,              // The same up to which [m]
+    fuel: f32,                  // What its products give where they burn on in the first gas, over that energy [1]
     background: array<vec4f, 2>, // Light behind everything in 3D, at the top and the bottom of the picture
     slices: array<vec4f, 4>,    // Slices: the points x with dot(xyz, x) = w
     contours: array<vec4f, 8>,  // Values of the contour lines, as fractions of the range

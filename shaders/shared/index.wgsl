@@ -213,3 +213,8 @@ fn color_marches() -> u32 {
     let columns = columns_of_color();
     return columns.x * columns.y * layers();
 }
+
+// In vectors of unknowns, behind P of every vertex: h, then Q, of the vertices that carry them apart.
+fn apart_h(place: u32) -> u32 { return part(APART, place); }
+fn apart_q(place: u32) -> u32 { return part(APART, params.extra_capacity + place); }
+fn unknowns() -> u32 { return part(APART, 2u * params.extra_capacity); }

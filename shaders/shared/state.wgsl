@@ -69,6 +69,9 @@ struct Params {
     ambient_volume: f32,        // Its volume fraction there [1]
     chemical_energy: f32,       // Energy that the explosive holds [J kg^-1]
     burn_rate: f32,             // Share of it that burns per time where a detonation passes [s^-1]
+    fuel: f32,                  // What its products give where they burn on in the first gas, over that energy [1]
+    air_needed: f32,            // Mass of the first gas with which they burn whole, over their own [1]
+    afterburn_rate: f32,        // How fast those burn that have met enough of it [s^-1]
     densest: f32,               // Density beyond which the law of its products does not hold [kg m^-3]
     products: vec4f,            // A and B [Pa], R1 and R2 times the density of the explosive [kg m^-3]
     scan: array<vec4u, SCAN_DISPATCHES>, // Groups of each dispatch of a prefix sum over all slots and one more
@@ -99,6 +102,7 @@ struct Control {
     floored: atomic<u32>,       // Cells where the energy floor acted, this step
     cold: atomic<u32>,          // 1 if the energy floor may have to act deep inside the gas
     raised: atomic<u32>,        // Cells whose pressure had to be raised before one of two solves, this step
+    dense: atomic<u32>,         // Cells whose products are denser than their law allows, this step
     clamped: atomic<u32>,       // Particles held back at a wall, this step
     unsorted: atomic<u32>,      // 1 if a particle may have left its cell since they were sorted
     escaped: atomic<u32>,       // Particles that left through an open side, since the start
@@ -204,11 +208,6 @@ const LENGTH_FRONTIER = 1u;
 // Place of a slot in part k of an array. Part 0 of energy is the total energy per volume: energy[slot].
 fn part(k: u32, slot: u32) -> u32 { return k * params.slots + slot; }
 
-// In vectors of unknowns, behind P of every vertex: h, then Q, of the vertices that carry them apart.
-fn apart_h(place: u32) -> u32 { return part(APART, place); }
-fn apart_q(place: u32) -> u32 { return part(APART, params.extra_capacity + place); }
-fn unknowns() -> u32 { return part(APART, 2u * params.extra_capacity); }
-
 // -- The gas --
 
 // U = (rho, rho u, E) and what follows from them. [Cao et al. 2022, eqs. 8-9] A second gas adds its density rho Y and its volume fraction
@@ -218,7 +217,7 @@ struct Gas {
     flow: vec4f,    // density [kg m^-3], momentum [kg m^-2 s^-1]
     energy: f32,    // total energy per volume [J m^-3]
     species: vec2f, // of the second gas: density [kg m^-3], volume fraction [1]; 0 in scenes without one
-    unburned: f32,  // of an explosive: density of what has not burned [kg m^-3]
+    unburned: f32,  // of an explosive: its chemical energy per volume over that of its detonation per mass [kg m^-3]
 }
 
 // The momentum along axes that the scene has not is zero. Said where a state is loaded, so that no kernel reads it or reckons with it.
@@ -278,7 +277,7 @@ fn expansions_of(gas: Gas) -> vec2f {
 }
 fn chemical_energy_of(gas: Gas) -> f32 { return select(0.0, params.chemical_energy * gas.unburned, PRODUCTS); }
 // Volume fraction of what has burned.
-fn products_volume(gas: Gas) -> f32 { return gas.species.y * (1.0 - clamp(gas.unburned / max(gas.species.x, 1e-30), 0.0, 1.0)); }
+fn products_volume(gas: Gas) -> f32 { return gas.species.y * (1.0 - clamp(gas.unburned / max(gas.species.x, 1e-30) - params.fuel, 0.0, 1.0)); }
 fn cold_energy_of(gas: Gas) -> f32 {
     let w = params.species_gamma - 1.0;
     let x = expansions_of(gas);

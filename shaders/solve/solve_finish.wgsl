@@ -1,5 +1,5 @@
 // coupled_solve, end: X = X* + D.
-#include "shared/state.wgsl"
+#include "shared/index.wgsl"
 #include "shared/pcg.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> pressure: array<f32>;

@@ -194,6 +194,7 @@ fn totals_record(@builtin(local_invocation_index) lane: u32) {
     control.sound = history[base + 7u].z;
     history[base + 7u].z = bitcast<f32>(atomicLoad(&control.raised));
     history[base + 12u].w = bitcast<f32>(control.extra);
+    history[base + 14u].x = bitcast<f32>(atomicLoad(&control.dense));
     let unit = borrowed_unit();
     history[base + 3u] += unit.x * vec4f(0.0, borrowed(0u), borrowed(1u), borrowed(2u));
     history[base + 5u].y += unit.y * borrowed(3u);

@@ -82,7 +82,7 @@ fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         let p = pressure_of(gas);
         var rate: f32;
         if SWEEP == OVER_LISTED { rate = listed_rate(c, gas, p); } else { rate = interior_rate(slot, gas, p); }
-        if PRODUCTS && gas.unburned > 0.0 { rate = max(rate, burn_rate_at(slot)); }
+        if PRODUCTS && gas.unburned > 1.0001 * params.fuel * max(gas.species.x, 0.0) { rate = max(rate, burn_rate_at(slot)); }
         bound = max(bound, vec2f(rate, sound_speed(stiffness_ratio(gas, p), gas.flow.x, p)));
     }
     let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
@@ -162,6 +162,7 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     atomicStore(&control.limited, 0u);
     atomicStore(&control.floored, 0u);
     atomicStore(&control.raised, 0u);
+    atomicStore(&control.dense, 0u);
     atomicStore(&control.clamped, 0u);
     control.limited_before = 0u;
     control.extra = 0u;

@@ -18,7 +18,7 @@ use crate::snapshot::Snapshot;
 
 /// Columns of `diagnostics.csv`.
 #[rustfmt::skip]
-const STEP_COLUMNS: [&str; 52] = [
+const STEP_COLUMNS: [&str; 53] = [
     "step", "time", "dt",
     "gas_mass", "gas_momentum_x", "gas_momentum_y", "gas_momentum_z", "gas_energy",
     "owed_mass", "owed_momentum_x", "owed_momentum_y", "owed_momentum_z", "owed_energy",
@@ -30,7 +30,7 @@ const STEP_COLUMNS: [&str; 52] = [
     "min_density", "max_density", "min_pressure", "max_pressure", "max_gas_speed", "max_solid_speed",
     "limited_cells", "floored_cells", "clamped_particles", "acoustic_courant", "newton_rounds", "elastic_iterations",
     "raised_cells", "gas_kinetic_energy", "owed_mass_of_either_sign", "min_entropy", "solid_fracture_energy",
-    "broken_mass",
+    "broken_mass", "dense_cells",
 ];
 
 /// Columns of `bodies.csv`.
@@ -171,5 +171,6 @@ fn step_row(record: &StepRecord) -> Vec<Value> {
     row.extend([record.courant.into(), record.rounds.into(), record.elastic_iterations.into(), record.raised.into()]);
     row.extend([record.gas_kinetic, record.owed_either, record.min_entropy].map(Value::from));
     row.extend([record.fracture_energy, record.broken_mass].map(Value::from));
+    row.push(record.dense.into());
     row
 }

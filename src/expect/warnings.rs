@@ -28,7 +28,7 @@ pub struct Rule {
 }
 
 /// All watched numbers. `docs/inside/warnings.md` has the same table.
-pub const RULES: [Rule; 10] = [
+pub const RULES: [Rule; 11] = [
     Rule {
         name: Warned::GasMass,
         quantity: "gas that is missing, with what is owed and what crossed the sides, over gas and what crossed",
@@ -70,6 +70,13 @@ pub const RULES: [Rule; 10] = [
         limit: 1e-3,
         reason: "a floor stands for a value that the method could not find; one cell in a thousand is still local",
         advice: "look at field \"temperature\" near corners and thin gaps; try a smaller time.cfl or a finer resolution",
+    },
+    Rule {
+        name: Warned::DenseProducts,
+        quantity: "cells whose products were denser than the law of their explosive allows, summed over steps, over cells times steps",
+        limit: 1e-3,
+        reason: "beyond three times the density of the explosive the law of Jones, Wilkins and Lee has no stiffness; it is taken there",
+        advice: "look at field \"density\" between body and charge; leave a cell of gas there, or try a finer resolution",
     },
     Rule {
         name: Warned::ClampedParticles,
@@ -150,8 +157,10 @@ pub struct Watched {
     owed: [f64; 2],
     /// Least entropy \[Pa (m^3/kg)^gamma\], when \[s\], and in which slot.
     coldest: Option<(f64, f64, u32)>,
-    /// Floored and raised cells, and particles held back, of all steps.
+    /// Floored and raised cells, cells of products too dense, and particles held back, of all steps.
     floored: u64,
+    #[serde(default)]
+    dense: u64,
     clamped: u64,
     /// Steps with so many rounds or sub-steps.
     unbalanced: u64,
@@ -184,6 +193,7 @@ impl Watched {
             self.coldest = Some((entropy, record.time, record.coldest_slot));
         }
         self.floored += u64::from(record.floored) + u64::from(record.raised);
+        self.dense += u64::from(record.dense);
         self.clamped += u64::from(record.clamped);
         self.unbalanced += u64::from(record.rounds >= MAX_ROUNDS);
         let [most, count] = &mut self.most_substeps;
@@ -278,6 +288,7 @@ fn of_steps(name: Warned, scene: &Scene, budget: &Budget, summary: &Summary) -> 
             (budget.start_entropy > 0.0).then(|| (1.0 - least / budget.start_entropy, place))
         }
         Warned::FlooredCells => share(watched.floored, cells),
+        Warned::DenseProducts => scene.gas.products().and_then(|_| share(watched.dense, cells)),
         Warned::ClampedParticles => share(watched.clamped, budget.particles),
         Warned::CappedSteps => share(watched.capped(scene), 1),
         _ => None,

@@ -96,7 +96,7 @@ impl NearField {
             Zone { mass: density * volume, volume, energy, pressure, viscosity: 0.0, sound: 0.0 }
         });
         let zones = zones.collect();
-        Expansion { field: *self, time: 0.0, steps: 0, velocities: vec![0.0; nodes.len()], nodes, zones }
+        Expansion { field: *self, time: 0.0, steps: 0, walled: false, velocities: vec![0.0; nodes.len()], nodes, zones }
     }
 }
 
@@ -124,6 +124,8 @@ pub struct Expansion {
     /// Time since the detonation began \[s\].
     pub time: f64,
     steps: u64,
+    /// Whether the outermost node stays.
+    walled: bool,
     /// Radii between zones \[m\] and their speeds \[m s^-1\].
     nodes: Vec<f64>,
     velocities: Vec<f64>,
@@ -141,13 +143,24 @@ pub struct Profile {
 }
 
 impl Expansion {
+    /// With a rigid wall in place of the gas beyond the outermost zone.
+    #[must_use]
+    pub fn with_wall(self) -> Self {
+        Self { walled: true, ..self }
+    }
+
+    /// Outermost radius \[m\], and the pressure of the zone within \[Pa\].
+    pub fn outermost(&self) -> [f64; 2] {
+        [self.nodes[self.nodes.len() - 1], self.zones[self.zones.len() - 1].pressure]
+    }
+
     /// One step, at most to a time \[s\].
     pub fn step(&mut self, until: f64) {
         let dt = self.time_step().min(until - self.time);
         let power = self.field.axes as i32 - 1;
         let stress = |zone: &Zone| zone.pressure + zone.viscosity;
         let last = self.nodes.len() - 1;
-        for node in 1..=last {
+        for node in 1..=last - usize::from(self.walled) {
             let (inner, outer) = (&self.zones[node - 1], self.zones.get(node));
             let push = stress(inner) - outer.map_or(self.field.pressure, stress);
             let mass = 0.5 * (inner.mass + outer.map_or(inner.mass, |zone| zone.mass));

@@ -117,3 +117,30 @@ fn a_kilogram_of_tnt_in_free_air_arrives_as_measured() {
     // without afterburning the wave is weaker
     assert!((0.8..1.0).contains(&(peak / measured.overpressure)), "{peak} {}", measured.overpressure);
 }
+
+/// Carbon, hydrogen, nitrogen, oxygen, enthalpy of formation \[J mol^-1\]. [CRC Handbook; PETN: Dobratz and Crawford]
+const TNT: [f64; 5] = [7.0, 5.0, 3.0, 6.0, -62.8e3];
+const RDX: [f64; 5] = [3.0, 6.0, 6.0, 6.0, 69.9e3];
+const PETN: [f64; 5] = [5.0, 8.0, 4.0, 12.0, -538.5e3];
+/// Dioctyl sebacate and polyisobutylene, binders of C-4: oxygen that they lack \[1\].
+const BINDERS: [f64; 2] = [2.737, 3.422];
+
+/// Heat of combustion \[J kg^-1\] to carbon dioxide, vapour and nitrogen, and the oxygen that is lacking \[1\].
+fn combustion([carbon, hydrogen, nitrogen, oxygen, formed]: [f64; 5]) -> [f64; 2] {
+    let mass = 0.012_011 * carbon + 0.001_008 * hydrogen + 0.014_007 * nitrogen + 0.015_999 * oxygen;
+    let lack = 2.0 * carbon + 0.5 * hydrogen - oxygen;
+    [(carbon * 393.51e3 + 0.5 * hydrogen * 241.83e3 + formed) / mass, 0.015_999 * lack / mass]
+}
+
+#[test]
+fn combustion_follows_from_the_formulas() {
+    let [tnt, rdx, petn] = [TNT, RDX, PETN].map(combustion);
+    let bound = 0.053 * BINDERS[0] + 0.037 * BINDERS[1];
+    let c4 = [0.91 * rdx[0] + 13.1e6 * bound, 0.91 * rdx[1] + bound];
+    let comp_b = std::array::from_fn(|k| 0.6 * rdx[k] + 0.4 * tnt[k]);
+    for (own, [energy, lack]) in EXPLOSIVES.iter().zip([tnt, c4, petn, comp_b]) {
+        assert!((own.combustion_energy / energy - 1.0).abs() < 2e-3, "{}: {energy}", own.name);
+        assert!((own.oxygen_lack / lack - 1.0).abs() < 2e-3, "{}: {lack}", own.name);
+        assert!(own.afterburn_energy() > 0.0);
+    }
+}

@@ -6,7 +6,7 @@ use super::plot::Line;
 use super::stored::elements;
 use crate::Result;
 use crate::gpu::Gpu;
-use crate::scene::{Scene, burned_share};
+use crate::scene::{Scene, held_energy};
 use crate::snapshot::kind;
 
 /// Reads a one-dimensional state; the exact solution beside it has a few points per pixel of `width`.
@@ -24,7 +24,7 @@ pub(super) fn read(gpu: &Gpu, sources: &Sources, scene: &Scene, width: u32, time
         let [own, phi, unburned] = [0, 1, 2].map(|k: usize| parts.get(k).map_or(0.0, |own| own[cell]));
         let [density, x, y, z] = *state;
         let all = [density, x, y, z, *energy, own, phi].map(f64::from);
-        gases.pressure(all, burned_share(own, unburned).into()) as f32
+        gases.pressure(all, held_energy(own, unburned).into()) as f32
     };
     let pressure = conserved.iter().zip(&energy).enumerate().map(thermal).collect();
     let density = conserved.iter().map(|state| state[0]).collect();

@@ -159,6 +159,10 @@ structure! {
         bend_near: f32,
         /// The same up to which \[m\].
         bend_far: f32,
+        /// What its products give where they burn on in the first gas, over that energy \[1\].
+        fuel: f32,
+        /// Fills the space before vectors.
+        unused: [f32; 3],
         /// Light behind everything in 3D, at the top and the bottom of the picture.
         background: [vec4f; 2],
         /// Slices: the points x with dot(xyz, x) = w.
@@ -206,6 +210,7 @@ impl View {
             products: products.map_or([0.0; 4], |own| own.products.rates(own.density).map(|term| term as f32)),
             chemical_energy: products.map_or(0.0, |own| own.specific_energy() as f32),
             densest: products.map_or(0.0, |own| (DENSEST * own.density) as f32),
+            fuel: scene.gas.equation_of_state().species.map_or(0.0, |species| species.fuel as f32),
             species_constant: scene.gas.equation_of_state().constant_ratio(1.0) as f32,
             background: Paper::sky(look).map(|[red, green, blue]| [red, green, blue, 1.0]),
             ..Self::zeroed()

@@ -125,7 +125,8 @@ impl Scene {
         let own = shaped.filter(|own| own.shape.distance(point) < 0.0).last()?;
         let GasState { pressure, .. } = self.ambient_at(point);
         let state = GasState { density: own.explosive.density, velocity: [0.0; 3], pressure, mass_fraction: 1.0 };
-        Some(self.gas.equation_of_state().conserved_of(&state, 0.0))
+        let gases = self.gas.equation_of_state();
+        Some(gases.conserved_of(&state, gases.full_charge()))
     }
 
     /// When each cell begins to burn \[s\]: as [`Scene::burn_times`], less the half of what it takes. f32 for the device; a number that

@@ -1,5 +1,6 @@
 //! `[[charges]]`: explosives that go off during the run.
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +20,11 @@ const NEAR_RADII: f64 = 1.5;
 pub(super) const SAMPLES: u32 = 20;
 /// Least part of the near field that must be gas.
 const LEAST_SHARE: f64 = 0.02;
+/// Points per axis of the box around a shape that tell its volume, in 1D, 2D and 3D.
+const VOLUME_SAMPLES: [u32; 3] = [4096, 256, 64];
+/// Rounds in which a shape is brought to its mass, and how near \[1\].
+const SCALINGS: usize = 40;
+const MASS_ERROR: f64 = 1e-3;
 
 /// A charge. With `mass` and `center` it is a ball of explosive, in 2D a rod along z, in 1D a slab: it burns from its middle, and how its
 /// products expand among still gas is computed apart, until it spans some cells. With `shape` it stands on the grid from the start, and a
@@ -30,7 +36,8 @@ pub struct Charge {
     pub name: String,
     /// What it is made of: `tnt`, `c4`, `petn` or `comp_b`.
     pub explosive: String,
-    /// Mass of what lies in the domain, outside of obstacles `[kg]`; in 2D per metre along z, in 1D per square metre.
+    /// Mass of what lies in the domain, outside of obstacles `[kg]`; in 2D per metre along z, in 1D per square metre. A shape is made larger or
+    /// smaller about its middle until it has this mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 1e-9, "maximum" = 1e9))]
     pub mass: Option<f64>,
@@ -38,7 +45,7 @@ pub struct Charge {
     #[serde(default, deserialize_with = "vector::optional_point", skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<vector::Point>")]
     pub center: Option<[f64; 3]>,
-    /// What it fills, in place of `mass` and `center`. Its `species` are the products of its explosive.
+    /// What it fills, in place of `center`. Its `species` are the products of its explosive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,
     /// Points where a charge with a shape is set off `[m]`; its middle when left out.
@@ -145,6 +152,48 @@ impl Scene {
         let ball = charge.made_of().and_then(|explosive| self.ball(charge, explosive));
         ball.is_some_and(|ball| ball.mass > 0.0 && 2.0 * ball.radius() < self.longest_side())
             && self.placed(charge).is_some()
+    }
+
+    /// Gives charges with a shape the size of their mass, if they name one. What cannot be had stays as it is, for a check to tell.
+    pub(super) fn scale_charges(&mut self) {
+        for index in 0..self.charges.len() {
+            if let Some(shape) = self.scaled_to_mass(&self.charges[index]) {
+                (self.charges[index].shape, self.charges[index].mass) = (Some(shape), None);
+            }
+        }
+    }
+
+    /// The shape of a charge, with its mass.
+    fn scaled_to_mass(&self, charge: &Charge) -> Option<Shape> {
+        let (shape, axes) = (charge.shape.as_ref()?, self.domain.axes());
+        let wanted = charge.mass.filter(|mass| *mass > 0.0 && mass.is_finite())? / charge.made_of()?.density;
+        let (low, high) = shape.bounds();
+        let size: [f64; 3] = std::array::from_fn(|d| if d < axes { high[d] - low[d] } else { 0.0 });
+        let about = std::array::from_fn(|d| if d < axes { 0.5 * (low[d] + high[d]) } else { 0.0 });
+        if !size[..axes].iter().all(|edge| edge.is_finite() && *edge > 0.0) {
+            return None;
+        }
+        let place = |offset: [f64; 3]| std::array::from_fn(|d| offset[d] * size[d]);
+        let arms: Vec<[f64; 3]> = lattice(axes, VOLUME_SAMPLES[axes - 1]).into_iter().map(place).collect();
+        let at = |arm: &[f64; 3], factor: f64| std::array::from_fn(|d| about[d] + factor * arm[d]);
+        let inside: Vec<[f64; 3]> = arms.par_iter().copied().filter(|arm| shape.distance(at(arm, 1.0)) < 0.0).collect();
+        let room = size[..axes].iter().product::<f64>() / arms.len() as f64;
+        let volume = |factor: f64| {
+            let count = inside.par_iter().filter(|arm| self.is_gas(at(arm, factor))).count();
+            room * factor.powi(axes as i32) * count as f64
+        };
+        let mut factor = 1.0;
+        for _ in 0..SCALINGS {
+            let ratio = wanted / volume(factor);
+            if !ratio.is_finite() {
+                return None;
+            }
+            if (ratio - 1.0).abs() < MASS_ERROR {
+                return Some(Shape::Scale { factor, about, shape: Box::new(shape.clone()) });
+            }
+            factor *= ratio.powf(1.0 / axes as f64);
+        }
+        None
     }
 
     /// Longest edge of the domain \[m\].

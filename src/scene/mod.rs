@@ -100,7 +100,7 @@ pub use render::{
 pub use settings::{Output, Time};
 pub use shape::Shape;
 pub use shot::{Shot, ShotKeys};
-pub(crate) use species::burned_share;
+pub(crate) use species::held_energy;
 pub use species::{Conserved, EquationOfState, SecondGas, Species};
 pub use vortex::Vortex;
 pub use warned::Warned;

@@ -12,7 +12,7 @@ impl Gas {
         let [density, _, _, _, _, part, phi] = *state;
         let mut velocity = [1, 2, 3].map(|k| state[k] / density);
         let gamma = gases.gamma_at(phi);
-        let pressure = gases.pressure(*state, 1.0);
+        let pressure = gases.pressure(*state, 0.0);
         let sound = (gamma * pressure / density).sqrt();
         for (entry, v) in (2..).zip(&mut velocity[..axes]) {
             *v += sound * share(entry);

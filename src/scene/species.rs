@@ -23,6 +23,10 @@ pub struct Species {
     /// Explosive whose products it is: `tnt`, `c4`, `petn` or `comp_b`. Their pressure is that of Jones, Wilkins and Lee.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explosive: Option<String>,
+    /// Time constant `[s]` with which products of charges burn on where they meet the first gas, air; they do not when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub afterburn: Option<f64>,
     /// Gas constant `[J kg^-1 K^-1]`, by default that of air, which the first gas has. It tells temperatures, and volumes where both gases
     /// are in one state.
     #[serde(default = "air_constant")]
@@ -55,6 +59,8 @@ pub struct SecondGas {
     pub gas_constant: f64,
     /// The explosive whose products it is.
     pub products: Option<&'static Explosive>,
+    /// What its products give where they burn on, over the energy of detonation \[1\]; 0 where they do not.
+    pub fuel: f64,
 }
 
 /// The equation of state of one or two gases: rho e = p G + r, G = phi / (gamma_1 - 1) + (1 - phi) / (gamma - 1), r the energy at no
@@ -94,35 +100,48 @@ impl EquationOfState {
         1.0 + mass_fraction * (own - 1.0)
     }
 
-    /// Pressure \[Pa\] of gas of which a share has burned.
+    /// What the second gas of a charge holds before it burns, in energies of detonation \[1\].
     #[must_use]
-    pub fn pressure(&self, state: Conserved, burned: f64) -> f64 {
+    pub fn full_charge(&self) -> f64 {
+        1.0 + self.species.map_or(0.0, |own| own.fuel)
+    }
+
+    /// Share of an explosive that a detonation has burned, from what the second gas holds, in energies of detonation \[1\].
+    #[must_use]
+    pub fn burned_share(&self, held: f64) -> f64 {
+        (self.full_charge() - held).clamp(0.0, 1.0)
+    }
+
+    /// Pressure \[Pa\] of gas that holds so many energies of detonation \[1\].
+    #[must_use]
+    pub fn pressure(&self, state: Conserved, held: f64) -> f64 {
         let [density, x, y, z, energy, _, phi] = state;
-        self.grueneisen(phi) * (energy - 0.5 * (x * x + y * y + z * z) / density - self.reference_energy(state, burned))
+        self.grueneisen(phi) * (energy - 0.5 * (x * x + y * y + z * z) / density - self.reference_energy(state, held))
     }
 
     /// Energy at no pressure \[J m^-3\]: what an explosive still holds, and of its products what Jones, Wilkins and Lee add.
     #[must_use]
-    pub fn reference_energy(&self, state: Conserved, burned: f64) -> f64 {
+    pub fn reference_energy(&self, state: Conserved, held: f64) -> f64 {
         let Some(own) = self.products() else { return 0.0 };
         let cold = own.products.cold(expansion(own, state));
-        (1.0 - burned) * own.specific_energy() * state[5] - burned * state[6] * cold / own.products.omega
+        held * own.specific_energy() * state[5] - self.burned_share(held) * state[6] * cold / own.products.omega
     }
 
     /// Pressure of products at no temperature \[Pa\].
     #[must_use]
-    pub fn cold_pressure(&self, state: Conserved, burned: f64) -> f64 {
+    pub fn cold_pressure(&self, state: Conserved, held: f64) -> f64 {
+        let burned = self.burned_share(held);
         let term = |own: &'static Explosive| burned * state[6] * own.products.at_rest(expansion(own, state));
         self.products().map_or(0.0, term)
     }
 
     /// Speed of sound \[m s^-1\].
     #[must_use]
-    pub fn sound_speed(&self, state: Conserved, burned: f64) -> f64 {
-        let ideal = self.gamma_at(state[6]) * self.pressure(state, burned);
+    pub fn sound_speed(&self, state: Conserved, held: f64) -> f64 {
+        let ideal = self.gamma_at(state[6]) * self.pressure(state, held);
         let beyond = |own: &'static Explosive| {
-            let share = state[6] * self.grueneisen(state[6]) / own.products.omega;
-            burned * share * own.products.cold_stiffness(expansion(own, state))
+            let share = self.burned_share(held) * state[6] * self.grueneisen(state[6]) / own.products.omega;
+            share * own.products.cold_stiffness(expansion(own, state))
         };
         ((ideal + self.products().map_or(0.0, beyond)) / state[0]).max(0.0).sqrt()
     }
@@ -134,25 +153,25 @@ impl EquationOfState {
         own / (own + (1.0 - mass_fraction) * AIR_CONSTANT)
     }
 
-    /// A state per volume, of gas that has burned.
+    /// A state per volume, of gas that holds nothing.
     #[must_use]
     pub fn conserved(&self, state: &GasState) -> Conserved {
-        self.conserved_of(state, 1.0)
+        self.conserved_of(state, 0.0)
     }
 
-    /// A state per volume, of which a share has burned.
-    pub(crate) fn conserved_of(&self, state: &GasState, burned: f64) -> Conserved {
+    /// A state per volume, that holds so many energies of detonation.
+    pub(crate) fn conserved_of(&self, state: &GasState, held: f64) -> Conserved {
         let phi = self.volume_fraction(state.mass_fraction);
         let [density, x, y, z, energy] = state.conserved(self.gamma_at(phi));
         let mut all = [density, x, y, z, energy, density * state.mass_fraction, phi];
-        all[4] += self.reference_energy(all, burned);
+        all[4] += self.reference_energy(all, held);
         all
     }
 }
 
-/// Share of an explosive that has burned, from the density of the second gas and of what has not \[kg m^-3\].
-pub(crate) fn burned_share(density: f32, unburned: f32) -> f32 {
-    1.0 - (unburned / density.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0)
+/// What the second gas holds, in energies of detonation \[1\], from its density and that of what has not burned \[kg m^-3\].
+pub(crate) fn held_energy(density: f32, unburned: f32) -> f32 {
+    (unburned / density.max(f32::MIN_POSITIVE)).max(0.0)
 }
 
 /// Volume of products over that of the explosive.
@@ -168,7 +187,9 @@ impl Gas {
         let second = |own: &Species| {
             let products = own.made_of();
             let gamma = products.map_or(own.gamma.unwrap_or(self.gamma), |own| 1.0 + own.products.omega);
-            SecondGas { gamma, gas_constant: own.gas_constant, products }
+            let burns = products.filter(|_| own.afterburn.is_some());
+            let fuel = burns.map_or(0.0, |own| own.afterburn_energy() / own.specific_energy());
+            SecondGas { gamma, gas_constant: own.gas_constant, products, fuel }
         };
         EquationOfState { gamma: self.gamma, species: self.species.values().next().map(second) }
     }
@@ -177,6 +198,12 @@ impl Gas {
     #[must_use]
     pub fn products(&self) -> Option<&'static Explosive> {
         self.equation_of_state().products()
+    }
+
+    /// Time constant with which products burn on in air \[s\], if they do.
+    #[must_use]
+    pub fn afterburn(&self) -> Option<f64> {
+        self.species.values().next()?.afterburn
     }
 }
 
@@ -188,13 +215,14 @@ mod tests {
     fn products_have_the_pressure_and_the_sound_of_their_law() {
         for own in &crate::explosive::EXPLOSIVES {
             let products = Some(own);
-            let species = Some(SecondGas { gamma: 1.0 + own.products.omega, gas_constant: AIR_CONSTANT, products });
+            let species =
+                Some(SecondGas { gamma: 1.0 + own.products.omega, gas_constant: AIR_CONSTANT, products, fuel: 0.0 });
             let gases = EquationOfState { gamma: 1.4, species };
             for volume in [0.75, 1.0, 2.0, 10.0] {
                 let density = own.density / volume;
                 let energy = own.products.energy / volume;
                 let state = [density, 3.0 * density, 0.0, 0.0, energy + 4.5 * density, density, 1.0];
-                let [pressure, sound] = [gases.pressure(state, 1.0), gases.sound_speed(state, 1.0)];
+                let [pressure, sound] = [gases.pressure(state, 0.0), gases.sound_speed(state, 0.0)];
                 let exact = own.products.pressure(volume, own.products.energy);
                 assert!((pressure / exact - 1.0).abs() < 1e-5, "{} {volume}: {pressure} {exact}", own.name);
                 let exact = (own.products.stiffness(volume, own.products.energy) / own.density).sqrt();
@@ -202,8 +230,8 @@ mod tests {
             }
             // what has not burned holds its energy
             let solid = GasState { density: own.density, velocity: [0.0; 3], pressure: 1e5, mass_fraction: 1.0 };
-            let state = gases.conserved_of(&solid, 0.0);
-            assert!((gases.pressure(state, 0.0) / 1e5 - 1.0).abs() < 1e-6);
+            let state = gases.conserved_of(&solid, 1.0);
+            assert!((gases.pressure(state, 1.0) / 1e5 - 1.0).abs() < 1e-6);
             assert!((state[4] / own.products.energy - 1.0).abs() < 1e-3, "{}", state[4]);
         }
     }

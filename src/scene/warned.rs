@@ -19,6 +19,8 @@ pub enum Warned {
     Entropy,
     /// Cells whose energy or pressure was raised to a floor.
     FlooredCells,
+    /// Cells whose products are denser than the law of their explosive allows.
+    DenseProducts,
     /// Particles held back at walls.
     ClampedParticles,
     /// Steps that a limit of their effort cut short.
@@ -40,6 +42,7 @@ impl Warned {
             Warned::OwedGas => "owed_gas",
             Warned::Entropy => "entropy",
             Warned::FlooredCells => "floored_cells",
+            Warned::DenseProducts => "dense_products",
             Warned::ClampedParticles => "clamped_particles",
             Warned::CappedSteps => "capped_steps",
             Warned::LostBodies => "lost_bodies",

@@ -49,8 +49,10 @@ pub(super) struct Due {
     /// Mass fraction and volume fraction of the second gas in products and around them.
     fractions: [[f64; 2]; 2],
     surface: Unevenness,
-    /// Energy of the charge \[J\].
+    /// Energy of the charge \[J\], without what its products still hold.
     energy: f64,
+    /// What they hold \[kg/kg\], in energies of detonation per mass \[J kg^-1\].
+    held: [f64; 2],
     profile: Profile,
 }
 
@@ -82,6 +84,7 @@ fn near_field(scene: &Scene, charge: &Charge) -> Result<Due> {
     let of = |share: f64| [share, scene.gas.equation_of_state().volume_fraction(share)];
     let fractions = [of(if charge.species.is_some() { 1.0 } else { 0.0 }), of(around)];
     Ok(Due {
+        held: fuel_left(scene, charge, burnt),
         time: charge.time + expansion.time,
         charge: charge.clone(),
         mass,
@@ -91,6 +94,16 @@ fn near_field(scene: &Scene, charge: &Charge) -> Result<Due> {
         energy,
         profile,
     })
+}
+
+/// What products still hold after they have given a heat \[J kg^-1\] in the near field: in energies of detonation, and this energy
+/// \[J kg^-1\].
+fn fuel_left(scene: &Scene, charge: &Charge, burnt: f64) -> [f64; 2] {
+    let own = scene.gas.equation_of_state().species.filter(|_| charge.species.is_some());
+    let Some((fuel, unit)) = own.and_then(|own| Some((own.fuel, own.products?.specific_energy()))) else {
+        return [0.0; 2];
+    };
+    [(fuel - burnt / unit).max(0.0), unit]
 }
 
 /// Waves over the directions around a charge, the same ones for all.
@@ -258,7 +271,8 @@ impl Simulation {
             let own = [products * cell.state[5], around * (cell.state[0] - cell.state[5])];
             let denser = (own[0] + own[1]) / cell.state[0];
             let after: [f64; 4] = std::array::from_fn(|k| left * before[k] + cell.covered * denser * cell.state[k]);
-            let heat = left * f64::from(energy[cell.slot]) + cell.covered * hotter * cell.state[4];
+            let chemical = due.held[0] * due.held[1] * own[0];
+            let heat = left * f64::from(energy[cell.slot]) + cell.covered * (hotter * cell.state[4] + chemical);
             let room = volume * shares[cell.slot];
             for (k, value) in after.into_iter().enumerate() {
                 flow[cell.slot][k] = value as f32;
@@ -268,8 +282,8 @@ impl Simulation {
             energy[cell.slot] = heat as f32;
             if !species.is_empty() {
                 let part = own[0] * due.fractions[0][0] + own[1] * due.fractions[1][0];
-                let parts = [(cell.slot, part), (slots + cell.slot, cell.state[6])];
-                for (place, part) in parts {
+                let parts = [part, cell.state[6], due.held[0] * own[0]];
+                for (place, part) in (cell.slot..species.len()).step_by(slots).zip(parts) {
                     species[place] = (left * f64::from(species[place]) + cell.covered * part) as f32;
                 }
             }

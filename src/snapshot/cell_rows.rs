@@ -1,7 +1,7 @@
 //! Cells in the layout of the device.
 
 use super::kind;
-use crate::scene::{EquationOfState, burned_share};
+use crate::scene::{EquationOfState, held_energy};
 use crate::state::Grid;
 
 /// The cells in the layout of the device, ring included.
@@ -30,7 +30,7 @@ impl CellRows {
             let [density, x, y, z] = u.map(f64::from);
             let [own, phi] = [0, 1].map(|k| f64::from(part(k).unwrap_or(0.0)));
             let state = [density, x, y, z, self.energy[slot].into(), own, phi];
-            return gases.pressure(state, self.burned(grid, slot).into()) as f32;
+            return gases.pressure(state, self.held(grid, slot).into()) as f32;
         }
         let kinetic = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
         let grueneisen = part(1).map_or(gases.gamma as f32 - 1.0, |phi| gases.grueneisen(phi.into()) as f32);
@@ -46,10 +46,10 @@ impl CellRows {
         grid.unpadded_by(|slot| kept(self.maps[slot]))
     }
 
-    /// Share of the explosive in a slot that has burned.
-    fn burned(&self, grid: &Grid, slot: usize) -> f32 {
+    /// What the second gas in a slot holds, in energies of detonation.
+    fn held(&self, grid: &Grid, slot: usize) -> f32 {
         let part = |k: usize| self.species.get(k * grid.slots() + slot).copied();
-        part(2).zip(part(0)).map_or(1.0, |(unburned, density)| burned_share(density, unburned))
+        part(2).zip(part(0)).map_or(0.0, |(unburned, density)| held_energy(density, unburned))
     }
 
     pub(super) fn species_fractions(&self, grid: &Grid) -> Vec<[f32; 3]> {
@@ -57,7 +57,7 @@ impl CellRows {
             return Vec::new();
         }
         let (density, rest) = self.species.split_at(grid.slots());
-        grid.unpadded_by(|slot| [density[slot] / self.conserved[slot][0], rest[slot], self.burned(grid, slot)])
+        grid.unpadded_by(|slot| [density[slot] / self.conserved[slot][0], rest[slot], self.held(grid, slot)])
     }
 
     /// What cells owe per volume, and in covered cells all that they hold.

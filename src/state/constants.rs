@@ -25,7 +25,7 @@ pub const RULE_SHIFT: u32 = 16;
 /// Groups, at most, that leave one partial result each.
 pub const PARTIALS: u32 = 1024;
 /// vec4 entries of one record of the history ring.
-pub const HISTORY_WIDTH: u32 = 14;
+pub const HISTORY_WIDTH: u32 = 15;
 /// Blocks of partial results that the totals of a step take.
 pub const BLOCKS: u32 = 12;
 /// The block of what walls, films and gravity give to bodies.

@@ -39,6 +39,8 @@ structure! {
         cold: atomic_u32,
         /// Cells whose pressure had to be raised before one of two solves, this step.
         raised: atomic_u32,
+        /// Cells whose products are denser than their law allows, this step.
+        dense: atomic_u32,
         /// Particles held back at a wall, this step.
         clamped: atomic_u32,
         /// 1 if a particle may have left its cell since they were sorted.

@@ -62,16 +62,16 @@ impl GasState {
         }
     }
 
-    /// Writes when each cell begins to burn, from [`Scene::burn_starts`], and that nothing of its explosive, of a density \[kg m^-3\], has
-    /// burned; nothing without an explosive.
-    pub(super) fn write_burn(&self, gpu: &Gpu, grid: &Grid, starts: &[Option<f32>], density: &[f32]) {
+    /// Writes when each cell begins to burn, from [`Scene::burn_starts`], and that its explosive, of a density \[kg m^-3\], holds `full`
+    /// energies of detonation; nothing without an explosive.
+    pub(super) fn write_burn(&self, gpu: &Gpu, grid: &Grid, starts: &[Option<f32>], density: &[f32], full: f64) {
         if starts.is_empty() {
             return;
         }
         let (mut unburned, mut begin) = (vec![0.0; grid.slots()], vec![-NEVER; grid.slots()]);
         for (index, slot) in grid.unpadded_by(|slot| slot).into_iter().enumerate() {
             if let Some(start) = starts[index] {
-                (unburned[slot], begin[slot]) = (density[slot], start);
+                (unburned[slot], begin[slot]) = (full as f32 * density[slot], start);
             }
         }
         self.energy.write(gpu, arrays::UNBURNED * grid.slots(), &unburned);
@@ -86,9 +86,9 @@ impl GasState {
     }
 }
 
-/// Share of a cell that has burned at the start: nothing of a charge, all elsewhere.
-pub(super) fn burned_at_start(starts: &[Option<f32>], index: usize) -> f32 {
-    if starts.get(index).is_some_and(Option::is_some) { 0.0 } else { 1.0 }
+/// What the second gas of a cell holds at the start, in energies of detonation: `full` of a charge, nothing elsewhere.
+pub(super) fn held_at_start(starts: &[Option<f32>], index: usize, full: f64) -> f64 {
+    if starts.get(index).is_some_and(Option::is_some) { full } else { 0.0 }
 }
 
 /// Whether only the ring has a ledger: without bodies and obstacles nothing else collects gas.
@@ -108,7 +108,7 @@ const PURE: f64 = 1e-3;
 /// Least p / rho^gamma of the gas of the start and of what may flow in, of the first gas and of the second; 0 without.
 pub(super) fn start_entropy(scene: &Scene, start: &[Conserved], openings: &Openings) -> [f64; 2] {
     let gases = scene.gas.equation_of_state();
-    let inside = start.iter().map(|state| (state[0], gases.pressure(*state, 1.0), state[6]));
+    let inside = start.iter().map(|state| (state[0], gases.pressure(*state, 0.0), state[6]));
     let beyond = openings.table.iter().map(|rule| (rule.flow[0], rule.pressure, rule.species_volume));
     let later = openings.table.iter().flat_map(|rule| {
         let knots = openings.knots.iter().skip(rule.first as usize).take(rule.knots as usize);

@@ -56,7 +56,7 @@ pub(super) fn overrides(scene: &Scene, start: &[Conserved], openings: &Openings)
 /// The unit of their sums: the largest pressure of the gas of the start `[density, momentum, energy]` and of the sides \[Pa\].
 fn unit(scene: &Scene, start: &[Conserved], openings: &Openings) -> f64 {
     let gases = scene.gas.equation_of_state();
-    let inside = start.iter().map(|state| gases.pressure(*state, 1.0));
+    let inside = start.iter().map(|state| gases.pressure(*state, 0.0));
     let beyond = openings.table.iter().map(|rule| f64::from(rule.pressure));
     let all = inside.chain(beyond).filter(|pressure| pressure.is_finite());
     all.fold(scene.gas.ambient.pressure, f64::max)

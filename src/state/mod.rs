@@ -212,7 +212,7 @@ impl State {
         let mut energy = vec![0.0f32; slots];
         let mut pressure = vec![0.0f32; slots];
         let mut species = if gases.species.is_some() { vec![vec![0.0f32; slots]; 2] } else { Vec::new() };
-        let burn = scene.burn_starts();
+        let (burn, full) = (scene.burn_starts(), gases.full_charge());
         let mut cells = vec![constants::GAS; slots];
         let (padding, stride) = (grid.padding(), grid.strides());
         for z in 0..stride[2] as i32 {
@@ -234,8 +234,8 @@ impl State {
                         let [density, u, v, w, total, part, phi] = gas[index].map(|value| value as f32);
                         conserved[slot] = [density, u, v, w];
                         energy[slot] = total;
-                        let burned = gas::burned_at_start(&burn, index);
-                        pressure[slot] = gases.pressure(gas[index], burned.into()) as f32;
+                        let held = gas::held_at_start(&burn, index, full);
+                        pressure[slot] = gases.pressure(gas[index], held) as f32;
                         species.iter_mut().zip([part, phi]).for_each(|(own, value)| own[slot] = value);
                     }
                     index += 1;
@@ -247,7 +247,7 @@ impl State {
         }
         self.gas.conserved.write(gpu, 0, &conserved);
         self.gas.energy.write(gpu, 0, &energy);
-        self.gas.write_burn(gpu, grid, &burn, species.first().map_or(&[], Vec::as_slice));
+        self.gas.write_burn(gpu, grid, &burn, species.first().map_or(&[], Vec::as_slice), full);
         for (own, part) in species.iter().zip([arrays::SPECIES_DENSITY, arrays::SPECIES_VOLUME]) {
             self.gas.energy.write(gpu, part * slots, own);
         }

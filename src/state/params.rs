@@ -94,8 +94,16 @@ structure! {
         chemical_energy: f32,
         /// Share of it that burns per time where a detonation passes \[s^-1\].
         burn_rate: f32,
+        /// What its products give where they burn on in the first gas, over that energy \[1\].
+        fuel: f32,
+        /// Mass of the first gas with which they burn whole, over their own \[1\].
+        air_needed: f32,
+        /// How fast those burn that have met enough of it \[s^-1\].
+        afterburn_rate: f32,
         /// Density beyond which the law of its products does not hold \[kg m^-3\].
         densest: f32,
+        /// Fills the space before vectors.
+        unused: u32,
         /// A and B \[Pa\], R1 and R2 times the density of the explosive \[kg m^-3\].
         products: vec4f,
         /// Groups of each dispatch of a prefix sum over all slots and one more.
@@ -201,21 +209,20 @@ impl Params {
                 .clamp(1, limits.groups),
             march: even_march(grid.strides()[scene.domain.dimension as usize - 1], limits.march),
             wall_sides: wall_sides(scene),
-            least_entropy: 0.0,
             surface_rows: surface::rows(grid.slots(), limits.extra_capacity as usize) as u32,
             still: 1,
-            still_at: 0,
-            table_at: 0,
             row: sum_row(scene, grid, solids.particles > 0),
             species_gamma: gases.gamma_at(1.0) as f32,
-            species_least_entropy: 0.0,
             ambient_share: ambient.mass_fraction as f32,
             ambient_volume: gases.volume_fraction(ambient.mass_fraction) as f32,
             chemical_energy: burn.energy as f32,
             burn_rate: burn.rate as f32,
+            fuel: burn.fuel as f32,
+            air_needed: burn.air_needed as f32,
+            afterburn_rate: burn.afterburn_rate as f32,
             densest: burn.densest as f32,
             products: burn.terms.map(|term| term as f32),
-            scan: [[0; 4]; SCAN_DISPATCHES],
+            ..Zeroable::zeroed()
         };
         let places = super::interface::Places::new(params.stride.map(u64::from), scene.domain.dimension);
         (params.still_at, params.table_at) = (places.still as u32, places.end as u32);
@@ -226,11 +233,15 @@ impl Params {
     }
 }
 
-/// Numbers of an explosive: energy \[J kg^-1\], share that burns per time \[s^-1\], largest density \[kg m^-3\], and A, B, R1 and R2 as the shaders have them.
+/// Numbers of an explosive: energy \[J kg^-1\], share that burns per time \[s^-1\], what its products give in air over the energy, the air
+/// that they need over their mass, how fast they burn there \[s^-1\], largest density \[kg m^-3\], and A, B, R1 and R2 as the shaders have them.
 #[derive(Debug, Default)]
 struct Burn {
     energy: f64,
     rate: f64,
+    fuel: f64,
+    air_needed: f64,
+    afterburn_rate: f64,
     densest: f64,
     terms: [f64; 4],
 }
@@ -241,6 +252,9 @@ impl Burn {
         Self {
             energy: own.specific_energy(),
             rate: own.detonation_speed / (BURN_WIDTH * scene.domain.spacing()),
+            fuel: scene.gas.equation_of_state().species.map_or(0.0, |own| own.fuel),
+            air_needed: own.air_needed(),
+            afterburn_rate: scene.gas.afterburn().map_or(0.0, f64::recip),
             densest: DENSEST * own.density,
             terms: own.products.rates(own.density),
         }

@@ -3,6 +3,7 @@
 use brisance::expect::Budget;
 use brisance::scene::{Charge, Scene};
 use brisance::simulation::{Saved, Simulation};
+use brisance::snapshot::Snapshot;
 
 use crate::common::gpu_or_skip;
 
@@ -189,12 +190,7 @@ fn a_charge_with_a_shape_burns_whole_and_keeps_its_energy() {
     assert!(start.pressure.iter().all(|p| (p / 1e5 - 1.0).abs() < 0.01), "nothing has burned");
     simulation.advance_to(2e-5).unwrap();
     let half = simulation.snapshot().unwrap();
-    let burned = |snapshot: &brisance::snapshot::Snapshot| {
-        let held = |cell: usize| f64::from(snapshot.species[cell][0] * snapshot.density[cell]);
-        let share = |cell: usize| held(cell) * f64::from(snapshot.species[cell][2]);
-        let cells = 0..snapshot.density.len();
-        cells.clone().map(share).sum::<f64>() / cells.map(held).sum::<f64>()
-    };
+    let burned = |snapshot: &Snapshot| 1.0 - held_energies(snapshot);
     assert!((0.3..0.7).contains(&burned(&half)), "{}", burned(&half));
     let saved = simulation.save().unwrap();
     simulation.advance_to(6e-5).unwrap();
@@ -208,10 +204,104 @@ fn a_charge_with_a_shape_burns_whole_and_keeps_its_energy() {
     assert_eq!(second.snapshot().unwrap().energy, simulation.snapshot().unwrap().energy);
 }
 
+/// Energies of detonation that the second gas holds, over its mass.
+fn held_energies(snapshot: &Snapshot) -> f64 {
+    let mass = |cell: usize| f64::from(snapshot.species[cell][0] * snapshot.density[cell]);
+    let held = |cell: usize| mass(cell) * f64::from(snapshot.species[cell][2]);
+    let cells = 0..snapshot.density.len();
+    cells.clone().map(held).sum::<f64>() / cells.map(mass).sum::<f64>()
+}
+
+#[test]
+fn a_shape_is_brought_to_its_mass() {
+    let scene = parsed(&bent(""), &["charges[0].mass=10.0", "charges[0].detonate_at=[[0.18, 0.15]]"]).unwrap();
+    let on_grid = scene.charges_on_grid()[0].mass;
+    // bars are three cells thick, and cells hold what a few points of them see
+    assert!((on_grid / 10.0 - 1.0).abs() < 0.03, "{on_grid}");
+    // what has been scaled stays as it is
+    let again = parsed(&toml::to_string(&scene).unwrap(), &[]).unwrap();
+    assert_eq!(again.charges, scene.charges);
+}
+
+#[test]
+fn products_burn_on_as_far_as_there_is_air() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let tnt = brisance::explosive::explosive("tnt").unwrap();
+    let fuel = tnt.afterburn_energy() / tnt.specific_energy();
+    let set = [
+        "gas.species.products.afterburn=1e-4",
+        "gas.ambient={ density = 24.0, pressure = 2e6 }",
+        "charges[0].mass=2.0",
+        "charges[0].detonate_at=[[0.19, 0.177]]",
+    ];
+    let scene = parsed(&bent(""), &set).unwrap();
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+    let before = Budget::read(&simulation, &scene, 0.0).unwrap();
+    let mass = scene.charges_on_grid()[0].mass;
+    let energy = mass * tnt.combustion_energy;
+    assert!(((before.energy - 0.16 * 5e6) / energy - 1.0).abs() < 2e-3, "{before:?} {energy}");
+    let mut left = 1.0 + fuel;
+    for time in [3e-5, 1e-4, 3e-4] {
+        simulation.advance_to(time).unwrap();
+        let now = simulation.snapshot().unwrap();
+        let held = held_energies(&now);
+        assert!(held < left * (1.0 + 1e-6), "{time}: {held} {left}");
+        left = held;
+        // no more has burned than the air of a cell can burn, and 3 %: each flux has a reconstruction of its own
+        for (&[share, _, held], density) in now.species.iter().zip(&now.density) {
+            let [own, air] = [f64::from(share * density), f64::from((1.0 - share) * density)];
+            let least = fuel * (0.97 * own - air / tnt.air_needed()).max(0.0);
+            assert!(f64::from(held) * own > least - 1e-5 * f64::from(*density), "{time}: {held} {share} {least}");
+        }
+        let drift = Budget::read(&simulation, &scene, 0.0).unwrap().drift_since(&before);
+        assert!(drift["gas_mass"].abs() < 1e-6 && drift["energy"].abs() < 1e-6, "{time}: {drift:?}");
+    }
+    assert!((0.1 * fuel..0.95 * fuel).contains(&left), "some has burned: {left} of {fuel}");
+}
+
+#[test]
+fn a_ball_brings_what_its_products_hold() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let tnt = brisance::explosive::explosive("tnt").unwrap();
+    let text = toml::to_string(&scene(2, "")).unwrap();
+    let set = [
+        "gas.species.products.explosive=\"tnt\"",
+        "gas.species.products.afterburn=1e-3",
+        "charges[0].species=\"products\"",
+        "charges[0].afterburn=true",
+    ];
+    let scene = parsed(&text, &set).unwrap();
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+    let before = Budget::read(&simulation, &scene, 0.0).unwrap();
+    simulation.advance_to(2e-3).unwrap();
+    // all of the heat of combustion, whether it has burned near by or burns on the grid
+    assert!((simulation.blasts() / (0.5 * tnt.combustion_energy) - 1.0).abs() < 1e-6, "{}", simulation.blasts());
+    let drift = Budget::read(&simulation, &scene, 0.0).unwrap().drift_since(&before);
+    assert!(drift["gas_mass"].abs() < 1e-6 && drift["energy"].abs() < 1e-5, "{drift:?}");
+    let held = held_energies(&simulation.snapshot().unwrap());
+    assert!(held > 0.1 && held < tnt.afterburn_energy() / tnt.specific_energy(), "{held}");
+}
+
+#[test]
+fn cells_of_products_too_dense_for_their_law_are_counted() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let text = "title = \"dense\"\n[domain]\ndimension = 1\ncells = [40]\nsize = [0.4]\n[gas]\n\
+        ambient = { density = 1630.0, pressure = 1e11, species = \"products\" }\n[gas.species.products]\nexplosive = \"tnt\"\n\
+        [[gas.regions]]\nshape = { box = { center = [0.2], size = [0.08] } }\n\
+        density = 4900.0\npressure = 1e11\nspecies = \"products\"\n[time]\nuntil = 1e-6\n";
+    for (density, count) in [("4900.0", 8), ("4880.0", 0)] {
+        let scene = parsed(&text.replace("4900.0", density), &[]).unwrap();
+        let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+        let record = simulation.advance_to(1e-8).unwrap().pop().unwrap();
+        assert_eq!(record.dense, count, "{density}");
+    }
+}
+
 #[test]
 fn what_is_no_charge_on_the_grid_is_refused() {
     for (set, told) in [
-        ("charges[0].mass=1.0", "it is for a charge without a shape"),
+        ("charges[0].mass=1000.0", "the shape cannot be brought to this mass within the gas"),
+        ("charges[0].afterburn=true", "it is for the near field of a charge without a shape"),
         ("charges[0].roughness=0.1", "it is for a charge without a shape"),
         ("charges[0].explosive=\"c4\"", "the gas that its products are is not that of its explosive"),
         ("gas.species.products.explosive=\"tmt\"", "did you mean `tnt`"),

@@ -58,15 +58,21 @@ impl Check<'_> {
     /// A charge that stands on the grid.
     fn shaped_charge(&mut self, path: &str, charge: &Charge) {
         let ball = [
-            ("mass", charge.mass.is_some()),
             ("center", charge.center.is_some()),
             ("near_field", charge.near_field.is_some()),
             ("roughness", charge.roughness != 0.0),
-            ("afterburn", charge.afterburn),
         ];
         for (key, _) in ball.into_iter().filter(|(_, given)| *given) {
-            let help = "leave it out, or the shape: mass and place of a shape follow from it";
+            let help = "leave it out, or the shape: where a shape is follows from it";
             self.add(format!("{path}.{key}"), "it is for a charge without a shape", help);
+        }
+        if charge.afterburn {
+            let help = "give the time constant of burning as gas.species.products.afterburn";
+            self.add(format!("{path}.afterburn"), "it is for the near field of a charge without a shape", help);
+        }
+        if charge.mass.is_some_and(|mass| mass > 0.0) {
+            let help = "give a smaller mass [kg], a larger domain, or a shape that ends and lies in gas";
+            self.add(format!("{path}.mass"), "the shape cannot be brought to this mass within the gas", help);
         }
         let own = charge.species.as_ref().and_then(|name| self.scene.gas.species.get(name));
         if own.and_then(|species| species.explosive.as_ref()) != Some(&charge.explosive) {

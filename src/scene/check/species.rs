@@ -13,6 +13,7 @@ impl Check<'_> {
                 self.add(&path, "there is a second gas already", "leave one: a scene has two gases at most");
             }
             self.species_law(&path, own);
+            self.afterburn(&path, own);
         }
     }
 
@@ -29,6 +30,14 @@ impl Check<'_> {
                 let help = "give gamma, helium has 1.667, or explosive = \"tnt\" for its products";
                 self.add(path, "`gamma` is missing", help);
             }
+        }
+    }
+
+    /// Burning in air is for the products of an explosive.
+    fn afterburn(&mut self, path: &str, own: &Species) {
+        if own.afterburn.is_some() && own.explosive.is_none() {
+            let help = "give explosive = \"tnt\" in place of gamma, or leave afterburn out";
+            self.add(format!("{path}.afterburn"), "it is for the products of an explosive", help);
         }
     }
 

@@ -131,6 +131,7 @@ impl Scene {
         for (body, (density, along_axis)) in self.bodies.iter_mut().zip(given) {
             (body.density, body.particles_per_cell) = (density, Some(along_axis));
         }
+        self.scale_charges();
     }
 }
 

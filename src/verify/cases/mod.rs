@@ -3,6 +3,7 @@
 mod ablations;
 mod athena;
 mod blast_2d;
+mod blasted_plates;
 mod blasts;
 mod bow_shocks;
 mod buoyancy;
@@ -68,7 +69,8 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         contacts::CASES,
         two_gases::CASES,
     ]);
-    let by_file = gas.chain(coupled).chain([solids::CASES, clamped::CASES, ablations::CASES]).flatten();
+    let by_file =
+        gas.chain(coupled).chain([solids::CASES, clamped::CASES, blasted_plates::CASES, ablations::CASES]).flatten();
     let mut cases: Vec<&Case> = by_file.collect();
     let by_file = cases.clone();
     cases.sort_by_key(|case| by_file.iter().position(|first| first.group == case.group));
