@@ -91,7 +91,7 @@ pub const EXPLOSIVES: [Explosive; 4] = [
         products: Jwl { a: 617.05e9, b: 16.926e9, r1: 4.4, r2: 1.2, omega: 0.25, energy: 10.1e9 },
         tnt_equivalent: 10.1 / 1770.0 * 1630.0 / 7.0,
         combustion_energy: 7.58e6,
-        oxygen_lack: 0.0506,
+        oxygen_lack: 0.1012,
     },
     Explosive {
         name: "comp_b",
