@@ -51,7 +51,7 @@ pub(super) struct Due {
     surface: Unevenness,
     /// Energy of the charge \[J\], without what its products still hold.
     energy: f64,
-    /// What they hold \[kg/kg\], in energies of detonation per mass \[J kg^-1\].
+    /// What they hold: so many energies of detonation \[1\], each of so much \[J kg^-1\].
     held: [f64; 2],
     profile: Profile,
 }
