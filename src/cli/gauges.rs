@@ -12,15 +12,7 @@ use crate::state::loads;
 
 /// Columns of a gauge on a wall, an obstacle or a body, after its name.
 const LOAD_COLUMNS: [&str; 10] = [
-    "force_x",
-    "force_y",
-    "force_z",
-    "moment_x",
-    "moment_y",
-    "moment_z",
-    "pressure",
-    "impulse_x",
-    "impulse_y",
+    "force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "pressure", "impulse_x", "impulse_y",
     "impulse_z",
 ];
 

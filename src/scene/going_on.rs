@@ -5,18 +5,8 @@ use crate::{Error, Result};
 
 /// Keys that may change, with what may follow; materials of the same model may change their strength.
 const CHANGEABLE: [&str; 12] = [
-    "title",
-    "description",
-    "probes",
-    "gauges",
-    "output.",
-    "render.",
-    "expect.",
-    "boundary.",
-    "gravity",
-    "time.",
-    "numerics.tolerance",
-    "materials.",
+    "title", "description", "probes", "gauges", "output.", "render.", "expect.", "boundary.", "gravity", "time.",
+    "numerics.tolerance", "materials.",
 ];
 /// Last parts of the keys of materials that may change.
 const STRENGTHS: [&str; 5] = ["yield_stress", "hardening", "tensile_strength", "cohesion", "friction_angle"];

@@ -48,18 +48,8 @@ pub fn number(names: &[&str], name: &str) -> u32 {
 
 /// Flags of a slot, from bit 4 of its word.
 const FLAGS: [&str; 12] = [
-    "NODE_GAS",
-    "NODE_REGULAR",
-    "NODE_INTERIOR",
-    "NODE_SOLID",
-    "NODE_DEEP",
-    "NODE_FILM",
-    "VERTEX_GAS",
-    "VERTEX_REGULAR",
-    "VERTEX_SOLID",
-    "VERTEX_DEEP",
-    "INTERIOR",
-    "NODE_DRIVEN",
+    "NODE_GAS", "NODE_REGULAR", "NODE_INTERIOR", "NODE_SOLID", "NODE_DEEP", "NODE_FILM", "VERTEX_GAS",
+    "VERTEX_REGULAR", "VERTEX_SOLID", "VERTEX_DEEP", "INTERIOR", "NODE_DRIVEN",
 ];
 
 /// Lists of names that count from 0, each with its prefix.

@@ -4,7 +4,7 @@
 //! module, or a new module with a list and its line in [`cases()`]; rows on positivity and on the solver come by themselves.
 //!
 //! ```ignore
-//! Case { id: "wedge", title: "..", group: "2D gas", quick: true, source: "..", run: wedge }
+//! Case::quick("wedge", "title", group::GAS_2D, wedge, "source")
 //!
 //! fn wedge(session: &mut Session<'_>) -> Result<()> {
 //!     let run = session.run("validation/wedge.toml", Setting::standard(200), &[])?;

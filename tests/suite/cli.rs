@@ -65,20 +65,8 @@ pub(crate) fn report(folder: &Path) -> serde_json::Value {
 fn help_and_usage() {
     let help = succeeds(&["--help"]);
     for verb in [
-        "run",
-        "render",
-        "gallery",
-        "check",
-        "bench",
-        "verify",
-        "devices",
-        "selftest",
-        "shaders",
-        "list",
-        "schema",
-        "init",
-        "show",
-        "completions",
+        "run", "render", "gallery", "check", "bench", "verify", "devices", "selftest", "shaders", "list", "schema",
+        "init", "show", "completions",
     ] {
         assert!(help.contains(&format!("\n  {verb} ")), "{help}");
     }

@@ -19,30 +19,9 @@ const MAX_PAGES: [(&str, usize); 3] = [("README.md", 120), ("CHANGELOG.md", 60),
 
 /// A page says what is, in terms of the glossary or plain words.
 const BANNED: [&str; 24] = [
-    "now",
-    "today",
-    "nowadays",
-    "no longer",
-    "any longer",
-    "any more",
-    "anymore",
-    "used to",
-    "formerly",
-    "previously",
-    "debt",
-    "debts",
-    "books",
-    "wake",
-    "wakes",
-    "woken",
-    "awake",
-    "asleep",
-    "sleepers",
-    "breathe",
-    "breathed",
-    "cushion",
-    "loop of no turn",
-    "loops of no turn",
+    "now", "today", "nowadays", "no longer", "any longer", "any more", "anymore", "used to", "formerly", "previously",
+    "debt", "debts", "books", "wake", "wakes", "woken", "awake", "asleep", "sleepers", "breathe", "breathed",
+    "cushion", "loop of no turn", "loops of no turn",
 ];
 
 /// Folders whose paths, where a page names them as code, must exist.

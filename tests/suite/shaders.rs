@@ -10,20 +10,9 @@ use crate::common::{files_below, is_kind, report, slashed};
 
 /// Shaders of the pictures; all others belong to the step.
 const PICTURES: [&str; 14] = [
-    "picture/arrows.wgsl",
-    "picture/bend.wgsl",
-    "picture/bricks.wgsl",
-    "picture/field.wgsl",
-    "picture/finish.wgsl",
-    "picture/glow.wgsl",
-    "picture/layers.wgsl",
-    "picture/light.wgsl",
-    "picture/optics.wgsl",
-    "picture/points.wgsl",
-    "picture/skin.wgsl",
-    "picture/slice.wgsl",
-    "picture/solids.wgsl",
-    "picture/volume.wgsl",
+    "picture/arrows.wgsl", "picture/bend.wgsl", "picture/bricks.wgsl", "picture/field.wgsl", "picture/finish.wgsl",
+    "picture/glow.wgsl", "picture/layers.wgsl", "picture/light.wgsl", "picture/optics.wgsl", "picture/points.wgsl",
+    "picture/skin.wgsl", "picture/slice.wgsl", "picture/solids.wgsl", "picture/volume.wgsl",
 ];
 
 /// The text injected before a shader's source.

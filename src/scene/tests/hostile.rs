@@ -105,13 +105,7 @@ fn every_mistake_is_told_at_once() {
     );
     let report = report(&text, &[]);
     for word in [
-        "`titel`",
-        "`densty`",
-        "`util`",
-        "`spere`",
-        "expected boolean",
-        "did you mean `sphere`",
-        "did you mean `until`",
+        "`titel`", "`densty`", "`util`", "`spere`", "expected boolean", "did you mean `sphere`", "did you mean `until`",
     ] {
         assert!(report.contains(word), "no `{word}` in\n{report}");
     }

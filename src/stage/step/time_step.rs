@@ -41,14 +41,8 @@ pub enum Decision {
 impl Decision {
     /// Entry points of `shaders/step/step_control.wgsl`, in the order of the variants.
     const ENTRIES: [&str; 8] = [
-        "control_start",
-        "control_listed",
-        "control_limiter",
-        "control_cold",
-        "control_solved",
-        "control_second",
-        "control_substep",
-        "control_finish",
+        "control_start", "control_listed", "control_limiter", "control_cold", "control_solved", "control_second",
+        "control_substep", "control_finish",
     ];
 }
 

@@ -12,23 +12,12 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::sweep::exact_riemann;
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "sod_athena",
-        title: "Sod shock tube as Athena++ runs it",
-        group: group::TUBES,
-        quick: true,
-        source: "Athena++, sod_shock.py: until t = 0.25, 128 and 256 cells; AthenaK, test_nr_sod_cpu.py; exact Riemann solution.",
-        run: sod,
-    },
-    Case {
-        id: "linear_wave",
-        title: "Linear wave",
-        group: group::WAVES,
-        quick: true,
-        source: "Linear wave test of Athena++, hydro_linwave.py, and AthenaK, test_nr_lwave1d_cpu.py; exact simple wave and entropy wave.",
-        run: linear_wave,
-    },
+    Case::quick("sod_athena", "Sod shock tube as Athena++ runs it", group::TUBES, sod,
+        "Athena++, sod_shock.py: until t = 0.25, 128 and 256 cells; AthenaK, test_nr_sod_cpu.py; exact Riemann solution."),
+    Case::quick("linear_wave", "Linear wave", group::WAVES, linear_wave,
+        "Linear wave test of Athena++, hydro_linwave.py, and AthenaK, test_nr_lwave1d_cpu.py; exact simple wave and entropy wave."),
 ];
 
 /// Points per cell over which exact states are averaged.

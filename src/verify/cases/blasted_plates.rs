@@ -8,14 +8,11 @@ use crate::verify::harness::session::{Session, Setting};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "blasted_strip",
-    title: "Clamped strip under a blast",
-    group: group::SOLIDS,
-    quick: false,
-    source: "N. Jones, Structural Impact, chapter 7: rigid, perfectly plastic clamped beam under an impulse.",
-    run: strip,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::full("blasted_strip", "Clamped strip under a blast", group::SOLIDS, strip,
+        "N. Jones, Structural Impact, chapter 7: rigid, perfectly plastic clamped beam under an impulse."),
+];
 
 /// Half of the free width \[m\], thickness \[m\], density \[kg m^-3\], yield stress of a rod \[Pa\].
 const STRIP: [f64; 4] = [0.05, 0.002, 2700.0, 3e8];

@@ -14,23 +14,12 @@ use crate::verify::harness::{Case, group};
 const MACH: f64 = 3.0;
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "cylinder",
-        title: "Bow shock ahead of a cylinder",
-        group: group::SUPERSONIC_2D,
-        quick: true,
-        source: "Rayleigh's pitot formula, NACA report 1135 (1953); stand-off of a shock-fitted second-order solution on 120 x 120 cells.",
-        run: cylinder,
-    },
-    Case {
-        id: "sphere",
-        title: "Bow shock ahead of a sphere",
-        group: group::SUPERSONIC_3D,
-        quick: false,
-        source: "Rayleigh's pitot formula, NACA report 1135 (1953); stand-off of a shock-fitted second-order solution on 120 x 120 cells.",
-        run: sphere,
-    },
+    Case::quick("cylinder", "Bow shock ahead of a cylinder", group::SUPERSONIC_2D, cylinder,
+        "Rayleigh's pitot formula, NACA report 1135 (1953); stand-off of a shock-fitted second-order solution on 120 x 120 cells."),
+    Case::full("sphere", "Bow shock ahead of a sphere", group::SUPERSONIC_3D, sphere,
+        "Rayleigh's pitot formula, NACA report 1135 (1953); stand-off of a shock-fitted second-order solution on 120 x 120 cells."),
 ];
 
 /// Who computed the stand-off and the drag.

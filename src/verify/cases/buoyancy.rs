@@ -8,23 +8,12 @@ use crate::verify::harness::session::{Integrator, Run, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "hydrostatic_column",
-        title: "Hydrostatic column",
-        group: group::GRAVITY,
-        quick: true,
-        source: "Exact: what is in balance stays at rest.",
-        run: column,
-    },
-    Case {
-        id: "hot_bubble",
-        title: "Start of a hot bubble",
-        group: group::GRAVITY,
-        quick: true,
-        source: "Potential flow, added mass of a cylinder; G. K. Batchelor, An Introduction to Fluid Dynamics, 1967, section 6.8.",
-        run: bubble,
-    },
+    Case::quick("hydrostatic_column", "Hydrostatic column", group::GRAVITY, column,
+        "Exact: what is in balance stays at rest."),
+    Case::quick("hot_bubble", "Start of a hot bubble", group::GRAVITY, bubble,
+        "Potential flow, added mass of a cylinder; G. K. Batchelor, An Introduction to Fluid Dynamics, 1967, section 6.8."),
 ];
 
 /// Why the column moves.

@@ -9,39 +9,16 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::solids::mechanical;
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "hanging_bar",
-        title: "Bar under sudden gravity",
-        group: group::SOLIDS,
-        quick: true,
-        source: "Exact wave solution; S. P. Timoshenko, D. H. Young, Vibration Problems in Engineering, 1955.",
-        run: hanging,
-    },
-    Case {
-        id: "vibrating_bar",
-        title: "Axial vibration of a bar",
-        group: group::SOLIDS,
-        quick: false,
-        source: "Exact, d'Alembert; test \"axial vibration of a bar\" of the material point code Tesserae (A. de Vaucorbeil, V. P. Nguyen). There the first mode is the initial velocity; here the driven end makes it, exactly.",
-        run: vibrating,
-    },
-    Case {
-        id: "cantilever",
-        title: "Cantilever",
-        group: group::SOLIDS,
-        quick: false,
-        source: "Beam of S. P. Timoshenko (Philosophical Magazine 41 (1921) 744) in plane strain, shear coefficient 5/6.",
-        run: cantilever,
-    },
-    Case {
-        id: "sprung_piston",
-        title: "Piston on a spring closes a chamber",
-        group: group::COUPLING_1D,
-        quick: false,
-        source: "Exact, linear: m w^2 = k + rho c w cot(w L / c). The spring is an elastic bar.",
-        run: sprung,
-    },
+    Case::quick("hanging_bar", "Bar under sudden gravity", group::SOLIDS, hanging,
+        "Exact wave solution; S. P. Timoshenko, D. H. Young, Vibration Problems in Engineering, 1955."),
+    Case::full("vibrating_bar", "Axial vibration of a bar", group::SOLIDS, vibrating,
+        "Exact, d'Alembert; test \"axial vibration of a bar\" of the material point code Tesserae (A. de Vaucorbeil, V. P. Nguyen). There the first mode is the initial velocity; here the driven end makes it, exactly."),
+    Case::full("cantilever", "Cantilever", group::SOLIDS, cantilever,
+        "Beam of S. P. Timoshenko (Philosophical Magazine 41 (1921) 744) in plane strain, shear coefficient 5/6."),
+    Case::full("sprung_piston", "Piston on a spring closes a chamber", group::COUPLING_1D, sprung,
+        "Exact, linear: m w^2 = k + rho c w cot(w L / c). The spring is an elastic bar."),
 ];
 
 /// Angular frequency of the piston on a spring.

@@ -7,14 +7,11 @@ use crate::verify::harness::session::{Session, Setting};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "held_disc",
-    title: "Held disc in a stream at Mach 2.5",
-    group: group::ENTROPY,
-    quick: true,
-    source: "Minimum entropy principle [Tadmor 1986]: p / rho^gamma never falls below that of the stream.",
-    run: held_disc,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("held_disc", "Held disc in a stream at Mach 2.5", group::ENTROPY, held_disc,
+        "Minimum entropy principle [Tadmor 1986]: p / rho^gamma never falls below that of the stream."),
+];
 
 /// Looks per run.
 const LOOKS: u32 = 8;

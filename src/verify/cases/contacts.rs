@@ -7,14 +7,11 @@ use crate::verify::harness::session::{Integrator, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "drifting_contact",
-    title: "Drifting contact",
-    group: group::WAVES,
-    quick: true,
-    source: "Exact: pressure and velocity stay even where density alone steps.",
-    run: drifting,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("drifting_contact", "Drifting contact", group::WAVES, drifting,
+        "Exact: pressure and velocity stay even where density alone steps."),
+];
 
 /// Density of the slab, speed of the gas, largest deviation of the pressure.
 const QUICK: &[(f64, f64, f64)] = &[(1000.0, 1.0, 5e-4), (1000.0, 0.1, 5e-5), (10.0, 1.0, 1e-5)];

@@ -11,23 +11,12 @@ use crate::verify::measure::budgets;
 const CUT_CELLS: &str = "conservative cut-cell solver";
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "lifting_cylinder",
-        title: "Lifting cylinder",
-        group: group::COUPLING,
-        quick: true,
-        source: "J. Falcovitz, G. Alfandary, G. Hanoch, J. Comput. Phys. 138 (1997) 83; Y. Cao et al. 2022, Fig. 17; conservative cut-cell solver, 1600 x 320 cells.",
-        run: lifting,
-    },
-    Case {
-        id: "free_cylinder",
-        title: "Free cylinder behind a shock",
-        group: group::COUPLING,
-        quick: false,
-        source: "W. D. Henshaw, D. W. Schwendeman, J. Comput. Phys. 216 (2006) 744; conservative cut-cell solver, 200 cells per unit.",
-        run: free,
-    },
+    Case::quick("lifting_cylinder", "Lifting cylinder", group::COUPLING, lifting,
+        "J. Falcovitz, G. Alfandary, G. Hanoch, J. Comput. Phys. 138 (1997) 83; Y. Cao et al. 2022, Fig. 17; conservative cut-cell solver, 1600 x 320 cells."),
+    Case::full("free_cylinder", "Free cylinder behind a shock", group::COUPLING, free,
+        "W. D. Henshaw, D. W. Schwendeman, J. Comput. Phys. 216 (2006) 744; conservative cut-cell solver, 200 cells per unit."),
 ];
 
 /// Time and centre of the lifting cylinder on the finest grid.

@@ -7,31 +7,14 @@ use crate::verify::harness::session::{Journey, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "slab_at_rest",
-        title: "Slab at rest",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "Exact: a uniform state stays.",
-        run: |session| rest(session, "coupled/slab_at_rest.toml", [0.7, 13.2]),
-    },
-    Case {
-        id: "shell_at_rest",
-        title: "Shell at rest",
-        group: group::COUPLING,
-        quick: true,
-        source: "Exact: a uniform state stays; Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Fig. 13.",
-        run: |session| rest(session, "paper/fig13_ghost_update.toml", [2.0, 26.4]),
-    },
-    Case {
-        id: "translation",
-        title: "Disc that drifts with the gas",
-        group: group::COUPLING,
-        quick: true,
-        source: "Exact; L. Monasse et al., J. Comput. Phys. 231 (2012) 2977, demand it.",
-        run: translation,
-    },
+    Case::quick("slab_at_rest", "Slab at rest", group::COUPLING_1D, |session| rest(session, "coupled/slab_at_rest.toml", [0.7, 13.2]),
+        "Exact: a uniform state stays."),
+    Case::quick("shell_at_rest", "Shell at rest", group::COUPLING, |session| rest(session, "paper/fig13_ghost_update.toml", [2.0, 26.4]),
+        "Exact: a uniform state stays; Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Fig. 13."),
+    Case::quick("translation", "Disc that drifts with the gas", group::COUPLING, translation,
+        "Exact; L. Monasse et al., J. Comput. Phys. 231 (2012) 2977, demand it."),
 ];
 
 /// Why the gas is not quite at rest.

@@ -11,31 +11,14 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::plane::{fitted_line, upper_crossings};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "driven_piston",
-        title: "Driven piston",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "Exact: R. Courant, K. O. Friedrichs, Supersonic Flow and Shock Waves, 1948. The first speed is that of the test \"piston with constant velocity\" of the flow solver Eilmer (P. A. Jacobs, R. J. Gollan).",
-        run: piston,
-    },
-    Case {
-        id: "compressed_chamber",
-        title: "Chamber compressed by a slow piston",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "Exact: constant entropy. Piston validation of the material point code Uintah (MPMICE).",
-        run: chamber,
-    },
-    Case {
-        id: "flying_wedge",
-        title: "Wedge that flies at Mach 2",
-        group: group::COUPLING,
-        quick: false,
-        source: "Ames Research Staff, NACA report 1135, 1953; test \"M2wedge\" of the material point code Uintah (MPMICE).",
-        run: wedge,
-    },
+    Case::quick("driven_piston", "Driven piston", group::COUPLING_1D, piston,
+        "Exact: R. Courant, K. O. Friedrichs, Supersonic Flow and Shock Waves, 1948. The first speed is that of the test \"piston with constant velocity\" of the flow solver Eilmer (P. A. Jacobs, R. J. Gollan)."),
+    Case::quick("compressed_chamber", "Chamber compressed by a slow piston", group::COUPLING_1D, chamber,
+        "Exact: constant entropy. Piston validation of the material point code Uintah (MPMICE)."),
+    Case::full("flying_wedge", "Wedge that flies at Mach 2", group::COUPLING, wedge,
+        "Ames Research Staff, NACA report 1135, 1953; test \"M2wedge\" of the material point code Uintah (MPMICE)."),
 ];
 
 /// Who says what a driven piston does.

@@ -10,14 +10,11 @@ use crate::verify::harness::session::{Run, Session, Setting};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "subsonic_duct",
-    title: "Subsonic duct: inlets of given total and fixed state",
-    group: group::SUBSONIC,
-    quick: true,
-    source: "Isentropic flow, NACA report 1135 (1953): the ratio of the pressures of reservoir and room gives Mach 0.5.",
-    run: duct,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("subsonic_duct", "Subsonic duct: inlets of given total and fixed state", group::SUBSONIC, duct,
+        "Isentropic flow, NACA report 1135 (1953): the ratio of the pressures of reservoir and room gives Mach 0.5."),
+];
 
 /// Who says so.
 const ISENTROPIC: &str = "isentropic flow";

@@ -21,23 +21,12 @@ const RADIAL: &str = "radial MUSCL-HLLC";
 const LEVEL: f64 = 0.1515;
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "circular_shock",
-        title: "Circular shock",
-        group: group::EXPLOSIONS,
-        quick: true,
-        source: "Kwatra et al., J. Comput. Phys. 228 (2009) 4146; E. F. Toro 2009, section 17.1; radial MUSCL-HLLC solution on 2000 cells.",
-        run: circular,
-    },
-    Case {
-        id: "spherical_explosion",
-        title: "Spherical explosion",
-        group: group::EXPLOSIONS,
-        quick: true,
-        source: "E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 2009, section 17.1; radial MUSCL-HLLC solution on 2000 cells.",
-        run: spherical,
-    },
+    Case::quick("circular_shock", "Circular shock", group::EXPLOSIONS, circular,
+        "Kwatra et al., J. Comput. Phys. 228 (2009) 4146; E. F. Toro 2009, section 17.1; radial MUSCL-HLLC solution on 2000 cells."),
+    Case::quick("spherical_explosion", "Spherical explosion", group::EXPLOSIONS, spherical,
+        "E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 2009, section 17.1; radial MUSCL-HLLC solution on 2000 cells."),
 ];
 
 /// Mean density errors of this method in double precision: pair, cells, error.

@@ -22,15 +22,11 @@ const TRIPLE_POINT: &str =
 const CORNER: &str = "two cells below the corner; with 80 cells per unit 11.95";
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "forward_step",
-    title: "Forward-facing step at Mach 3",
-    group: group::SUPERSONIC_2D,
-    quick: true,
-    source: "P. Woodward, P. Colella, J. Comput. Phys. 54 (1984) 115; positions at t = 4 of an independent MUSCL-HLLC solver with 80, \
-             160 and 320 cells per unit, no fix at the corner; Rayleigh's pitot formula.",
-    run: step,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("forward_step", "Forward-facing step at Mach 3", group::SUPERSONIC_2D, step,
+        "P. Woodward, P. Colella, J. Comput. Phys. 54 (1984) 115; positions at t = 4 of an independent MUSCL-HLLC solver with 80, \
+             160 and 320 cells per unit, no fix at the corner; Rayleigh's pitot formula.")];
 
 fn step(session: &mut Session<'_>) -> Result<()> {
     let standard = |pair, cells| Setting { pair, integrator: Integrator::Predictor, cells };

@@ -7,23 +7,12 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::budgets;
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "fragments",
-        title: "Shock through fragments",
-        group: group::COUPLING,
-        quick: false,
-        source: "Drag of the stream behind the shock; isolated particles as Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, section 2.7, have them.",
-        run: fragments,
-    },
-    Case {
-        id: "materials_in_flow",
-        title: "Materials in a strong flow",
-        group: group::COUPLING,
-        quick: false,
-        source: "Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Table 1: its materials.",
-        run: materials,
-    },
+    Case::full("fragments", "Shock through fragments", group::COUPLING, fragments,
+        "Drag of the stream behind the shock; isolated particles as Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, section 2.7, have them."),
+    Case::full("materials_in_flow", "Materials in a strong flow", group::COUPLING, materials,
+        "Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Table 1: its materials."),
 ];
 
 /// Density of the fragments, the end of the run, and what their mean velocity must lie between then.

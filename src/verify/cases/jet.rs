@@ -16,14 +16,11 @@ const JET: [f64; 3] = [1.4, 3.0, 0.5];
 const AMBIENT: f64 = 2.0;
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "mach_diamond",
-    title: "Mach diamond in a plane jet",
-    group: group::SUPERSONIC_2D,
-    quick: false,
-    source: "Cao et al. 2022, figure 18; oblique shock relations; L. Prandtl, Phys. Z. 5 (1904) 599; D. C. Pack, Q. J. Mech. Appl. Math. 3 (1950) 173.",
-    run: diamond,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::full("mach_diamond", "Mach diamond in a plane jet", group::SUPERSONIC_2D, diamond,
+        "Cao et al. 2022, figure 18; oblique shock relations; L. Prandtl, Phys. Z. 5 (1904) 599; D. C. Pack, Q. J. Mech. Appl. Math. 3 (1950) 173."),
+];
 
 fn diamond(session: &mut Session<'_>) -> Result<()> {
     let length = jet_cell_length(JET[0], JET[1], JET[2]);

@@ -12,14 +12,11 @@ use crate::verify::measure::plane::front;
 const TABLE: &str = "blast-ips";
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "line_explosion",
-    title: "Line explosion in gas under pressure",
-    group: group::BLAST_2D,
-    quick: true,
-    source: "Ideal line explosion with counter-pressure, gamma 1.4: table of the solver blast-ips (github.com/shancock9/blast-ips, case C1x4), error 1e-6.",
-    run: explosion,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("line_explosion", "Line explosion in gas under pressure", group::BLAST_2D, explosion,
+        "Ideal line explosion with counter-pressure, gamma 1.4: table of the solver blast-ips (github.com/shancock9/blast-ips, case C1x4), error 1e-6."),
+];
 
 /// Radius over sqrt(E / p0), rise of the pressure over p0, and time of arrival times c0 over sqrt(E / p0).
 const SHOCKS: [[f64; 3]; 5] = [

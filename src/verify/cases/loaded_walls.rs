@@ -8,23 +8,12 @@ use crate::verify::harness::session::{Journey, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "loaded_plate",
-        title: "Plate that bears a load",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "Exact: a wall that bears its load is at rest.",
-        run: plates,
-    },
-    Case {
-        id: "loaded_ring",
-        title: "Ring and shell that bear a load",
-        group: group::COUPLING,
-        quick: true,
-        source: "Exact: a wall that bears its load is at rest.",
-        run: rings,
-    },
+    Case::quick("loaded_plate", "Plate that bears a load", group::COUPLING_1D, plates,
+        "Exact: a wall that bears its load is at rest."),
+    Case::quick("loaded_ring", "Ring and shell that bear a load", group::COUPLING, rings,
+        "Exact: a wall that bears its load is at rest."),
 ];
 
 /// One way to run a wall.

@@ -7,23 +7,12 @@ use crate::verify::harness::session::{Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "leaving_blast",
-        title: "Pressure after a blast",
-        group: group::OPEN_SIDES,
-        quick: true,
-        source: "Exact: undisturbed gas far away brings its pressure back.",
-        run: blasts,
-    },
-    Case {
-        id: "still_air",
-        title: "Still air under gravity",
-        group: group::OPEN_SIDES,
-        quick: true,
-        source: "Exact: air in balance stays at rest.",
-        run: air,
-    },
+    Case::quick("leaving_blast", "Pressure after a blast", group::OPEN_SIDES, blasts,
+        "Exact: undisturbed gas far away brings its pressure back."),
+    Case::quick("still_air", "Still air under gravity", group::OPEN_SIDES, air,
+        "Exact: air in balance stays at rest."),
 ];
 
 /// Pressures of the blast; whether it lies at a wall instead of in the middle; whether in the plane.

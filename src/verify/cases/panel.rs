@@ -8,14 +8,11 @@ use crate::verify::harness::session::{Journey, Session, Setting};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "shocked_panel",
-    title: "Shock on a clamped panel",
-    group: group::COUPLING,
-    quick: false,
-    source: "J. Giordano, G. Jourdan, Y. Burtschell, M. Medale, D. E. Zeitoun, L. Houas, Shock Waves 14 (2005) 103, panel of 50 mm; test \"shocked panel\" of the code M2C.",
-    run: panel,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::full("shocked_panel", "Shock on a clamped panel", group::COUPLING, panel,
+        "J. Giordano, G. Jourdan, Y. Burtschell, M. Medale, D. E. Zeitoun, L. Houas, Shock Waves 14 (2005) 103, panel of 50 mm; test \"shocked panel\" of the code M2C."),
+];
 
 /// Time and place of the tip in the code M2C \[ms, mm\].
 const M2C: [[f64; 2]; 12] = [

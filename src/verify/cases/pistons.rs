@@ -11,79 +11,27 @@ use crate::verify::measure::budgets::{self, Gates, LAGRANGIAN, Station, motion_p
 use crate::verify::measure::solids::{front, mean_velocity};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "driven_slab",
-        title: "Compressed gas drives a slab",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "Rigid piston between two gases: Lagrangian Godunov scheme with exact Riemann problems at the piston, 1500 cells per side.",
-        run: slab,
-    },
-    Case {
-        id: "lagrange_gun",
-        title: "Lagrange gun",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "J. Corner, Theory of the Interior Ballistics of Guns, 1950; Lagrangian solver with exact Riemann problems at the shot, 3200 cells.",
-        run: gun,
-    },
-    Case {
-        id: "piston_into_vacuum",
-        title: "Piston into a vacuum",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "Free piston in the tests of the flow solver Eilmer (P. A. Jacobs, R. J. Gollan); exact simple wave.",
-        run: vacuum,
-    },
-    Case {
-        id: "elastic_half_space",
-        title: "Shock on an elastic half space",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "Exact: Hugoniot curve of the gas and acoustic impedance of the solid.",
-        run: half_space,
-    },
+    Case::quick("driven_slab", "Compressed gas drives a slab", group::COUPLING_1D, slab,
+        "Rigid piston between two gases: Lagrangian Godunov scheme with exact Riemann problems at the piston, 1500 cells per side."),
+    Case::quick("lagrange_gun", "Lagrange gun", group::COUPLING_1D, gun,
+        "J. Corner, Theory of the Interior Ballistics of Guns, 1950; Lagrangian solver with exact Riemann problems at the shot, 3200 cells."),
+    Case::quick("piston_into_vacuum", "Piston into a vacuum", group::COUPLING_1D, vacuum,
+        "Free piston in the tests of the flow solver Eilmer (P. A. Jacobs, R. J. Gollan); exact simple wave."),
+    Case::quick("elastic_half_space", "Shock on an elastic half space", group::COUPLING_1D, half_space,
+        "Exact: Hugoniot curve of the gas and acoustic impedance of the solid."),
 ];
 
 /// Density and modulus of a slab, its motion, and the share of a cell that its place may be off.
 type Slab = (f64, f64, [Station; 4], f64);
 
 /// Heavy, middle and light.
+#[rustfmt::skip]
 const SLABS: [Slab; 3] = [
-    (
-        50.0,
-        1e4,
-        [
-            [0.2, 0.001_671, 0.054_41],
-            [0.3, 0.011_299, 0.137_63],
-            [0.4, 0.028_946, 0.213_74],
-            [0.5, 0.053_727, 0.279_10],
-        ],
-        0.5,
-    ),
-    (
-        5.0,
-        1e4,
-        [
-            [0.2, 0.013_630, 0.402_61],
-            [0.3, 0.070_573, 0.690_69],
-            [0.4, 0.145_909, 0.796_11],
-            [0.5, 0.227_467, 0.828_77],
-        ],
-        0.5,
-    ),
-    (
-        0.5,
-        1e3,
-        [
-            [0.2, 0.043_072, 0.840_23],
-            [0.3, 0.127_444, 0.844_89],
-            [0.4, 0.212_257, 0.845_62],
-            [0.5, 0.284_318, 0.017_58],
-        ],
-        1.0,
-    ),
+    (50.0, 1e4, [[0.2, 0.001_671, 0.054_41], [0.3, 0.011_299, 0.137_63], [0.4, 0.028_946, 0.213_74], [0.5, 0.053_727, 0.279_10]], 0.5),
+    (5.0, 1e4, [[0.2, 0.013_630, 0.402_61], [0.3, 0.070_573, 0.690_69], [0.4, 0.145_909, 0.796_11], [0.5, 0.227_467, 0.828_77]], 0.5),
+    (0.5, 1e3, [[0.2, 0.043_072, 0.840_23], [0.3, 0.127_444, 0.844_89], [0.4, 0.212_257, 0.845_62], [0.5, 0.284_318, 0.017_58]], 1.0),
 ];
 
 fn slab(session: &mut Session<'_>) -> Result<()> {

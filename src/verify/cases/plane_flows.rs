@@ -12,23 +12,12 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::plane::fitted_line;
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "isentropic_vortex",
-        title: "Isentropic vortex",
-        group: group::UNSTEADY_2D,
-        quick: true,
-        source: "C.-W. Shu, ICASE report 97-65 (1997); exact.",
-        run: vortex,
-    },
-    Case {
-        id: "double_mach_reflection",
-        title: "Double Mach reflection",
-        group: group::UNSTEADY_2D,
-        quick: true,
-        source: "P. Woodward, P. Colella, J. Comput. Phys. 54 (1984) 115; positions of an independent MUSCL-HLLC solver with 480 cells per unit.",
-        run: double_mach,
-    },
+    Case::quick("isentropic_vortex", "Isentropic vortex", group::UNSTEADY_2D, vortex,
+        "C.-W. Shu, ICASE report 97-65 (1997); exact."),
+    Case::quick("double_mach_reflection", "Double Mach reflection", group::UNSTEADY_2D, double_mach,
+        "P. Woodward, P. Colella, J. Comput. Phys. 54 (1984) 115; positions of an independent MUSCL-HLLC solver with 480 cells per unit."),
 ];
 
 /// Why the vortex misses its gates.

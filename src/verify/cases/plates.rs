@@ -8,31 +8,14 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::budgets::{self, Gates, LAGRANGIAN, Station, motion_plot, report_motion};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "free_plate",
-        title: "Shock on a free plate",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "J. T. Gretarsson, N. Kwatra, R. Fedkiw, J. Comput. Phys. 230 (2011) 3062; Lagrangian solver with exact Riemann problems at the plate, 6400 cells.",
-        run: free_plate,
-    },
-    Case {
-        id: "plate_in_tube",
-        title: "Free plate in a closed tube",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "J. T. Gretarsson, N. Kwatra, R. Fedkiw, J. Comput. Phys. 230 (2011) 3062; Lagrangian solver with exact Riemann problems at the plate, 4800 cells.",
-        run: plate_in_tube,
-    },
-    Case {
-        id: "acoustic_plate",
-        title: "Weak step on a free plate",
-        group: group::COUPLING_1D,
-        quick: true,
-        source: "G. I. Taylor, The pressure and impulse of submarine explosion waves on plates, 1941; exact for small amplitudes.",
-        run: acoustic_plate,
-    },
+    Case::quick("free_plate", "Shock on a free plate", group::COUPLING_1D, free_plate,
+        "J. T. Gretarsson, N. Kwatra, R. Fedkiw, J. Comput. Phys. 230 (2011) 3062; Lagrangian solver with exact Riemann problems at the plate, 6400 cells."),
+    Case::quick("plate_in_tube", "Free plate in a closed tube", group::COUPLING_1D, plate_in_tube,
+        "J. T. Gretarsson, N. Kwatra, R. Fedkiw, J. Comput. Phys. 230 (2011) 3062; Lagrangian solver with exact Riemann problems at the plate, 4800 cells."),
+    Case::quick("acoustic_plate", "Weak step on a free plate", group::COUPLING_1D, acoustic_plate,
+        "G. I. Taylor, The pressure and impulse of submarine explosion waves on plates, 1941; exact for small amplitudes."),
 ];
 
 /// Displacement and velocity of a plate of unit mass per area hit by Sod's shock.

@@ -8,24 +8,13 @@ use crate::verify::harness::session::{Integrator, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "rest_noise",
-        title: "Noise on gas at rest",
-        group: group::QUIET,
-        quick: true,
-        source: "The second law: nothing feeds noise of 1e-3 in a closed box. The goal is a pressure noise below 2e-3 after 300 steps in \
-                 which sound crosses 0.5, 5 and 20 cells.",
-        run: rest_noise,
-    },
-    Case {
-        id: "closed_box",
-        title: "Closed boxes for 10,000 steps",
-        group: group::QUIET,
-        quick: false,
-        source: "Conservation of mass and energy, in single precision.",
-        run: closed_box,
-    },
+    Case::quick("rest_noise", "Noise on gas at rest", group::QUIET, rest_noise,
+        "The second law: nothing feeds noise of 1e-3 in a closed box. The goal is a pressure noise below 2e-3 after 300 steps in \
+                 which sound crosses 0.5, 5 and 20 cells."),
+    Case::full("closed_box", "Closed boxes for 10,000 steps", group::QUIET, closed_box,
+        "Conservation of mass and energy, in single precision."),
 ];
 
 /// Steps of every run with noise.

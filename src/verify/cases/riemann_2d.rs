@@ -12,15 +12,11 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::plane::asymmetry;
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "riemann_2d",
-    title: "2D Riemann problems",
-    group: group::UNSTEADY_2D,
-    quick: true,
-    source: "P. D. Lax, X.-D. Liu, SIAM J. Sci. Comput. 19 (1998) 319, configurations 3, 4, 6 and 12; exact Riemann solution at the edges; inside, \
-             an independent MUSCL-HLLC solver on 400 x 400 cells. The gate of 2.4 is that of Sod's tube over what a sharp method has there.",
-    run: riemann,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("riemann_2d", "2D Riemann problems", group::UNSTEADY_2D, riemann,
+        "P. D. Lax, X.-D. Liu, SIAM J. Sci. Comput. 19 (1998) 319, configurations 3, 4, 6 and 12; exact Riemann solution at the edges; inside, \
+             an independent MUSCL-HLLC solver on 400 x 400 cells. The gate of 2.4 is that of Sod's tube over what a sharp method has there.")];
 
 /// Why one side of the diagonal may differ from the other.
 const FUSED: &str = "a driver that fuses a product with a sum rounds one side of the diagonal otherwise";

@@ -9,14 +9,11 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::budgets;
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "exploding_shell",
-    title: "Exploding soft shell",
-    group: group::COUPLING,
-    quick: true,
-    source: "Conservation laws and symmetry; after Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Fig. 3.",
-    run: shells,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("exploding_shell", "Exploding soft shell", group::COUPLING, shells,
+        "Conservation laws and symmetry; after Y. Cao et al., ACM Trans. Graph. 41(5) (2022) 169, Fig. 3."),
+];
 
 /// A variant: its name, what differs from the scene, and the energy it may lose.
 struct Shell {

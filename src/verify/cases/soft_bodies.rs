@@ -7,14 +7,11 @@ use crate::verify::harness::session::{Run, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "soft_bodies",
-    title: "Soft balls under high pressure",
-    group: group::COUPLING,
-    quick: true,
-    source: "Conservation of energy.",
-    run: soft_bodies,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("soft_bodies", "Soft balls under high pressure", group::COUPLING, soft_bodies,
+        "Conservation of energy."),
+];
 
 /// Pressures of the hot gas over Young's modulus of the balls, and ends of the runs \[s\].
 const RATIOS: [[f64; 2]; 3] = [[100.0, 0.2], [10.0, 0.5], [1000.0, 0.1]];

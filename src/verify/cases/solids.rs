@@ -10,39 +10,16 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::solids::{front, mean_velocity, mechanical};
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "striking_bar",
-        title: "Bar that strikes a wall",
-        group: group::SOLIDS,
-        quick: true,
-        source: "Saint-Venant's solution; S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 1970, section 168.",
-        run: bar,
-    },
-    Case {
-        id: "elastic_waves",
-        title: "Elastic waves",
-        group: group::SOLIDS,
-        quick: true,
-        source: "Speed of plane longitudinal waves, exact.",
-        run: waves,
-    },
-    Case {
-        id: "colliding_discs",
-        title: "Colliding discs",
-        group: group::SOLIDS,
-        quick: true,
-        source: "D. Sulsky, Z. Chen, H. L. Schreyer, Comput. Methods Appl. Mech. Eng. 118 (1994) 179, section 7.3; affine particle-in-cell code.",
-        run: discs,
-    },
-    Case {
-        id: "spinning_disc",
-        title: "Spinning disc",
-        group: group::SOLIDS,
-        quick: true,
-        source: "C. Jiang, C. Schroeder, J. Teran, J. Comput. Phys. 338 (2017) 137: angular momentum is kept.",
-        run: disc,
-    },
+    Case::quick("striking_bar", "Bar that strikes a wall", group::SOLIDS, bar,
+        "Saint-Venant's solution; S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 1970, section 168."),
+    Case::quick("elastic_waves", "Elastic waves", group::SOLIDS, waves,
+        "Speed of plane longitudinal waves, exact."),
+    Case::quick("colliding_discs", "Colliding discs", group::SOLIDS, discs,
+        "D. Sulsky, Z. Chen, H. L. Schreyer, Comput. Methods Appl. Mech. Eng. 118 (1994) 179, section 7.3; affine particle-in-cell code."),
+    Case::quick("spinning_disc", "Spinning disc", group::SOLIDS, disc,
+        "C. Jiang, C. Schroeder, J. Teran, J. Comput. Phys. 338 (2017) 137: angular momentum is kept."),
 ];
 
 /// When the momentum of the solids along x passes a level from below, linear between steps \[s\].

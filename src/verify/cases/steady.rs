@@ -15,39 +15,16 @@ const MACH: f64 = 3.0;
 const OBLIQUE: &str = "theta-beta-M relation";
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "compression_corner",
-        title: "Supersonic compression corner",
-        group: group::SUPERSONIC_2D,
-        quick: false,
-        source: "Oblique shock relations, NACA report 1135 (1953).",
-        run: compression,
-    },
-    Case {
-        id: "wedge",
-        title: "Supersonic wedge",
-        group: group::SUPERSONIC_2D,
-        quick: true,
-        source: "Oblique shock relations, NACA report 1135 (1953). The ramp cuts cells.",
-        run: wedge,
-    },
-    Case {
-        id: "expansion_corner",
-        title: "Supersonic expansion corner",
-        group: group::SUPERSONIC_2D,
-        quick: false,
-        source: "Prandtl-Meyer function, NACA report 1135 (1953).",
-        run: expansion,
-    },
-    Case {
-        id: "regular_reflection",
-        title: "Regular reflection of an oblique shock",
-        group: group::SUPERSONIC_2D,
-        quick: false,
-        source: "H. C. Yee, R. F. Warming, A. Harten, AIAA paper 83-1943 (1983); exact oblique shock relations.",
-        run: reflection,
-    },
+    Case::full("compression_corner", "Supersonic compression corner", group::SUPERSONIC_2D, compression,
+        "Oblique shock relations, NACA report 1135 (1953)."),
+    Case::quick("wedge", "Supersonic wedge", group::SUPERSONIC_2D, wedge,
+        "Oblique shock relations, NACA report 1135 (1953). The ramp cuts cells."),
+    Case::full("expansion_corner", "Supersonic expansion corner", group::SUPERSONIC_2D, expansion,
+        "Prandtl-Meyer function, NACA report 1135 (1953)."),
+    Case::full("regular_reflection", "Regular reflection of an oblique shock", group::SUPERSONIC_2D, reflection,
+        "H. C. Yee, R. F. Warming, A. Harten, AIAA paper 83-1943 (1983); exact oblique shock relations."),
 ];
 
 /// Angle of a shock to the x axis, from where the pressure passes half its jump between two x \[deg\].

@@ -7,14 +7,11 @@ use crate::verify::harness::session::{Run, Session, Setting, Suite};
 use crate::verify::harness::{Case, group};
 
 /// The cases of this module.
-pub(super) const CASES: &[Case] = &[Case {
-    id: "thin_vessel",
-    title: "Vessel with walls of one cell",
-    group: group::COUPLING,
-    quick: true,
-    source: "Exact: a state of rest stays, whatever the wall's angle and particles.",
-    run: vessel,
-}];
+#[rustfmt::skip]
+pub(super) const CASES: &[Case] = &[
+    Case::quick("thin_vessel", "Vessel with walls of one cell", group::COUPLING, vessel,
+        "Exact: a state of rest stays, whatever the wall's angle and particles."),
+];
 
 fn vessel(session: &mut Session<'_>) -> Result<()> {
     let angles: &[u32] = if session.suite == Suite::Quick { &[15, 30] } else { &[0, 15, 30, 45] };

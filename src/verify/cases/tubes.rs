@@ -236,7 +236,7 @@ macro_rules! tubes {
     ($($id:literal, $title:literal, $tube:ident, $source:expr;)*) => {
         /// The cases of this module.
         pub(super) const CASES: &[Case] = &[
-            $(Case { id: $id, title: $title, group: group::TUBES, quick: true, source: $source, run: |session| tube(session, &$tube) },)*
+            $(Case::quick($id, $title, group::TUBES, |session| tube(session, &$tube), $source),)*
         ];
     };
 }

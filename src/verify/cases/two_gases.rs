@@ -11,47 +11,18 @@ use crate::verify::harness::{Case, group};
 use crate::verify::measure::sweep::exact_riemann;
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "two_gas_contact",
-        title: "Contacts of two gases",
-        group: group::TUBES,
-        quick: true,
-        source: "Exact: pressure and velocity stay even where gas and density alone step.",
-        run: contacts,
-    },
-    Case {
-        id: "two_gas_tube",
-        title: "Shock tube of two gases",
-        group: group::TUBES,
-        quick: true,
-        source: "Exact Riemann solution of two ideal gases.",
-        run: tubes,
-    },
-    Case {
-        id: "helium_shock",
-        title: "Shock into helium",
-        group: group::TUBES,
-        quick: true,
-        source: "Exact Riemann solution of two ideal gases; states of J.-F. Haas, B. Sturtevant, J. Fluid Mech. 181 (1987) 41.",
-        run: helium,
-    },
-    Case {
-        id: "helium_bubble",
-        title: "Shock over a helium bubble",
-        group: group::UNSTEADY_2D,
-        quick: true,
-        source: "J. J. Quirk, S. Karni, J. Fluid Mech. 318 (1996) 129; experiment: J.-F. Haas, B. Sturtevant, J. Fluid Mech. 181 (1987) 41.",
-        run: bubble,
-    },
-    Case {
-        id: "two_gas_books",
-        title: "Mass of both gases where bodies break",
-        group: group::QUIET,
-        quick: true,
-        source: "Conservation law.",
-        run: books,
-    },
+    Case::quick("two_gas_contact", "Contacts of two gases", group::TUBES, contacts,
+        "Exact: pressure and velocity stay even where gas and density alone step."),
+    Case::quick("two_gas_tube", "Shock tube of two gases", group::TUBES, tubes,
+        "Exact Riemann solution of two ideal gases."),
+    Case::quick("helium_shock", "Shock into helium", group::TUBES, helium,
+        "Exact Riemann solution of two ideal gases; states of J.-F. Haas, B. Sturtevant, J. Fluid Mech. 181 (1987) 41."),
+    Case::quick("helium_bubble", "Shock over a helium bubble", group::UNSTEADY_2D, bubble,
+        "J. J. Quirk, S. Karni, J. Fluid Mech. 318 (1996) 129; experiment: J.-F. Haas, B. Sturtevant, J. Fluid Mech. 181 (1987) 41."),
+    Case::quick("two_gas_books", "Mass of both gases where bodies break", group::QUIET, books,
+        "Conservation law."),
 ];
 
 /// How far a mass fraction or volume fraction may leave its range: what the limiter leaves.

@@ -14,47 +14,18 @@ use crate::verify::measure::sweep::{GATED, Point, Sweep, plot_density, plot_erro
 const EXACT: &str = "exact";
 
 /// The cases of this module.
+#[rustfmt::skip]
 pub(super) const CASES: &[Case] = &[
-    Case {
-        id: "shock_reflection",
-        title: "Reflection of a Mach 2 shock from a wall",
-        group: group::WAVES,
-        quick: true,
-        source: "Rankine-Hugoniot relations.",
-        run: |session| sweep(session, "validation/shock_reflection.toml", reflected, report_reflection),
-    },
-    Case {
-        id: "noh_planar",
-        title: "Planar Noh problem",
-        group: group::WAVES,
-        quick: true,
-        source: "W. F. Noh, J. Comput. Phys. 72 (1987) 78; exact.",
-        run: |session| sweep(session, "validation/noh_planar.toml", noh, report_noh),
-    },
-    Case {
-        id: "sedov_planar",
-        title: "Planar Sedov blast wave",
-        group: group::WAVES,
-        quick: true,
-        source: "L. I. Sedov, Similarity and Dimensional Methods in Mechanics, 1959; J. R. Kamm, F. X. Timmes, LA-UR-07-2849 (2007).",
-        run: sedov,
-    },
-    Case {
-        id: "density_wave",
-        title: "Advected density wave",
-        group: group::WAVES,
-        quick: true,
-        source: "Exact: the density moves with the gas.",
-        run: |session| sweep(session, "validation/density_wave.toml", moved, report_uniform),
-    },
-    Case {
-        id: "acoustic_wave",
-        title: "Standing sound waves",
-        group: group::WAVES,
-        quick: true,
-        source: "Smooth flow test of Kwatra et al., J. Comput. Phys. 228 (2009) 4146, between walls at planes of symmetry; exact for small amplitudes.",
-        run: acoustic_wave,
-    },
+    Case::quick("shock_reflection", "Reflection of a Mach 2 shock from a wall", group::WAVES, |session| sweep(session, "validation/shock_reflection.toml", reflected, report_reflection),
+        "Rankine-Hugoniot relations."),
+    Case::quick("noh_planar", "Planar Noh problem", group::WAVES, |session| sweep(session, "validation/noh_planar.toml", noh, report_noh),
+        "W. F. Noh, J. Comput. Phys. 72 (1987) 78; exact."),
+    Case::quick("sedov_planar", "Planar Sedov blast wave", group::WAVES, sedov,
+        "L. I. Sedov, Similarity and Dimensional Methods in Mechanics, 1959; J. R. Kamm, F. X. Timmes, LA-UR-07-2849 (2007)."),
+    Case::quick("density_wave", "Advected density wave", group::WAVES, |session| sweep(session, "validation/density_wave.toml", moved, report_uniform),
+        "Exact: the density moves with the gas."),
+    Case::quick("acoustic_wave", "Standing sound waves", group::WAVES, acoustic_wave,
+        "Smooth flow test of Kwatra et al., J. Comput. Phys. 228 (2009) 4146, between walls at planes of symmetry; exact for small amplitudes."),
 ];
 
 /// The exact state on the grid of a run.

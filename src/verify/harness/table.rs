@@ -4,15 +4,7 @@ use super::row::{Row, Solver, Verdict, short};
 
 /// Heads of the columns.
 pub(in crate::verify) const HEADS: [&str; 10] = [
-    "case",
-    "setting",
-    "quantity",
-    "reference",
-    "source",
-    "ours",
-    "allowed",
-    "verdict",
-    "PCG mean/max",
+    "case", "setting", "quantity", "reference", "source", "ours", "allowed", "verdict", "PCG mean/max",
     "Courant (bound)",
 ];
 
