@@ -26,6 +26,16 @@ pub struct BodyState {
     pub angular_momentum: [f64; 3],
     /// Largest equivalent plastic strain.
     pub plastic_strain: f64,
+    /// Its mean, weighted by mass.
+    pub mean_plastic_strain: f64,
+    /// Largest norm of the elastic strain of Green and Lagrange, (F^T F - 1) / 2, of what has not broken.
+    pub elastic_strain: f64,
+    /// Largest deviatoric stress of what has not broken, sqrt(3/2 s:s) \[Pa\].
+    pub deviatoric_stress: f64,
+    /// Kinetic energy of the particles, that of the affine motion around them included \[J\].
+    pub kinetic_energy: f64,
+    /// Mass of the particles that have broken \[kg\].
+    pub broken_mass: f64,
     /// Low and high corner of the box around the particles \[m\].
     pub extent: [[f64; 3]; 2],
     /// Room over volume at rest: the mean of the volume ratio, or the cells that hold particles where they are less.
@@ -126,6 +136,14 @@ impl BodyState {
         let mass = f64::from(particle.mass);
         let (arm, speed) = (particle.position.map(f64::from), particle.velocity.map(f64::from));
         self.plastic_strain = self.plastic_strain.max(particle.plastic_strain.into());
+        self.mean_plastic_strain += mass * f64::from(particle.plastic_strain);
+        self.kinetic_energy += f64::from(particle.kinetic_energy);
+        if particle.damage < 1.0 {
+            self.elastic_strain = self.elastic_strain.max(particle.elastic_strain().into());
+            self.deviatoric_stress = self.deviatoric_stress.max(particle.deviatoric_stress().into());
+        } else {
+            self.broken_mass += mass;
+        }
         self.particles += 1;
         self.mass += mass;
         self.volume0 += f64::from(particle.volume0);
@@ -146,6 +164,7 @@ impl BodyState {
         self.room = self.room.min(cells) / self.volume0;
         self.centroid = self.centroid.map(|sum| sum / self.mass);
         self.velocity = self.velocity.map(|sum| sum / self.mass);
+        self.mean_plastic_strain /= self.mass;
         let whole = cross(self.centroid, self.velocity);
         for (sum, orbit) in self.angular_momentum.iter_mut().zip(whole) {
             *sum -= self.mass * orbit;
@@ -202,6 +221,30 @@ mod tests {
         };
         let grid = Grid { dimension: 3, cells: [8; 3], origin: [0.0; 3], spacing: 1.0 };
         Snapshot::of_particles((0.0, 0), grid, particles.iter().map(sample).collect())
+    }
+
+    /// What has broken bears nothing.
+    #[test]
+    fn strain_stress_and_energy_of_a_body() {
+        let particle = |k: usize| ParticleSample {
+            mass: [1.0, 3.0, 4.0][k],
+            kinetic_energy: 0.5,
+            plastic_strain: [0.4, 0.0, 0.0][k],
+            damage: [0.0, 0.0, 1.0][k],
+            deformation: [[1.0, 0.0, 0.0], [0.0, 1.2, 0.0], [0.0, 0.0, 1.0 + k as f32]],
+            stress: [5.0 * k as f32, 0.0, 0.0, 0.0, 0.0, 0.0],
+            ..ParticleSample::default()
+        };
+        let grid = Grid { dimension: 3, cells: [8; 3], origin: [0.0; 3], spacing: 1.0 };
+        let state = Snapshot::of_particles((0.0, 0), grid, (0..3).map(particle).collect());
+        let [body] = &state.bodies(1)[..] else { panic!("one body") };
+        let near = |ours: f64, right: f64| assert!((ours - right).abs() < 1e-6, "{ours}, not {right}");
+        // E has 0.22 along y, and 1.5 along z in the second particle
+        near(body.elastic_strain, 0.22f64.hypot(1.5));
+        near(body.deviatoric_stress, 5.0);
+        near(body.plastic_strain, 0.4);
+        near(body.mean_plastic_strain, 0.05);
+        assert_eq!((body.kinetic_energy, body.broken_mass), (1.5, 4.0));
     }
 
     #[test]

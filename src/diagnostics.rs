@@ -34,7 +34,31 @@ pub struct Load {
     pub area: f32,
 }
 
+/// What a body, an obstacle or a wall has borne.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Borne {
+    /// Force, mean since the last row \[N\].
+    pub force: [f64; 3],
+    /// Its moment \[N m\].
+    pub moment: [f64; 3],
+    /// Mean pressure over the faces that gas touches \[Pa\]; no number where it touches none.
+    pub pressure: f64,
+    /// Impulse since the start \[kg m s^-1\].
+    pub impulse: [f64; 3],
+    /// Work since the start \[J\].
+    pub work: f64,
+}
+
 impl Load {
+    /// The load of a step, its moment about a point \[m\], with the impulse since the start.
+    #[must_use]
+    pub fn borne(&self, about: [f64; 3], impulse: [f64; 3]) -> Borne {
+        let force = glam::DVec3::from(self.force.map(f64::from));
+        let moment = glam::DVec3::from(self.moment.map(f64::from)) - glam::DVec3::from(about).cross(force);
+        let (force, moment, pressure) = (force.into(), moment.into(), self.pressure.into());
+        Borne { force, moment, pressure, impulse, work: 0.0 }
+    }
+
     /// From the vec4 entries of its history ring, see `load_record` in `shaders/step/loads.wgsl`; moments there are about `corner`.
     pub(crate) fn from_raw(raw: &[[f32; 4]], corner: [f32; 3]) -> Vec<Self> {
         let load = |raw: &[[f32; 4]]| {

@@ -1,8 +1,14 @@
-//! The table of quantities: what pictures and files show of a state, by name, unit and caption, and how it is computed.
+//! The table of quantities: what pictures, files and tables show, by name, unit and caption, and how it is computed. [`TABLE`] has those of
+//! cells and particles; those of wholes (bodies, pieces, loads, points, probes, steps) follow.
+
+mod columns;
+mod wholes;
 
 use rayon::prelude::*;
 
 use crate::snapshot::{ParticleSample, Snapshot, kind};
+pub use columns::{Columns, Entry, label, names, row};
+pub use wholes::{BODY, LOAD, PIECE, POINT, PROBE, STEP, WAVE, pages};
 
 /// What a quantity belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +91,7 @@ pub const TABLE: &[Quantity] = &[
     quantity(Place::Particle, "plastic_strain", "1", "plastic strain", 1, |s| each(s, |p| [p.plastic_strain])),
     quantity(Place::Particle, "damage", "1", "damage", 1, |s| each(s, |p| [p.damage])),
     quantity(Place::Particle, "J", "1", "volume over volume at rest", 1, |s| each(s, |p| [p.volume_ratio()])),
-    quantity(Place::Particle, "deviatoric_stress", "Pa", "deviatoric stress [Pa]", 1, |s| each(s, |p| [von_mises(p)])),
+    quantity(Place::Particle, "deviatoric_stress", "Pa", "deviatoric stress [Pa]", 1, |s| each(s, |p| [p.deviatoric_stress()])),
     quantity(Place::Particle, "stress", "Pa", "Cauchy stress xx, yy, zz, xy, yz, zx [Pa]", 6, |s| each(s, |p| p.stress)),
     quantity(Place::Particle, "body", "1", "index of the body in the scene", 1, |s| whole(s, |p| p.body)),
     quantity(Place::Particle, "material", "1", "index of the material in the scene", 1, |s| whole(s, |p| p.material)),
@@ -168,13 +174,6 @@ fn second(snapshot: &Snapshot, i: usize) -> f64 {
 
 fn mach(snapshot: &Snapshot, i: usize) -> f32 {
     length(snapshot.velocity[i]) / snapshot.sound_speed_at(i) as f32
-}
-
-/// Of the Cauchy stress: sqrt(3/2 s:s).
-fn von_mises(particle: &ParticleSample) -> f32 {
-    let [x, y, z, xy, yz, zx] = particle.stress;
-    let normal = (x - y) * (x - y) + (y - z) * (y - z) + (z - x) * (z - x);
-    (0.5 * normal + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
 }
 
 /// Central difference along each axis; beside cells without gas, and at the edge, that to the one side.

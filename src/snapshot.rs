@@ -123,6 +123,22 @@ impl ParticleSample {
     pub fn volume_ratio(&self) -> f32 {
         glam::Mat3::from_cols_array_2d(&self.deformation).determinant()
     }
+
+    /// Norm of the elastic strain of Green and Lagrange, E = (F^T F - 1) / 2: sqrt(E:E).
+    #[must_use]
+    pub fn elastic_strain(&self) -> f32 {
+        let f = glam::Mat3::from_cols_array_2d(&self.deformation);
+        let strain = (f.transpose() * f - glam::Mat3::IDENTITY) * 0.5;
+        [strain.x_axis, strain.y_axis, strain.z_axis].iter().map(|column| column.length_squared()).sum::<f32>().sqrt()
+    }
+
+    /// Deviatoric stress of von Mises, sqrt(3/2 s:s) of the Cauchy stress \[Pa\].
+    #[must_use]
+    pub fn deviatoric_stress(&self) -> f32 {
+        let [x, y, z, xy, yz, zx] = self.stress;
+        let normal = (x - y) * (x - y) + (y - z) * (y - z) + (z - x) * (z - x);
+        (0.5 * normal + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
+    }
 }
 
 /// The gas in one cell.

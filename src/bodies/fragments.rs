@@ -31,6 +31,8 @@ pub struct Fragment {
     pub spin: [f64; 3],
     /// Edges of the box with the same moments along its axes, longest first \[m\].
     pub size: [f64; 3],
+    /// Volume as it is deformed \[m^3\].
+    pub volume: f64,
     /// Mass by speed \[kg\], in [`SPEEDS`] equal parts up to the largest speed of any particle.
     pub speeds: [f64; SPEEDS],
 }
@@ -81,8 +83,9 @@ impl Snapshot {
         let spin = if inertia.determinant() > 0.0 { inertia.inverse() * turning } else { DVec3::ZERO };
         let size = principal(moments).map(|moment| (12.0 * moment / mass).max(0.0).sqrt());
         let body = particles().next().map_or(0, |particle| particle.body);
+        let volume = particles().map(|particle| f64::from(particle.volume0 * particle.volume_ratio()).abs()).sum();
         let (centre, velocity, spin) = (centre.into(), velocity.into(), spin.into());
-        Fragment { piece, body, particles: own, mass, centre, velocity, spin, size, speeds }
+        Fragment { piece, body, particles: own, mass, centre, velocity, spin, size, volume, speeds }
     }
 
     /// A value along each axis that the scene has.

@@ -68,7 +68,11 @@ impl Folder {
         }
     }
 
-    fn locked(path: &Path) -> Result<Self> {
+    /// Marks a folder while something is done there that one process does for all; what is there stays.
+    ///
+    /// # Errors
+    /// As those of [`Folder::take`] of a folder without a run.
+    pub(super) fn locked(path: &Path) -> Result<Self> {
         fs::create_dir_all(path).map_err(|source| Error::io(path, source))?;
         let lock = path.join(LOCK);
         for _ in 0..2 {

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crate::bodies::Fragment;
 use crate::export::csv::{Table, Value};
 use crate::export::mesh;
 use crate::scene::Scene;
@@ -45,8 +44,7 @@ impl Fragments {
         for one in &all {
             let parent = self.before.get(one.piece as usize).copied().filter(|piece| *piece != NOWHERE);
             let head: [Value; 3] = [frame.into(), time.into(), snapshot.fastest().into()];
-            let volume = volume(one, snapshot);
-            self.table.push(head.into_iter().chain(mesh::row(one, (parent, volume), &self.names)));
+            self.table.push(head.into_iter().chain(mesh::row(one, parent, &self.names)));
         }
         let last = snapshot.particles.iter().map(|particle| particle.index + 1).max().unwrap_or(0);
         self.before = vec![NOWHERE; last as usize];
@@ -75,12 +73,6 @@ impl Fragments {
             self.before.resize((pair[1][0] as usize).min(most), pair[0][1]);
         }
     }
-}
-
-/// Volume of a piece as it is deformed \[m^3\].
-fn volume(one: &Fragment, snapshot: &Snapshot) -> f64 {
-    let particles = one.particles.iter().map(|index| &snapshot.particles[*index]);
-    particles.map(|particle| f64::from(particle.volume0 * particle.volume_ratio()).abs()).sum()
 }
 
 #[cfg(test)]

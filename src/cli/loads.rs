@@ -4,24 +4,26 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::diagnostics::{Load, StepRecord};
+use crate::diagnostics::{Borne, Load, StepRecord};
 use crate::export::csv::{Table, Value};
+use crate::quantity::{self, Columns, LOAD};
 use crate::scene::Scene;
 use crate::state::loads;
 
 /// Columns that `bodies.csv` has in scenes with bodies that are held, driven or have gauges.
-#[rustfmt::skip]
-pub(super) const BODY_COLUMNS: [&str; 11] = [
-    "gas_force_x", "gas_force_y", "gas_force_z", "gas_moment_x", "gas_moment_y", "gas_moment_z", "gas_pressure",
-    "gas_impulse_x", "gas_impulse_y", "gas_impulse_z", "gas_work",
-];
+pub(super) fn body_columns() -> Vec<String> {
+    quantity::names(LOAD).iter().map(|name| format!("gas_{name}")).collect()
+}
 
-/// Columns of `obstacles.csv`.
-#[rustfmt::skip]
-const OBSTACLE_COLUMNS: [&str; 13] = [
-    "step", "time", "obstacle", "force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "pressure",
-    "impulse_x", "impulse_y", "impulse_z",
-];
+/// Columns of `obstacles.csv`: its quantities have no work.
+fn obstacle_columns() -> Vec<String> {
+    let head = ["step", "time", "obstacle"].map(str::to_owned);
+    head.into_iter().chain(quantity::names(of_obstacles())).collect()
+}
+
+fn of_obstacles() -> &'static [Columns<Borne>] {
+    &LOAD[..LOAD.len() - 1]
+}
 
 /// Loads of a thing so far.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -67,7 +69,7 @@ impl Loads {
             bodies: vec![Sum::default(); bodies],
             obstacles: named.collect(),
             sides: vec![Sum::default(); sides],
-            table: (obstacles > 0).then(|| Table::new(&folder.join("obstacles.csv"), &OBSTACLE_COLUMNS)),
+            table: (obstacles > 0).then(|| Table::named(&folder.join("obstacles.csv"), obstacle_columns())),
         }
     }
 
@@ -108,8 +110,9 @@ impl Loads {
         let Some(table) = &mut self.table else { return };
         for ((name, sum), load) in self.obstacles.iter().zip(record.loads.iter().skip(self.bodies.len())) {
             let head: [Value; 3] = [record.step.into(), record.time.into(), name.as_str().into()];
-            let values = load.force.into_iter().chain(load.moment).chain([load.pressure]).map(Value::from);
-            table.push(head.into_iter().chain(values).chain(sum.borne[..3].iter().map(|sum| (*sum).into())));
+            let [x, y, z, _] = sum.borne;
+            let borne = load.borne([0.0; 3], [x, y, z]);
+            table.push(head.into_iter().chain(quantity::row(of_obstacles(), &borne).map(Value::from)));
         }
     }
 
@@ -117,7 +120,10 @@ impl Loads {
     pub(super) fn row(&mut self, body: usize) -> Vec<Value> {
         let Some(sum) = self.bodies.get_mut(body) else { return Vec::new() };
         let time = std::mem::take(&mut sum.time);
-        let means = std::mem::take(&mut sum.since).map(|part| part / time);
-        means.into_iter().chain([sum.pressure]).chain(sum.borne).map(Value::from).collect()
+        let [x, y, z, a, b, c] = std::mem::take(&mut sum.since).map(|part| part / time);
+        let [along, up, aside, work] = sum.borne;
+        let (force, moment, impulse) = ([x, y, z], [a, b, c], [along, up, aside]);
+        let borne = Borne { force, moment, pressure: sum.pressure, impulse, work };
+        quantity::row(LOAD, &borne).map(Value::from).collect()
     }
 }

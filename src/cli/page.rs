@@ -4,6 +4,7 @@ mod curves;
 mod gauges;
 mod pieces;
 pub(super) mod run;
+pub(super) mod spans;
 pub(super) mod sweep;
 
 use std::fmt::Write as _;

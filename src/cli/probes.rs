@@ -7,17 +7,12 @@ use crate::Result;
 use crate::diagnostics::{ProbeRecord, StepRecord};
 use crate::expect::Recording;
 use crate::export::csv::{Sheet, Table, Value};
+use crate::quantity::{self, PROBE, WAVE};
 use crate::scene::Scene;
 use crate::snapshot::kind;
 
 /// Name of the table.
 pub(super) const NAME: &str = "probes.csv";
-/// Columns of each probe, after its name: the gas, and from `overpressure` on the wave so far.
-#[rustfmt::skip]
-const COLUMNS: [&str; 10] = [
-    "density", "velocity_x", "velocity_y", "velocity_z", "pressure", "kind", "overpressure", "arrival", "positive_phase", "impulse",
-];
-
 /// The table.
 #[derive(Debug)]
 pub(super) struct Probes {
@@ -30,10 +25,10 @@ impl Probes {
     /// That of a scene; none where it has no probes.
     pub(super) fn new(folder: &Path, scene: &Scene) -> Option<Self> {
         let names: Vec<String> = scene.probes.iter().map(|probe| probe.name.clone()).collect();
-        let of_each = names.iter().flat_map(|name| COLUMNS.iter().map(move |column| format!("{name}_{column}")));
-        let columns: Vec<String> = ["step", "time"].map(str::to_owned).into_iter().chain(of_each).collect();
-        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-        let table = Table::new(&folder.join(NAME), &columns);
+        let own = [quantity::names(PROBE), quantity::names(WAVE)].concat();
+        let of_each = names.iter().flat_map(|name| own.iter().map(move |column| format!("{name}_{column}")));
+        let columns = ["step", "time"].map(str::to_owned).into_iter().chain(of_each).collect();
+        let table = Table::named(&folder.join(NAME), columns);
         (!names.is_empty()).then(|| Self { waves: vec![Recording::default(); names.len()], names, table })
     }
 
@@ -72,11 +67,10 @@ fn record(wave: &mut Recording, (time, pressure): (f64, f64), gas: bool) {
 fn row(wave: &mut Recording, probe: &ProbeRecord, time: f64) -> impl Iterator<Item = Value> {
     let gas = probe.kind == kind::GAS;
     record(wave, (time, probe.pressure.into()), gas);
-    let [u, v, w] = probe.velocity;
-    let real = [probe.density, u, v, w, probe.pressure].map(Value::from);
-    let none = |value: Option<f64>| Value::from(value.unwrap_or(f64::NAN));
+    let none = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let so_far = wave.gauge().unwrap_or_default();
     let over = none(wave.overpressure().filter(|_| gas));
-    let sums = [over, none(so_far.arrival), none(so_far.positive_phase), so_far.impulse.into()];
-    real.into_iter().chain([u32::from(probe.kind).into()]).chain(sums)
+    let passed = [over, none(so_far.arrival), none(so_far.positive_phase), so_far.impulse];
+    let own: Vec<_> = quantity::row(PROBE, probe).chain(quantity::row(WAVE, &passed)).collect();
+    own.into_iter().map(Value::from)
 }

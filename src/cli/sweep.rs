@@ -4,11 +4,12 @@ mod points;
 mod table;
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde_json::json;
 
 use super::args::{Cli, RunOptions, SceneOptions, SweepOptions};
+use super::folder::Folder;
 use super::run::Every;
 use super::{interrupt, open_device, page, run, scenes};
 use crate::export::atomic;
@@ -21,6 +22,9 @@ use table::{Rows, report};
 
 /// Folder of the common start of `--branch-at`.
 const START: &str = "start";
+
+/// How long a part waits before it looks for the start again.
+const WAIT: Duration = Duration::from_millis(100);
 
 /// A sweep.
 struct Sweep<'a> {
@@ -146,16 +150,32 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Runs up to where the runs part, unless that is there.
+    /// Runs up to where the runs part, unless that is there; of several parts one does so, and the others wait for it.
     fn start(&self, gpu: &Gpu) -> Result<()> {
         let Some(time) = self.options.branch_at else { return Ok(()) };
         let folder = self.options.out.join(START);
-        if self.finished(&folder, &[])? {
-            return Ok(());
+        let mut told = false;
+        while !self.finished(&folder, &[])? {
+            match Folder::locked(&self.options.out) {
+                // who had the turn before may have come to the end
+                Ok(_turn) if self.finished(&folder, &[])? => return Ok(()),
+                Ok(_turn) => return self.run_start(gpu, time, &folder),
+                Err(Error::Usage(who)) => {
+                    if !std::mem::replace(&mut told, true) {
+                        tell!("waiting for the start of the runs: {who}");
+                    }
+                    std::thread::sleep(WAIT);
+                }
+                Err(error) => return Err(error),
+            }
         }
+        Ok(())
+    }
+
+    fn run_start(&self, gpu: &Gpu, time: f64, folder: &Path) -> Result<()> {
         let options = RunOptions {
             scene: self.options.scene.clone(),
-            out: Some(folder.clone()),
+            out: Some(folder.to_owned()),
             until: Some(time),
             frames: Some(1),
             no_frames: true,
@@ -167,7 +187,7 @@ impl<'a> Sweep<'a> {
             ..RunOptions::default()
         };
         run::perform_on(gpu, &options)?;
-        self.note(&folder, &[])
+        self.note(folder, &[])
     }
 
     /// What a run of this sweep is a run of, one line each.

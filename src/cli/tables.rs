@@ -11,35 +11,14 @@ use super::gauges::Gauges;
 use super::loads::{self, Loads, Sum};
 use super::probes::{self, Probes};
 use crate::Result;
-use crate::diagnostics::{StepRecord, Total};
+use crate::diagnostics::StepRecord;
 use crate::export::csv::{Mark, Table, Value};
+use crate::quantity::{self, BODY, STEP};
 use crate::scene::{MOST_PARTICLES, Scene};
 use crate::snapshot::Snapshot;
 
-/// Columns of `diagnostics.csv`.
-#[rustfmt::skip]
-const STEP_COLUMNS: [&str; 53] = [
-    "step", "time", "dt",
-    "gas_mass", "gas_momentum_x", "gas_momentum_y", "gas_momentum_z", "gas_energy",
-    "owed_mass", "owed_momentum_x", "owed_momentum_y", "owed_momentum_z", "owed_energy",
-    "crossed_mass", "crossed_momentum_x", "crossed_momentum_y", "crossed_momentum_z", "crossed_energy",
-    "solid_mass", "solid_momentum_x", "solid_momentum_y", "solid_momentum_z", "solid_kinetic_energy",
-    "solid_elastic_energy", "solid_ghost_energy", "solid_plastic_heat",
-    "given_momentum_x", "given_momentum_y", "given_momentum_z", "given_energy",
-    "pcg_iterations", "pcg_residual", "substeps", "extra_vertices",
-    "min_density", "max_density", "min_pressure", "max_pressure", "max_gas_speed", "max_solid_speed",
-    "limited_cells", "floored_cells", "clamped_particles", "acoustic_courant", "newton_rounds", "elastic_iterations",
-    "raised_cells", "gas_kinetic_energy", "owed_mass_of_either_sign", "min_entropy", "solid_fracture_energy",
-    "broken_mass", "dense_cells",
-];
-
-/// Columns of `bodies.csv`.
-#[rustfmt::skip]
-const BODY_COLUMNS: [&str; 22] = [
-    "frame", "time", "body", "particles", "mass", "x", "y", "z", "velocity_x", "velocity_y", "velocity_z",
-    "angular_momentum_x", "angular_momentum_y", "angular_momentum_z",
-    "min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "plastic_strain", "pieces",
-];
+/// Columns of `bodies.csv` before the quantities of a body.
+const OF_BODIES: [&str; 3] = ["frame", "time", "body"];
 
 /// How far the tables had come, by the names of their files.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -69,11 +48,12 @@ impl Tables {
     /// Tables of a scene in a folder; those without rows to come are left out.
     pub(super) fn new(folder: &Path, scene: &Scene) -> Self {
         let loads = Loads::new(folder, scene);
-        let more = if loads.of_bodies() { &loads::BODY_COLUMNS[..] } else { &[] };
+        let more = if loads.of_bodies() { loads::body_columns() } else { Vec::new() };
+        let head = OF_BODIES.map(str::to_owned).into_iter().chain(quantity::names(BODY)).chain(more).collect();
         let bodies = !scene.bodies.is_empty();
         Self {
-            steps: Table::new(&folder.join("diagnostics.csv"), &STEP_COLUMNS),
-            bodies: bodies.then(|| Table::new(&folder.join("bodies.csv"), &[&BODY_COLUMNS, more].concat())),
+            steps: Table::named(&folder.join("diagnostics.csv"), quantity::names(STEP)),
+            bodies: bodies.then(|| Table::named(&folder.join("bodies.csv"), head)),
             fragments: Fragments::new(folder, scene),
             probes: Probes::new(folder, scene),
             loads,
@@ -123,7 +103,7 @@ impl Tables {
     /// Adds steps.
     pub(super) fn add_steps(&mut self, records: &[StepRecord]) {
         for record in records {
-            self.steps.push(step_row(record));
+            self.steps.push(quantity::row(STEP, record).map(Value::from));
             self.loads.add(record);
             if let Some(gauges) = &mut self.gauges {
                 gauges.add(record, &self.loads);
@@ -141,12 +121,9 @@ impl Tables {
         }
         let Some(table) = &mut self.bodies else { return };
         for (index, (name, body)) in self.names.iter().zip(snapshot.bodies(self.names.len())).enumerate() {
-            let head: [Value; 5] =
-                [frame.into(), time.into(), name.as_str().into(), body.particles.into(), body.mass.into()];
-            let vectors = [body.centroid, body.velocity, body.angular_momentum, body.extent[0], body.extent[1]];
-            let values = vectors.into_iter().flatten().map(Value::from);
-            let last = [body.plastic_strain.into(), body.pieces.into()];
-            table.push(head.into_iter().chain(values).chain(last).chain(self.loads.row(index)));
+            let head: [Value; 3] = [frame.into(), time.into(), name.as_str().into()];
+            let own = quantity::row(BODY, &body).map(Value::from);
+            table.push(head.into_iter().chain(own).chain(self.loads.row(index)));
         }
     }
 
@@ -154,23 +131,4 @@ impl Tables {
     pub(super) fn save(&mut self) -> Result<()> {
         self.all().try_for_each(Table::save)
     }
-}
-
-fn step_row(record: &StepRecord) -> Vec<Value> {
-    let mut row: Vec<Value> = vec![record.step.into(), record.time.into(), record.dt.into()];
-    for Total { mass, momentum: [x, y, z], energy } in [record.gas, record.owed, record.crossed, record.solid] {
-        row.extend([mass, x, y, z, energy].map(Value::from));
-    }
-    row.extend([record.elastic_energy, record.ghost_energy, record.plastic_heat].map(Value::from));
-    let [x, y, z] = record.given.momentum;
-    row.extend([x, y, z, record.given.energy].map(Value::from));
-    row.extend([record.iterations.into(), record.residual.into(), record.substeps.into(), record.extra.into()]);
-    row.extend([record.density, record.pressure].into_iter().flatten().map(Value::from));
-    row.extend([record.gas_speed, record.solid_speed].map(Value::from));
-    row.extend([record.limited, record.floored, record.clamped].map(Value::from));
-    row.extend([record.courant.into(), record.rounds.into(), record.elastic_iterations.into(), record.raised.into()]);
-    row.extend([record.gas_kinetic, record.owed_either, record.min_entropy].map(Value::from));
-    row.extend([record.fracture_energy, record.broken_mass].map(Value::from));
-    row.push(record.dense.into());
-    row
 }

@@ -5,6 +5,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use ::png::{BitDepth, ColorType, Compression, Decoder, Encoder, Transformations};
+use rayon::prelude::*;
 
 use crate::render::Frame;
 use crate::{Error, Result};
@@ -32,17 +33,18 @@ pub fn read(path: &Path) -> Result<Frame> {
 pub fn moving(files: &[PathBuf], width: u32, delay: u16) -> Result<Vec<u8>> {
     let Some(path) = files.first() else { return Ok(Vec::new()) };
     let wrong = |error: ::png::EncodingError| Error::io(path, std::io::Error::other(error));
-    let first = shrunk(&read(path)?, width);
+    let small = |file: &PathBuf| read(file).map(|frame| shrunk(&frame, width));
+    let frames: Vec<Frame> = files.par_iter().map(small).collect::<Result<_>>()?;
+    let first = &frames[0];
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, first.width, first.height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::High);
+    encoder.set_compression(Compression::Balanced);
     encoder.set_animated(u32::try_from(files.len()).unwrap_or(u32::MAX), 0).map_err(wrong)?;
     encoder.set_frame_delay(delay, 1000).map_err(wrong)?;
     let mut writer = encoder.write_header().map_err(wrong)?;
-    for file in files {
-        let frame = shrunk(&read(file)?, width);
+    for frame in &frames {
         let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
         writer.write_image_data(&rgb).map_err(wrong)?;
     }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::export::atomic;
+use crate::quantity::Entry;
 use crate::{Error, Result, input};
 
 /// Bytes of a table that is read again.
@@ -53,6 +54,15 @@ impl From<&str> for Value {
     }
 }
 
+impl From<Entry> for Value {
+    fn from(entry: Entry) -> Self {
+        match entry {
+            Entry::Whole(number) => Value::Integer(number),
+            Entry::Real(number) => Value::Real(number),
+        }
+    }
+}
+
 /// A CSV file with a header line. Rows gather in memory; [`Table::save`] replaces the file as a whole,
 /// so a reader at any time sees complete rows of complete frames.
 #[derive(Debug, Clone)]
@@ -70,6 +80,13 @@ impl Table {
         let mut table = Self { path: path.to_owned(), columns: header.len(), text: String::new(), saved: 0 };
         table.push(header.iter().map(|&name| name.into()));
         table
+    }
+
+    /// The same of names that are made.
+    #[must_use]
+    pub fn named(path: &Path, header: Vec<String>) -> Self {
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        Self::new(path, &header)
     }
 
     /// Takes the rows of a file, as far as [`Table::mark`] says. Where it has other columns, the table stays as it is.

@@ -10,18 +10,15 @@ use super::csv::{Table, Value};
 use super::npy;
 use super::ply::{self, Part};
 use super::surface::Surface;
-use crate::bodies::{Fragment, SPEEDS};
+use crate::bodies::Fragment;
 use crate::export::{Exporter, Moment, Needs, atomic};
+use crate::quantity::{self, PIECE};
 use crate::snapshot::Snapshot;
 use crate::state::Grid;
 use crate::{Error, Result, input};
 
-/// Columns of a piece before the speeds.
-#[rustfmt::skip]
-const COLUMNS: [&str; 18] = [
-    "piece", "parent", "body", "particles", "mass", "x", "y", "z", "velocity_x", "velocity_y", "velocity_z",
-    "spin_x", "spin_y", "spin_z", "length", "width", "height", "volume",
-];
+/// Columns of a piece before its quantities.
+const COLUMNS: [&str; 3] = ["piece", "parent", "body"];
 /// Bytes of the pieces of a frame.
 const MOST_PIECES: u64 = 4 << 30;
 /// What stands for a parent that nobody knows.
@@ -83,30 +80,26 @@ impl MeshExporter {
         Ok(fragments.iter().map(|one| before.as_ref().and_then(|before| before.get(&one.piece).copied())).collect())
     }
 
-    fn table(&self, path: &Path, rows: &[(Fragment, Option<u32>, f64)], names: &[String]) -> Result<()> {
+    fn table(&self, path: &Path, rows: &[(Fragment, Option<u32>)], names: &[String]) -> Result<()> {
         let columns = columns();
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut table = Table::new(path, &columns);
-        rows.iter().for_each(|(one, parent, volume)| table.push(row(one, (*parent, *volume), names)));
+        rows.iter().for_each(|(one, parent)| table.push(row(one, *parent, names)));
         table.save()
     }
 }
 
 /// Names of the columns of a piece.
 pub(crate) fn columns() -> Vec<String> {
-    let speeds = (1..=SPEEDS).map(|part| format!("mass_at_speed_{part}_of_{SPEEDS}"));
-    COLUMNS.iter().map(|&name| name.to_owned()).chain(speeds).collect()
+    COLUMNS.iter().map(|&name| name.to_owned()).chain(quantity::names(PIECE)).collect()
 }
 
-/// A row of a piece: it comes from another one and has a volume \[m^3\]; `names` are those of the bodies.
-pub(crate) fn row(one: &Fragment, (parent, volume): (Option<u32>, f64), names: &[String]) -> Vec<Value> {
+/// A row of a piece, which comes from another one; `names` are those of the bodies.
+pub(crate) fn row(one: &Fragment, parent: Option<u32>, names: &[String]) -> Vec<Value> {
     let parent = parent.map_or_else(|| NONE.to_owned(), |parent| parent.to_string());
     let body = names.get(one.body as usize).map_or("", String::as_str);
-    let mut row: Vec<Value> = vec![one.piece.into(), parent.as_str().into(), body.into()];
-    row.extend([(one.particles.len() as u64).into(), one.mass.into()]);
-    let vectors = [one.centre, one.velocity, one.spin, one.size].into_iter().flatten();
-    row.extend(vectors.chain([volume]).chain(one.speeds).map(Value::from));
-    row
+    let head: [Value; 3] = [one.piece.into(), parent.as_str().into(), body.into()];
+    head.into_iter().chain(quantity::row(PIECE, one).map(Value::from)).collect()
 }
 
 impl Exporter for MeshExporter {
@@ -128,7 +121,8 @@ impl Exporter for MeshExporter {
         let parts: Vec<Part> = fragments.par_iter().map(|one| part(one, snapshot)).collect();
         ply::write(&self.folder.join(&name).with_extension("ply"), &about(moment), &parts)?;
         let volumes: Vec<f64> = parts.par_iter().map(|part| part.surface.volume()).collect();
-        let rows: Vec<_> = fragments.into_iter().zip(parents).zip(volumes).map(|((a, b), c)| (a, b, c)).collect();
+        let inside = fragments.into_iter().zip(volumes).map(|(one, volume)| Fragment { volume, ..one });
+        let rows: Vec<_> = inside.zip(parents).collect();
         self.table(&self.folder.join(name).with_extension("csv"), &rows, &moment.origin.source.bodies)
     }
 

@@ -1,4 +1,5 @@
-//! Surfaces as PLY: corners with numbers of their own, triangles with the number of their piece. [Turk 1994; crate `ply-rs-bw`]
+//! Surfaces as PLY: corners with numbers of their own, the piece and the body among them. Triangles are corners alone, which all readers
+//! know. [Turk 1994; crate `ply-rs-bw`]
 
 use std::path::Path;
 
@@ -24,7 +25,7 @@ pub(super) struct Part {
 
 /// Bytes of a corner and of a triangle.
 const CORNER_BYTES: usize = 4 * (3 + CORNER.len() + 2);
-const TRIANGLE_BYTES: usize = 1 + 4 * 3 + 4;
+const TRIANGLE_BYTES: usize = 1 + 4 * 3;
 
 impl Part {
     /// The corners as bytes, in the order of the head.
@@ -46,8 +47,8 @@ impl Part {
         let mut bytes = vec![0; TRIANGLE_BYTES * self.surface.triangles.len()];
         bytes.par_chunks_exact_mut(TRIANGLE_BYTES).zip(&self.surface.triangles).for_each(|(into, three)| {
             into[0] = 3;
-            let words = three.map(|corner| first + corner).into_iter().chain([self.piece]).map(u32::to_le_bytes);
-            into[1..].chunks_exact_mut(4).zip(words).for_each(|(into, word)| into.copy_from_slice(&word));
+            let words = three.map(|corner| (first + corner).to_le_bytes());
+            into[1..].copy_from_slice(words.as_flattened());
         });
         bytes
     }
@@ -68,7 +69,7 @@ pub(super) fn write(path: &Path, comments: &[String], parts: &[Part]) -> Result<
     let list = PropertyType::List(ScalarType::UChar, ScalarType::UInt);
     let names = ["x", "y", "z"].into_iter().chain(CORNER);
     let of_corners: Vec<PropertyDef> = names.map(real).chain([whole("piece"), whole("body")]).collect();
-    let of_triangles = vec![PropertyDef::new("vertex_indices".to_owned(), list), whole("piece")];
+    let of_triangles = vec![PropertyDef::new("vertex_indices".to_owned(), list)];
     for (name, properties, count) in [("vertex", of_corners, corners), ("face", of_triangles, triangles)] {
         let mut definition = ElementDef::new(name.to_owned());
         definition.count = count;

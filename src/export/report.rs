@@ -51,6 +51,21 @@ pub enum Status {
     Failed,
 }
 
+/// A quantity over time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Span {
+    /// Its first value.
+    pub first: f64,
+    /// Its last value.
+    pub last: f64,
+    /// Its least value.
+    pub least: f64,
+    /// Its largest value.
+    pub largest: f64,
+    /// When that was \[s\].
+    pub largest_time: f64,
+}
+
 /// Contents of report.json. `S` is the scene with its defaults filled in.
 #[derive(Debug, Clone, Serialize)]
 pub struct Report<S> {
@@ -92,6 +107,10 @@ pub struct Report<S> {
     pub absent_warnings: Vec<Warned>,
     /// What each gauge has measured; empty while the run goes on.
     pub gauges: BTreeMap<String, Gauge>,
+    /// Quantities of each body over the frames, by the columns of `bodies.csv`; empty while the run goes on.
+    pub bodies: BTreeMap<String, BTreeMap<String, Span>>,
+    /// Extremes over the steps, by the columns of `diagnostics.csv`; empty while the run goes on.
+    pub extremes: BTreeMap<String, Span>,
     /// What the command line changed about the scene.
     pub changes: Vec<String>,
     /// [`crate::scene::Scene::hash`] of the scene: what pictures and states say about where they come from.

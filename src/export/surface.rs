@@ -112,7 +112,10 @@ fn around([x, y, z]: [i32; 3]) -> impl Iterator<Item = [i32; 3]> {
 mod tests {
     use std::collections::HashMap;
 
+    use glam::Vec3;
+
     use super::*;
+    use crate::bodies::Groups;
 
     /// Whether each edge has two triangles, which go along it in opposite directions; four where two parts touch in an edge.
     fn is_closed(surface: &Surface) -> bool {
@@ -148,6 +151,57 @@ mod tests {
             let middle = surface.points.iter().filter(|point| (point[0] - 0.5 * gap).abs() < 0.02).count();
             assert!(is_closed(&surface) && middle == 0, "{gap}: {middle}");
         }
+    }
+
+    /// Particles of a shell of radius 1 and so many layers, a little out of order, where a part of it is kept.
+    fn shell(layers: f32, distance: f32, kept: impl Fn(Vec3) -> bool) -> Vec<[f32; 3]> {
+        let side = (2.6 / distance) as usize;
+        let noise = |k: usize| (k as f32 * 12.9898).sin().mul_add(43758.547, 0.0).fract().abs() - 0.5;
+        let all = lattice([side; 3], distance).into_iter().map(|place| Vec3::from(place) - 1.3);
+        let own = all.filter(|place| (place.length() - 1.0).abs() < 0.5 * layers * distance && kept(*place));
+        own.enumerate()
+            .map(|(k, at)| (at + Vec3::from([0, 1, 2].map(|axis| noise(3 * k + axis))) * 0.15 * distance).into())
+            .collect()
+    }
+
+    /// Parts that hang together, and V - E + F: 2 for each ball, 0 for each ring.
+    fn parts_and_characteristic(surface: &Surface) -> (usize, i64) {
+        let count = surface.points.len();
+        let mut groups = Groups::of(count);
+        let mut edges = std::collections::HashSet::new();
+        for [a, b, c] in &surface.triangles {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                groups.join(*from as usize, *to as usize);
+                edges.insert((from.min(to), from.max(to)));
+            }
+        }
+        let parts = (0..count).filter(|point| groups.root(*point) == *point).count();
+        (parts, count as i64 - edges.len() as i64 + surface.triangles.len() as i64)
+    }
+
+    /// No beads: a thin shell has a skin outside and one inside, a torn one the same skin around each part.
+    #[test]
+    fn thin_and_torn_shells_have_closed_skins() {
+        let distance = 0.05;
+        let holes = |count: usize| move |at: Vec3| (0..count).all(|k| at.distance(Vec3::AXES[k]) > 0.3);
+        let skins = |places: &[[f32; 3]]| {
+            let surface = Surface::of_particles(places, distance);
+            assert!(is_closed(&surface));
+            let area = surface.triangles.iter().map(|three| {
+                let [a, b, c] = three.map(|index| Vec3::from(surface.points[index as usize]));
+                f64::from(0.5 * (b - a).cross(c - a).length())
+            });
+            let thickness = 2.0 * surface.volume() / area.sum::<f64>() / f64::from(distance);
+            (parts_and_characteristic(&surface), thickness)
+        };
+        let (whole, thickness) = skins(&shell(2.0, distance, |_| true));
+        assert_eq!(whole, (2, 4), "one skin outside, one inside");
+        assert!((1.8..2.2).contains(&thickness), "{thickness} particles thick");
+        assert_eq!(skins(&shell(2.0, distance, holes(1))).0, (1, 2), "a hole joins both");
+        assert_eq!(skins(&shell(2.0, distance, holes(3))).0, (1, -2), "three make two handles");
+        let (halves, thickness) = skins(&shell(2.0, distance, |at| at.z.abs() > 2.0 * distance));
+        assert_eq!(halves, (2, 4), "each half has a skin of its own");
+        assert!((1.7..2.2).contains(&thickness), "{thickness} particles thick");
     }
 
     #[test]

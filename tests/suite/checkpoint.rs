@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-use brisance::export::container::{self, Array, Form, Numbers, Source};
+use brisance::export::container::{self, Form, Source};
 use brisance::gpu::Gpu;
 use brisance::scene::{Changes, Scene};
 use brisance::simulation::{Saved, SavedArray, Simulation};
@@ -24,7 +24,7 @@ const SCENES: [(&str, Option<&str>, &[&str], u32); 4] = [
 ];
 
 /// A run whose end and files are still to be named; the shock comes by its probe.
-const SHORT: [&str; 8] = [
+pub(crate) const SHORT: [&str; 8] = [
     "run",
     "sod",
     "--resolution",
@@ -131,8 +131,33 @@ fn a_stopped_run_goes_on_to_the_same_files() {
     same_files(&whole, &parts);
     assert_eq!(rows, std::fs::read_to_string(parts.join("diagnostics.csv")).unwrap());
 
+    another_device(&parts);
+    same_files(&whole, &parts);
     later_end(&parts, &place.path().join("longer"), &given);
     bad_checkpoints(&parts);
+}
+
+/// A checkpoint of another device is gone on from, with a warning.
+fn another_device(parts: &Path) {
+    let all = checkpoints(parts);
+    let (last, before) = (&all[all.len() - 1], &all[all.len() - 2]);
+    let kept = std::fs::read(last).unwrap();
+    std::fs::remove_file(last).unwrap();
+    let state = container::read(before, 1 << 24).unwrap();
+    let own = std::fs::read(before).unwrap();
+    let scene = state.texts[container::SCENE].clone();
+    let source = Source { device: "Abacus (beads, 3000 BC)".to_owned(), scene, ..state.head.source.clone() };
+    let texts: Vec<(&str, &str)> = state.texts.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    let texts: Vec<_> = texts.into_iter().filter(|(name, _)| *name != container::SCENE).collect();
+    let at = (state.head.time, state.head.step);
+    container::write(before, (Form::Full, &source), at, &texts, state.arrays).unwrap();
+    let output = brisance(&["run", "--resume", parts.to_str().unwrap(), "-q"]).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && told.contains("was made on Abacus (beads, 3000 BC)"), "{told}");
+    assert!(told.contains("but not bit for bit"), "{told}");
+    // of the same device, in truth
+    std::fs::write(before, own).unwrap();
+    std::fs::write(last, kept).unwrap();
 }
 
 /// A finished run goes on to a later end as if that had been asked for at once.
@@ -309,90 +334,4 @@ fn a_killed_run_loses_an_interval_at_most() {
     }
     succeeds(&["run", "--resume", parts.to_str().unwrap(), "-q"]);
     same_files(&whole, &parts);
-}
-
-#[test]
-fn what_a_later_program_wrote_is_refused_and_what_the_first_wrote_is_read() {
-    let Some(place) = folder_or_skip() else { return };
-    let run = place.path().join("run");
-    let out = run.display().to_string();
-    let asked = ["--until", "0.02", "--frames", "1", "--no-frames", "--export", "states", "--checkpoint", "t=0.01"];
-    succeeds(&[&SHORT[..], &asked, &["--out", &out]].concat());
-    let convert = ["convert", &out, "--to", "npz", "-q"];
-    let swap = |name: &str, one: &str, other: &str| {
-        let text = std::fs::read_to_string(run.join(name)).unwrap();
-        assert!(text.contains(one), "{name}: {text}");
-        std::fs::write(run.join(name), text.replacen(one, other, 1)).unwrap();
-    };
-    let (at, branch) = (format!("{out}@0.01"), place.path().join("branch").display().to_string());
-    let refused = |file: &str, form: u32| {
-        let verbs: [&[&str]; 5] = [
-            &convert,
-            &["render", &out],
-            &["run", "--resume", &out, "-q"],
-            &["run", "--branch", &at, "-q", "--out", &branch],
-            #[cfg(feature = "viewer")]
-            &["view", &out],
-            #[cfg(not(feature = "viewer"))]
-            &convert,
-        ];
-        for verb in verbs {
-            let told = fails(2, verb);
-            assert!(
-                told.contains(file) && told.contains(&format!("in form {form}")) && told.contains("newer program"),
-                "{told}"
-            );
-        }
-    };
-    swap("report.json", "\"form\": 2,", "\"form\": 3,");
-    refused("report.json", 3);
-    swap("report.json", "\"form\": 3,", "");
-    succeeds(&convert);
-    spoiled_states_are_refused(&run, &convert);
-    swap("run.json", "\"version\": 1,", "\"version\": 2,");
-    refused("run.json", 2);
-    swap("run.json", "\"version\": 2,", "\"version\": 1,");
-    succeeds(&["run", "--resume", &out, "-q", "--no-expect"]);
-}
-
-/// Changes the arrays of a state.
-type Spoil<'a> = &'a dyn Fn(&mut Vec<Array>);
-
-/// A state with an array too many, one cut, one with NaN.
-fn spoiled_states_are_refused(run: &Path, convert: &[&str]) {
-    let path = run.join("states/0001.npz");
-    let good = std::fs::read(&path).unwrap();
-    let one_more = |arrays: &mut Vec<Array>| {
-        let other = Array { name: "banana".to_owned(), ..energy(arrays).clone() };
-        arrays.push(other);
-    };
-    let cut = |arrays: &mut Vec<Array>| {
-        let array = energy(arrays);
-        array.numbers = Numbers::F32(vec![1.0; 3]);
-        array.shape = vec![3];
-    };
-    let not_finite = |arrays: &mut Vec<Array>| {
-        let array = energy(arrays);
-        array.numbers = Numbers::F32(vec![f32::NAN; array.shape[0]]);
-    };
-    let spoilt: [(Spoil, &str); 3] = [
-        (&one_more, "`banana` is none of a state"),
-        (&cut, "`energy` has a wrong length"),
-        (&not_finite, "`energy` holds numbers that are not finite"),
-    ];
-    for (spoil, told) in spoilt {
-        let mut state = container::read(&path, 1 << 20).unwrap();
-        spoil(&mut state.arrays);
-        let head = &state.head;
-        let source = Source { scene: state.texts[container::SCENE].clone(), ..head.source.clone() };
-        container::write(&path, (Form::Fields, &source), (head.time, head.step), &[], state.arrays.clone()).unwrap();
-        let code = if told.contains("none of") { 9 } else { 2 };
-        let text = fails(code, convert);
-        assert!(text.contains(told) && text.contains("0001.npz"), "{text}");
-        std::fs::write(&path, &good).unwrap();
-    }
-}
-
-fn energy(arrays: &mut [Array]) -> &mut Array {
-    arrays.iter_mut().find(|array| array.name == "energy").unwrap()
 }

@@ -187,6 +187,10 @@ fn unknown_format_lists_the_known_ones() {
     assert_eq!(error.exit_code(), 2);
 }
 
+/// A shell in space, and the size of pictures.
+const SHELL: &str = "bursting_shell_3d";
+const SIZE: &str = "render.size=[160, 120]";
+
 #[test]
 fn readers_of_others_find_the_same_numbers() {
     let numpy = std::process::Command::new("python3").args(["-c", "import numpy"]).output();
@@ -196,14 +200,17 @@ fn readers_of_others_find_the_same_numbers() {
     }
     let place = tempfile::tempdir().unwrap();
     let [run, out] = ["run", "out"].map(|name| place.path().join(name).display().to_string());
-    let [fire, hot] = ["fire", "hot"].map(|name| place.path().join(name).display().to_string());
+    let [fire, hot, shell, solid] =
+        ["fire", "hot", "shell", "solid"].map(|name| place.path().join(name).display().to_string());
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/readers-test");
     let read = |out: &str| std::process::Command::new("python3").args([script, out]).output().unwrap();
     let converted = |(scene, cells, until): (&str, &str, &str), run: &str, out: &str| {
-        let given = ["run", scene, "--variant", "small", "--resolution", cells, "--until", until, "--frames", "1"];
+        let given = ["run", scene, "--resolution", cells, "--until", until, "--frames", "1", "--set", SIZE];
         let asked = ["--no-frames", "--no-expect", "-q", "--export", "states", "--out", run];
-        succeeds(&[&given[..], &asked].concat());
-        succeeds(&["convert", run, "--to", "npz,vtk,vdb,usd", "--out", out, "-q"]);
+        let small = if scene == SHELL { &[][..] } else { &["--variant", "small"] };
+        succeeds(&[&given[..], &asked, small].concat());
+        let formats = if scene == SHELL { "npz,vtk,vdb,usd,mesh,exr" } else { "npz,vtk,vdb,usd" };
+        succeeds(&["convert", run, "--to", formats, "--out", out, "-q"]);
         let output = read(out);
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         eprintln!("{text}");
@@ -214,6 +221,14 @@ fn readers_of_others_find_the_same_numbers() {
     let text = converted(("fireball_3d", "24", "0.02"), &fire, &hot);
     let seen = ["flames 0 active", "soot 0 active"].iter().all(|none| !text.contains(none));
     assert!(!text.contains("pyopenvdb  density") || text.contains("flames") && text.contains("soot") && seen, "{text}");
+    // surfaces and layers of a picture, in space
+    let text = converted((SHELL, "16", "0.01"), &shell, &solid);
+    for (reader, found) in
+        [("trimesh", "of the particles' volume"), ("meshio", "of 1 pieces"), ("OpenEXR", "are on a body")]
+    {
+        let line = text.lines().find(|line| line.starts_with(reader)).unwrap();
+        assert!(line.contains(found) || line.contains("SKIPPED"), "{line}");
+    }
     let text = converted(("fig03_elastic_shell_2d", "32", "0.002"), &run, &out);
     assert!(fails(2, &["convert", &run, "--to", "png"]).contains("brisance render"));
     assert!(fails(2, &["convert", &run, "--to", "npz", "--frame", "7"]).contains("no state of frame 7"));

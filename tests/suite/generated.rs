@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use brisance::quantity;
 use brisance::render::View;
 use brisance::scene::schema;
 use brisance::stage::structures;
@@ -17,10 +18,13 @@ pub(crate) fn shown() -> Vec<(&'static str, &'static str, Vec<Shared>)> {
 
 /// File, table that it follows from, and the text.
 fn parts() -> Vec<(String, String, String)> {
+    let [fields, wholes] = quantity::pages();
     let tables = [
         ("shaders/shared/state.wgsl", "src/state/arrays.rs", arrays::constants()),
         ("docs/inside/arrays.md", "src/state/arrays.rs", format!("\n{}\n", arrays::table())),
         ("docs/method/overview.md", "src/state/stages.rs", format!("\n{}\n", stages::table())),
+        ("docs/inside/quantities.md", "src/quantity.rs", format!("\n{fields}\n")),
+        ("docs/inside/quantities.md", "src/quantity/wholes.rs", format!("\n{wholes}\n")),
     ];
     let structures = shown().into_iter().map(|(file, _, shown)| {
         let texts: Vec<&str> = shown.iter().map(|own| own.wgsl.as_str()).collect();

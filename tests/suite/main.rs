@@ -59,6 +59,7 @@ mod shaders;
 mod skin;
 mod solids;
 mod species;
+mod spoilt;
 mod still;
 mod stream;
 mod supports;

@@ -1,8 +1,9 @@
 //! The pages that runs and sweeps leave.
 
 use std::path::Path;
+use std::process::Stdio;
 
-use crate::cli::{SmallRun, fails, report, run, small_run, succeeds};
+use crate::cli::{SmallRun, brisance, err, fails, report, run, small_run, succeeds};
 
 fn text(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -20,7 +21,9 @@ fn a_run_leaves_one_page_with_everything_in_it() {
         "<td>pieces</td>",
         "Gauge left",
         "Paths of bodies",
-        "Plastic strain",
+        "largest equivalent plastic strain",
+        "kinetic energy of the particles [J]",
+        "Deviatoric stress",
         "Momentum along y",
         "<code>--set gas.regions[0].pressure=3.0</code>",
         "elastic sub-steps per step",
@@ -33,6 +36,15 @@ fn a_run_leaves_one_page_with_everything_in_it() {
     let gauge = &report(&target)["gauges"]["left"];
     let (first, peak) = (gauge["first"].as_f64().unwrap(), gauge["peak"].as_f64().unwrap());
     assert!(first > 2.5 && peak >= first && gauge["arrival"].is_null(), "{gauge}");
+    let report = report(&target);
+    let block = &report["bodies"]["block"];
+    // 0.25 m^2 of 5 kg/m^3, pushed along x; its energy is at least that of the centre
+    let of = |column: &str, what: &str| block[column][what].as_f64().unwrap();
+    assert!((of("mass", "last") - 1.25).abs() < 1e-5 && of("x", "last") > of("x", "first"), "{block}");
+    assert!(of("kinetic_energy", "largest") >= 0.999 * 0.5 * 1.25 * of("velocity_x", "largest").powi(2), "{block}");
+    assert!(of("elastic_strain", "largest") > 0.0 && of("deviatoric_stress", "largest") > 0.0, "{block}");
+    let most = &report["extremes"]["max_pressure"];
+    assert!(most["largest"].as_f64().unwrap() >= peak && most["largest_time"].as_f64().unwrap() > 0.0, "{most}");
     assert!(text(&target.join("written.txt")).lines().any(|line| line == "report.html"));
 }
 
@@ -92,4 +104,40 @@ fn runs_of_a_sweep_may_share_their_start() {
     assert_ne!(one.last(), two.last());
     let last: f64 = one.last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
     assert!((last - 0.04).abs() < 1e-9, "{last}");
+}
+
+/// Parts at the same time share a start; a part that was stopped goes on where it was.
+#[test]
+fn parts_of_a_sweep_share_a_start_and_go_on() {
+    let Some(SmallRun { scene, out, folder: _folder }) = small_run() else { return };
+    let base = ["sweep", &scene, "--no-frames", "-q", "--out", out.to_str().unwrap(), "--set", "time.until=0.04"];
+    let over = ["--branch-at", "0.02", "--over", "gravity=[0.0, -1.0],[0.0, -2.0],[0.0, -3.0]"];
+    let part = |shard: &'static str| [&base[..], &over, &["--shard", shard]].concat();
+    let both = ["1/2", "2/2"].map(|shard| brisance(&part(shard)).stderr(Stdio::piped()).spawn().unwrap());
+    let said = both.map(|part| {
+        let output = part.wait_with_output().unwrap();
+        assert!(output.status.success(), "{}", err(&output));
+        err(&output)
+    });
+    assert!(said.iter().filter(|said| said.contains("waiting for the start")).count() <= 1, "{said:?}");
+    let of = |name: &str| text(&out.join(name).join("report.json"));
+    let (start, first, last) = (of("start"), of("0000"), of("0002"));
+    std::fs::write(out.join("0002/report.json"), last.replace("\"finished\"", "\"stopped\"")).unwrap();
+    succeeds(&part("2/2"));
+    assert!(of("0002").contains("\"status\": \"stopped\""), "it is of the other part");
+    succeeds(&part("1/2"));
+    assert_eq!(report(&out.join("0002"))["status"], "finished");
+    assert!(of("start") == start && of("0000") == first, "what is finished stays");
+    assert_eq!(text(&out.join("sweep.csv")).lines().count(), 1 + 3);
+    // somebody else has the turn, and gives it up
+    std::fs::remove_file(out.join("start/point.txt")).unwrap();
+    std::fs::remove_file(out.join("0001/point.txt")).unwrap();
+    std::fs::write(out.join(".brisance.lock"), "1\n0\nelsewhere\n").unwrap();
+    let mut waiting = brisance(&part("2/2")).stderr(Stdio::piped()).spawn().unwrap();
+    let told = std::io::BufReader::new(waiting.stderr.take().unwrap());
+    let mut told = std::io::BufRead::lines(told).map_while(Result::ok);
+    assert!(told.any(|line| line.contains("waiting for the start") && line.contains("elsewhere")));
+    assert!(waiting.try_wait().unwrap().is_none() && of("start") == start);
+    std::fs::remove_file(out.join(".brisance.lock")).unwrap();
+    assert!(waiting.wait().unwrap().success() && of("start") != start);
 }

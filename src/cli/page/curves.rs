@@ -5,12 +5,21 @@ use std::path::Path;
 use super::gauges;
 use crate::expect::Gauge;
 use crate::export::csv::Sheet;
+use crate::quantity::{self, BODY};
 use crate::render::{Plot, Style};
 
 /// Parts of a curve that keep their least and largest value.
 const PARTS: usize = 300;
 /// Tables of gauges: points in the gas, and what `[[gauges]]` sit on.
 const GAUGES: [&str; 2] = ["probes.csv", "gauges.csv"];
+/// Plots of bodies with their columns: strain, stress and energy.
+const OF_BODIES: [(&str, &str); 5] = [
+    ("Plastic strain", "plastic_strain"),
+    ("Mean plastic strain", "mean_plastic_strain"),
+    ("Elastic strain", "elastic_strain"),
+    ("Deviatoric stress", "deviatoric_stress"),
+    ("Energy of bodies", "kinetic_energy"),
+];
 /// Time axes.
 pub(super) const TIME: &str = "time [s]";
 
@@ -132,13 +141,12 @@ impl Tables {
                     plots.push(each(bodies, "body", (&title, TIME, label), |rows| rows.pair("time", column)));
                 }
             }
-            let speed =
-                |rows: &Rows| rows.size("velocity", 0.5).into_iter().map(|[t, v]| [t, (2.0 * v).sqrt()]).collect();
+            let speed = |rows: &Rows| rows.size("velocity");
             plots.push(each(bodies, "body", ("Speed of bodies", TIME, "speed of the centre [m/s]"), speed));
-            let energy = |rows: &Rows| rows.energy();
-            plots.push(each(bodies, "body", ("Energy of bodies", TIME, "m v\u{b2}/2 of the centre [J]"), energy));
-            let strain = |rows: &Rows| rows.pair("time", "plastic_strain");
-            plots.push(each(bodies, "body", ("Plastic strain", TIME, "mean plastic strain"), strain));
+            for (title, column) in OF_BODIES {
+                let label = quantity::label(BODY, column);
+                plots.push(each(bodies, "body", (title, TIME, &label), |rows| rows.pair("time", column)));
+            }
             plots.push(each(bodies, "body", ("Pieces", TIME, "pieces"), |rows| rows.pair("time", "pieces")));
             if bodies.numbers("gas_force_x").is_some() {
                 for axis in &["x", "y", "z"][..axes] {
@@ -218,15 +226,11 @@ impl Rows<'_> {
         if x == "time" { thin(&both.0, &both.1) } else { both.0.into_iter().zip(both.1).map(|(x, y)| [x, y]).collect() }
     }
 
-    /// A factor times the square of a vector, over time.
-    fn size(&self, vector: &str, factor: f64) -> Vec<[f64; 2]> {
+    /// Length of a vector over time.
+    fn size(&self, vector: &str) -> Vec<[f64; 2]> {
         let parts = ["x", "y", "z"].map(|axis| self.column(&format!("{vector}_{axis}")));
-        let square = |k: usize| factor * parts.iter().map(|part| part[k] * part[k]).sum::<f64>();
-        self.column("time").into_iter().enumerate().map(|(k, time)| [time, square(k)]).collect()
-    }
-
-    fn energy(&self) -> Vec<[f64; 2]> {
-        self.size("velocity", 0.5).into_iter().zip(self.column("mass")).map(|([t, e], mass)| [t, mass * e]).collect()
+        let length = |k: usize| parts.iter().map(|part| part[k] * part[k]).sum::<f64>().sqrt();
+        self.column("time").into_iter().enumerate().map(|(k, time)| [time, length(k)]).collect()
     }
 }
 

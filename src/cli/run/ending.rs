@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::super::film;
 use super::super::folder::Folder;
 use super::super::outcome::{Verdict, changes, device, status, totals, verdict};
-use super::super::page::run as page;
+use super::super::page::{run as page, spans};
 use super::super::progress::clock;
 use super::super::writer::{Message, Written};
 use super::{PICTURES, Run, formats};
@@ -99,7 +99,7 @@ impl Run<'_> {
         let running = status == Status::Running;
         let end = if running { Budget::default() } else { self.end_budget().unwrap_or_default() };
         let seconds = |(name, time): (&str, Duration)| (name.to_owned(), time.as_secs_f64());
-        let clocks = &self.clocks;
+        let (clocks, folder) = (&self.clocks, &self.folder.path);
         let timings = [
             ("setup", clocks.setup),
             ("steps", clocks.steps),
@@ -127,12 +127,14 @@ impl Run<'_> {
             warnings: judged.warnings,
             absent_warnings: judged.absent,
             scene_hash: self.scene.hash(),
-            gauges: if running { BTreeMap::new() } else { page::gauges(&self.folder.path).into_iter().collect() },
+            gauges: if running { BTreeMap::new() } else { page::gauges(folder).into_iter().collect() },
+            bodies: if running { BTreeMap::new() } else { spans::bodies(folder) },
+            extremes: if running { BTreeMap::new() } else { spans::extremes(folder) },
             changes: changes(self.options),
             scene_file: self.place.clone(),
             scene: &self.scene,
         };
-        report::write(&self.folder.path.join("report.json"), &report)?;
+        report::write(&folder.join("report.json"), &report)?;
         Ok(report)
     }
 

@@ -51,6 +51,8 @@ impl Setup<'_> {
             absent_warnings: Vec::new(),
             scene_hash: beginning.scene.hash(),
             gauges: BTreeMap::new(),
+            bodies: BTreeMap::new(),
+            extremes: BTreeMap::new(),
             changes: changes(&beginning.options),
             scene_file: beginning.place.clone(),
             scene: &beginning.scene,

@@ -32,7 +32,7 @@ const NUMBER: [f64; 3] = [8.0, 13.5, 15.0];
 const STEP_COLUMNS: f64 = 52.0;
 const PROBE_COLUMNS: f64 = 6.0;
 const GAUGE_COLUMNS: f64 = 13.0;
-const BODY_COLUMNS: f64 = 25.0;
+const BODY_COLUMNS: f64 = 30.0;
 const PIECE_COLUMNS: f64 = 29.0;
 /// Bytes of a plot on the page: its frame, and each of at most so many places along its curves.
 const PLOT: f64 = 1500.0;
