@@ -1,29 +1,19 @@
 //! Soil and sand: linear in the logarithmic strain, flows where shear exceeds friction and cohesion, and opens without tension.
 //! The cone meets Mohr-Coulomb's in compression. [Drucker & Prager 1952; Klar et al. 2016]
 
-use std::ops::Bound;
-
 use super::{Constants, GHOST_MODULUS, Kind, POISSON_RATIO, Parameter, YOUNG_MODULUS};
 
 /// Slope of the cone.
-const FRICTION_ANGLE: Parameter = Parameter {
-    name: "friction_angle",
-    unit: "deg",
-    default: Some(30.0),
-    low: Bound::Excluded(0.0),
-    high: Bound::Excluded(90.0),
-    summary: "Angle of internal friction, at which a dry heap stands; the cone meets Mohr-Coulomb's in triaxial compression",
-};
+const FRICTION_ANGLE: Parameter = Parameter::positive(
+    "friction_angle",
+    "deg",
+    "Angle of internal friction, at which a dry heap stands; the cone meets Mohr-Coulomb's in triaxial compression",
+)
+.below(90.0)
+.or(30.0);
 
 /// Tip of the cone.
-const COHESION: Parameter = Parameter {
-    name: "cohesion",
-    unit: "Pa",
-    default: Some(0.0),
-    low: Bound::Included(0.0),
-    high: Bound::Unbounded,
-    summary: "Shear stress that it bears without pressure",
-};
+const COHESION: Parameter = Parameter::not_negative("cohesion", "Pa", "Shear stress that it bears without pressure");
 
 /// The registry entry.
 pub(super) const KIND: Kind = Kind {

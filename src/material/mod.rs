@@ -63,57 +63,55 @@ pub struct Parameter {
     pub summary: &'static str,
 }
 
+impl Parameter {
+    const fn positive(name: &'static str, unit: &'static str, summary: &'static str) -> Self {
+        Self { name, unit, default: None, low: Bound::Excluded(0.0), high: Bound::Unbounded, summary }
+    }
+
+    /// From 0 on, which is also its default.
+    const fn not_negative(name: &'static str, unit: &'static str, summary: &'static str) -> Self {
+        Self { low: Bound::Included(0.0), ..Self::positive(name, unit, summary).or(0.0) }
+    }
+
+    const fn below(self, limit: f64) -> Self {
+        Self { high: Bound::Excluded(limit), ..self }
+    }
+
+    const fn or(self, default: f64) -> Self {
+        Self { default: Some(default), ..self }
+    }
+}
+
 /// Young's modulus, shared by the elastic laws.
-const YOUNG_MODULUS: Parameter = Parameter {
-    name: "young_modulus",
-    unit: "Pa",
-    default: None,
-    low: Bound::Excluded(0.0),
-    high: Bound::Unbounded,
-    summary: "Young's modulus: stress over strain of a thin rod",
-};
+const YOUNG_MODULUS: Parameter =
+    Parameter::positive("young_modulus", "Pa", "Young's modulus: stress over strain of a thin rod");
 
 /// Poisson's ratio, shared by the elastic laws. At 0.5 lambda has no finite value; at 0 it vanishes, and with it the stiffness
 /// of the ghost pressure, which the pressure system divides by.
-const POISSON_RATIO: Parameter = Parameter {
-    name: "poisson_ratio",
-    unit: "1",
-    default: None,
-    low: Bound::Excluded(0.0),
-    high: Bound::Excluded(0.5),
-    summary: "Poisson's ratio: lateral over axial strain of a thin rod",
-};
+const POISSON_RATIO: Parameter =
+    Parameter::positive("poisson_ratio", "1", "Poisson's ratio: lateral over axial strain of a thin rod").below(0.5);
 
 /// Stress at which metals start to flow.
-const YIELD_STRESS: Parameter = Parameter {
-    name: "yield_stress",
-    unit: "Pa",
-    default: None,
-    low: Bound::Excluded(0.0),
-    high: Bound::Unbounded,
-    summary: "Norm of the deviatoric Kirchhoff stress at which plastic flow starts, sqrt(2/3) of the yield stress of a thin rod",
-};
+const YIELD_STRESS: Parameter = Parameter::positive(
+    "yield_stress",
+    "Pa",
+    "Norm of the deviatoric Kirchhoff stress at which plastic flow starts, sqrt(2/3) of the yield stress of a thin rod",
+);
 
 /// How the yield stress of metals grows.
-const HARDENING: Parameter = Parameter {
-    name: "hardening",
-    unit: "Pa",
-    default: Some(0.0),
-    low: Bound::Included(0.0),
-    high: Bound::Unbounded,
-    summary: "Growth of the yield stress per equivalent plastic strain; 0 is perfect plasticity",
-};
+const HARDENING: Parameter = Parameter::not_negative(
+    "hardening",
+    "Pa",
+    "Growth of the yield stress per equivalent plastic strain; 0 is perfect plasticity",
+);
 
 /// How stiffly the ghost pressure follows the pressure of the gas. [Cao et al. 2022, eq. 17]
-const GHOST_MODULUS: Parameter = Parameter {
-    name: "ghost_modulus",
-    unit: "Pa",
-    default: Some(0.0),
-    low: Bound::Included(0.0),
-    high: Bound::Unbounded,
-    summary: "Part of the first Lame constant lambda that the ghost pressure bears, which couples the body to the gas. The value 0 stands \
+const GHOST_MODULUS: Parameter = Parameter::not_negative(
+    "ghost_modulus",
+    "Pa",
+    "Part of the first Lame constant lambda that the ghost pressure bears, which couples the body to the gas. The value 0 stands \
               for 0.02 lambda, or for the largest pressure of the gas at the start and at the sides if that is more",
-};
+);
 
 /// Parameters of metals, in the order of [`Constants::metal`].
 const METAL: [Parameter; 5] = [YOUNG_MODULUS, POISSON_RATIO, YIELD_STRESS, HARDENING, GHOST_MODULUS];

@@ -24,6 +24,33 @@ pub struct Preset {
     pub color: [u8; 3],
 }
 
+impl Preset {
+    const fn new(
+        name: &'static str,
+        law: &'static str,
+        density: f64,
+        color: [u8; 3],
+        summary: &'static str,
+        values: &'static [(&'static str, f64)],
+    ) -> Self {
+        Self { name, summary, law, values, density, fracture: None, color }
+    }
+
+    /// Breaks where a scene asks for it: strength \[Pa\], energy \[J m^-2\], and where both come from.
+    const fn may_break(self, strength: f64, energy: f64, softening: Softening, source: &'static str) -> Self {
+        let (tensile_strength, fracture_energy) = (strength, energy);
+        let fracture = PresetFracture { tensile_strength, fracture_energy, softening, always: false, source };
+        Self { fracture: Some(fracture), ..self }
+    }
+
+    /// Breaks without being asked to.
+    const fn breaks(self, strength: f64, energy: f64, softening: Softening, source: &'static str) -> Self {
+        let fracture =
+            PresetFracture { tensile_strength: strength, fracture_energy: energy, softening, always: true, source };
+        Self { fracture: Some(fracture), ..self }
+    }
+}
+
 /// The units of a preset.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -57,118 +84,31 @@ impl Units {
 /// All presets. Yield stresses are norms of the deviator, sqrt(2/3) of those of a thin rod. The cohesion of a brittle material
 /// follows from its compressive strength f and friction angle a: f (1 - sin a) / (2 cos a). The fracture energy of a brittle one follows from its
 /// fracture toughness K: K^2 (1 - nu^2) / E. [Dowling 2013, table 8.2, unless a preset says otherwise]
+#[rustfmt::skip]
 pub const PRESETS: [Preset; 9] = [
-    Preset {
-        name: "rubber",
-        summary: "Natural rubber.",
-        law: "neo_hookean",
-        values: &[("young_modulus", 5e6), ("poisson_ratio", 0.45)],
-        density: 1100.0,
-        fracture: None,
-        color: [62, 60, 66],
-    },
-    Preset {
-        name: "steel",
-        summary: "Structural steel: yields at 250 MPa in a rod, hardening 0.98 GPa.",
-        law: "von_mises",
-        values: &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)],
-        density: 7850.0,
-        fracture: None,
-        color: [150, 158, 168],
-    },
-    Preset {
-        name: "aluminium",
-        summary: "Aluminium 6061-T6: yields at 276 MPa in a rod, hardening 0.49 GPa.",
-        law: "von_mises",
-        values: &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)],
-        density: 2700.0,
-        fracture: None,
-        color: [196, 200, 206],
-    },
-    Preset {
-        name: "concrete",
-        summary: "Concrete of a compressive strength of 30 MPa.",
-        law: "drucker_prager",
-        values: &[("young_modulus", 3e10), ("poisson_ratio", 0.2), ("friction_angle", 37.0), ("cohesion", 7.5e6)],
-        density: 2400.0,
-        fracture: Some(PresetFracture {
-            tensile_strength: 2.9e6,
-            fracture_energy: 76.0,
-            softening: Softening::Exponential,
-            always: false,
-            source: "CEB-FIP Model Code 1990, C30, aggregate of 16 mm",
-        }),
-        color: [158, 152, 142],
-    },
-    Preset {
-        name: "ice",
-        summary: "Ice of a compressive strength of 10 MPa.",
-        law: "drucker_prager",
-        values: &[("young_modulus", 9.3e9), ("poisson_ratio", 0.33), ("friction_angle", 45.0), ("cohesion", 2.1e6)],
-        density: 917.0,
-        fracture: Some(PresetFracture {
-            tensile_strength: 1.43e6,
-            fracture_energy: 0.96,
-            softening: Softening::Linear,
-            always: false,
-            source: "Petrovic, J. Mater. Sci. 38 (2003) 1; K_Ic 0.1 MPa m^1/2",
-        }),
-        color: [196, 224, 240],
-    },
-    Preset {
-        name: "soil",
-        summary: "Moist sandy soil.",
-        law: "drucker_prager",
-        values: &[("young_modulus", 2e7), ("poisson_ratio", 0.3), ("friction_angle", 30.0), ("cohesion", 5e3)],
-        density: 1800.0,
-        fracture: None,
-        color: [130, 98, 68],
-    },
-    Preset {
-        name: "glass",
-        summary: "Annealed soda-lime glass.",
-        law: "neo_hookean",
-        values: &[("young_modulus", 7e10), ("poisson_ratio", 0.22)],
-        density: 2500.0,
-        fracture: Some(PresetFracture {
-            tensile_strength: 4.5e7,
-            fracture_energy: 7.9,
-            softening: Softening::Linear,
-            always: true,
-            source: "strength in bending, EN 572-1; K_Ic 0.76 MPa m^1/2, Dowling 2013, table 8.2",
-        }),
-        color: [160, 208, 200],
-    },
-    Preset {
-        name: "pmma",
-        summary: "Acrylic glass.",
-        law: "neo_hookean",
-        values: &[("young_modulus", 3.3e9), ("poisson_ratio", 0.37)],
-        density: 1190.0,
-        fracture: Some(PresetFracture {
-            tensile_strength: 8e7,
-            fracture_energy: 850.0,
-            softening: Softening::Linear,
-            always: true,
-            source: "data sheet of Plexiglas GS; K_Ic 1.8 MPa m^1/2, Dowling",
-        }),
-        color: [206, 222, 236],
-    },
-    Preset {
-        name: "ceramic",
-        summary: "Alumina of 99.5 percent.",
-        law: "neo_hookean",
-        values: &[("young_modulus", 3.7e11), ("poisson_ratio", 0.22)],
-        density: 3900.0,
-        fracture: Some(PresetFracture {
-            tensile_strength: 2.62e8,
-            fracture_energy: 41.0,
-            softening: Softening::Linear,
-            always: true,
-            source: "data sheet of CoorsTek AD-995; K_Ic 4.0 MPa m^1/2, Dowling",
-        }),
-        color: [238, 232, 222],
-    },
+    Preset::new("rubber", "neo_hookean", 1100.0, [62, 60, 66], "Natural rubber.",
+        &[("young_modulus", 5e6), ("poisson_ratio", 0.45)]),
+    Preset::new("steel", "von_mises", 7850.0, [150, 158, 168], "Structural steel: yields at 250 MPa in a rod, hardening 0.98 GPa.",
+        &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)]),
+    Preset::new("aluminium", "von_mises", 2700.0, [196, 200, 206], "Aluminium 6061-T6: yields at 276 MPa in a rod, hardening 0.49 GPa.",
+        &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)]),
+    Preset::new("concrete", "drucker_prager", 2400.0, [158, 152, 142], "Concrete of a compressive strength of 30 MPa.",
+        &[("young_modulus", 3e10), ("poisson_ratio", 0.2), ("friction_angle", 37.0), ("cohesion", 7.5e6)])
+        .may_break(2.9e6, 76.0, Softening::Exponential, "CEB-FIP Model Code 1990, C30, aggregate of 16 mm"),
+    Preset::new("ice", "drucker_prager", 917.0, [196, 224, 240], "Ice of a compressive strength of 10 MPa.",
+        &[("young_modulus", 9.3e9), ("poisson_ratio", 0.33), ("friction_angle", 45.0), ("cohesion", 2.1e6)])
+        .may_break(1.43e6, 0.96, Softening::Linear, "Petrovic, J. Mater. Sci. 38 (2003) 1; K_Ic 0.1 MPa m^1/2"),
+    Preset::new("soil", "drucker_prager", 1800.0, [130, 98, 68], "Moist sandy soil.",
+        &[("young_modulus", 2e7), ("poisson_ratio", 0.3), ("friction_angle", 30.0), ("cohesion", 5e3)]),
+    Preset::new("glass", "neo_hookean", 2500.0, [160, 208, 200], "Annealed soda-lime glass.",
+        &[("young_modulus", 7e10), ("poisson_ratio", 0.22)])
+        .breaks(4.5e7, 7.9, Softening::Linear, "strength in bending, EN 572-1; K_Ic 0.76 MPa m^1/2, Dowling 2013, table 8.2"),
+    Preset::new("pmma", "neo_hookean", 1190.0, [206, 222, 236], "Acrylic glass.",
+        &[("young_modulus", 3.3e9), ("poisson_ratio", 0.37)])
+        .breaks(8e7, 850.0, Softening::Linear, "data sheet of Plexiglas GS; K_Ic 1.8 MPa m^1/2, Dowling"),
+    Preset::new("ceramic", "neo_hookean", 3900.0, [238, 232, 222], "Alumina of 99.5 percent.",
+        &[("young_modulus", 3.7e11), ("poisson_ratio", 0.22)])
+        .breaks(2.62e8, 41.0, Softening::Linear, "data sheet of CoorsTek AD-995; K_Ic 4.0 MPa m^1/2, Dowling"),
 ];
 
 impl Material {
