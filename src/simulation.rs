@@ -168,10 +168,10 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Records one step of the method, in the order of [Cao et al. 2022, section 2.2]: `record` of each stage appends its dispatches
-    /// to the pass, which runs them when it is submitted. Nothing is read back: the device chooses dt, ends the iteration, counts the
-    /// sub-steps, and turns what is not due, by its [`Phase`], into dispatches of no groups. If the recorded iterations or sub-steps do
-    /// not suffice, the step goes on in the next call.
+    /// Records one step, in the order and with the numbers (1) to (7) of [Cao et al. 2022, section 2.2]; (4) and (5) are in
+    /// `record_pressure`. `record` of each stage appends its dispatches to the pass, which runs them when it is submitted. Nothing is read
+    /// back: the device chooses dt, ends the iteration, counts the sub-steps, and turns what is not due, by its [`Phase`], into dispatches
+    /// of no groups. If the recorded iterations or sub-steps do not suffice, the step goes on in the next call.
     pub fn record_step(&self, pass: &mut Pass) {
         let state = &self.state;
         self.time_step.record(pass, state); // dt from gas, solids and the time asked for

@@ -113,7 +113,7 @@ fn p2g_gather(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     let bottom = slot_of(cell) - step;
     var below = Layer();
     var level = Layer();
-    var touched = vec2u(0u);
+    var touched = vec2u(0u);    // particles of the two cell layers before: without any, a layer has nothing to add
     // The particles of layer k reach the nodes of layers k - 1, k and k + 1: node layer k - 1 is complete after cell layer k.
     for (var k = max(first, 1u) - 1u; k <= end; k++) {
         let slot = bottom + k * step;

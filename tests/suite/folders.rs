@@ -168,6 +168,14 @@ fn kill(signal: &str, process: &str) -> bool {
     Command::new("kill").args([signal, process]).stderr(Stdio::null()).status().unwrap().success()
 }
 
+/// Sends a signal, upon which a run has to end as interrupted within so many seconds.
+fn ends_within(seconds: u64, child: &mut std::process::Child, signal: &str) {
+    let start = Instant::now();
+    assert!(kill(signal, &child.id().to_string()));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(start.elapsed() < Duration::from_secs(seconds), "{:?}", start.elapsed());
+}
+
 /// Whether a process works; one that has ended may wait for somebody to ask how.
 fn lives(process: &str) -> bool {
     let state = Command::new("ps").args(["-o", "stat=", "-p", process]).output().unwrap().stdout;
@@ -178,11 +186,8 @@ fn lives(process: &str) -> bool {
 fn sigterm_means_now_and_takes_the_encoder_along() {
     let Some(folder) = folder_or_skip() else { return };
     let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
-    let start = Instant::now();
-    assert!(kill("-TERM", &child.id().to_string()));
-    assert_eq!(child.wait().unwrap().code(), Some(130));
     // a step takes milliseconds here; the encoder would be waited for 20 s
-    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    ends_within(10, &mut child, "-TERM");
     let (target, film) = (folder.path().join("run"), folder.path().join("film.mp4"));
     let report = report(&target);
     assert_eq!(report["status"], "stopped");
@@ -198,10 +203,8 @@ fn a_second_signal_ends_at_once_with_the_encoder() {
     assert!(kill("-INT", &child.id().to_string()));
     std::thread::sleep(Duration::from_millis(300));
     assert!(child.try_wait().unwrap().is_none(), "the first one waits for the film");
-    assert!(kill("-INT", &child.id().to_string()));
-    let start = Instant::now();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(start.elapsed() < Duration::from_secs(10) && !lives(&encoder), "{:?}", start.elapsed());
+    ends_within(10, &mut child, "-INT");
+    assert!(!lives(&encoder));
     assert_eq!(report(&folder.path().join("run"))["status"], "stopped");
 }
 
@@ -209,11 +212,9 @@ fn a_second_signal_ends_at_once_with_the_encoder() {
 fn an_interruption_gives_the_encoder_a_moment() {
     let Some(folder) = folder_or_skip() else { return };
     let (mut child, encoder) = run_with_a_deaf_encoder(folder.path());
-    let start = Instant::now();
-    assert!(kill("-INT", &child.id().to_string()));
-    assert_eq!(child.wait().unwrap().code(), Some(130));
     // an encoder is waited for 20 s where nobody waits for the end
-    assert!(start.elapsed() < Duration::from_secs(15) && !lives(&encoder), "{:?}", start.elapsed());
+    ends_within(15, &mut child, "-INT");
+    assert!(!lives(&encoder));
     assert_eq!(report(&folder.path().join("run"))["status"], "stopped");
 }
 
@@ -228,10 +229,7 @@ fn a_verification_is_stopped_within_a_case_with_what_the_others_found() {
     // the name of a run is told before its kernels are compiled
     let first = std::io::BufRead::lines(said).map_while(Result::ok).find(|line| line.contains("s  sod"));
     assert!(first.is_some());
-    let start = Instant::now();
-    assert!(kill("-INT", &child.id().to_string()));
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    ends_within(2, &mut child, "-INT");
 }
 
 /// Waits for a condition, at most two minutes.
@@ -254,10 +252,7 @@ fn a_run_that_is_stopped_in_set_up_says_so_and_takes_no_name() {
     let mut child = command.spawn().unwrap();
     wait_for("a report before the first kernel", || target.join("report.json").exists());
     assert_eq!(report(&target)["status"], "running");
-    let start = Instant::now();
-    assert!(kill("-INT", &child.id().to_string()));
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    ends_within(2, &mut child, "-INT");
     let report = report(&target);
     assert_eq!((&report["status"], &report["steps"]), (&"stopped".into(), &0.into()));
     // nothing was lost with it, so nothing asks for --force
