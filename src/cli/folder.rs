@@ -76,11 +76,8 @@ impl Folder {
         fs::create_dir_all(path).map_err(|source| Error::io(path, source))?;
         let lock = path.join(LOCK);
         for _ in 0..2 {
-            match OpenOptions::new().write(true).create_new(true).open(&lock) {
-                Ok(mut file) => {
-                    write!(file, "{}", owner()).map_err(|source| Error::io(&lock, source))?;
-                    return Ok(Self { path: path.to_owned(), lock });
-                }
+            match mark(&lock) {
+                Ok(()) => return Ok(Self { path: path.to_owned(), lock }),
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(Error::io(&lock, error)),
             }
@@ -152,6 +149,22 @@ impl Folder {
 impl Drop for Folder {
     fn drop(&mut self) {
         let _ = fs::remove_file(&self.lock);
+    }
+}
+
+/// Makes a mark with its text at once: who finds it empty takes it for one of a process that was killed.
+fn mark(lock: &Path) -> std::io::Result<()> {
+    let aside = lock.with_extension(format!("{}.{}", std::process::id(), host()));
+    fs::write(&aside, owner())?;
+    let made = fs::hard_link(&aside, lock);
+    let _ = fs::remove_file(&aside);
+    match made {
+        Err(error) if error.kind() != ErrorKind::AlreadyExists => {
+            // a disk without such links
+            let mut file = OpenOptions::new().write(true).create_new(true).open(lock)?;
+            write!(file, "{}", owner())
+        }
+        made => made,
     }
 }
 

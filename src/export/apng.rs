@@ -57,19 +57,22 @@ pub fn moving(files: &[PathBuf], width: u32, delay: u16) -> Result<Vec<u8>> {
 pub fn shrunk(frame: &Frame, width: u32) -> Frame {
     let block = frame.width.div_ceil(width.max(1)).max(1);
     let (wide, high) = ((frame.width / block).max(1), (frame.height / block).max(1));
-    let mut rgba = Vec::with_capacity(4 * (wide * high) as usize);
-    for y in 0..high {
-        for x in 0..wide {
-            let mut sum = [0u32; 4];
-            for (row, column) in (0..block).flat_map(|row| (0..block).map(move |column| (row, column))) {
-                let at = 4 * ((y * block + row) * frame.width + x * block + column) as usize;
-                for (total, channel) in sum.iter_mut().zip(&frame.rgba[at..at + 4]) {
-                    *total += u32::from(*channel);
+    let (block, wide) = (block as usize, wide as usize);
+    let mut rgba = Vec::with_capacity(4 * wide * high as usize);
+    // rows of the picture above each other, as many as a block has; a picture may be lower than a block
+    for rows in frame.rgba.chunks(4 * block * frame.width as usize).take(high as usize) {
+        let pixels = (block * rows.len() / (4 * frame.width as usize)) as u32;
+        let mut sums = vec![[0u32; 4]; wide];
+        for row in rows.chunks_exact(4 * frame.width as usize) {
+            for (sum, own) in sums.iter_mut().zip(row.chunks_exact(4 * block)) {
+                for pixel in own.as_chunks::<4>().0 {
+                    *sum = std::array::from_fn(|k| sum[k] + u32::from(pixel[k]));
                 }
             }
-            rgba.extend(sum.map(|total| (total / (block * block)) as u8));
         }
+        rgba.extend(sums.into_iter().flatten().map(|total| (total / pixels) as u8));
     }
+    let wide = wide as u32;
     Frame { width: wide, height: high, rgba, ..Frame::default() }
 }
 
@@ -97,5 +100,7 @@ mod tests {
         });
         assert_eq!(shades, [10, 20, 250]);
         assert!(moving(&[folder.path().join("none.png")], 5, 80).is_err());
+        let low = shrunk(&Frame::filled(40, 2, [7, 8, 9]), 10);
+        assert_eq!((low.width, low.height, &low.rgba[..3]), (10, 1, &[7, 8, 9][..]));
     }
 }

@@ -61,10 +61,17 @@ impl<'a> Canvas<'a> {
 
     /// Fills a rectangle.
     pub(crate) fn fill(&mut self, area: Rectangle, color: [u8; 3], coverage: f32) {
-        for y in area.y..area.bottom() {
-            for x in area.x..area.right() {
-                self.blend(x, y, color, coverage);
+        if coverage < 1.0 {
+            for y in area.y..area.bottom() {
+                (area.x..area.right()).for_each(|x| self.blend(x, y, color, coverage));
             }
+            return;
+        }
+        let [wide, high] = [self.frame.width, self.frame.height].map(|n| n as i32);
+        let (left, right) = (area.x.clamp(0, wide), area.right().clamp(0, wide));
+        for y in area.y.max(0)..area.bottom().min(high) {
+            let [from, to] = [left, right.max(left)].map(|x| 4 * (y as usize * wide as usize + x as usize));
+            self.frame.rgba[from..to].chunks_exact_mut(4).for_each(|pixel| pixel[..3].copy_from_slice(&color));
         }
     }
 
