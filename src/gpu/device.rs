@@ -1,13 +1,12 @@
 //! Opening the device, and keeping its first error.
 
-use std::collections::HashMap;
-use std::hash::Hash;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::adapters::{choose, enough, new_instance, ranked_adapters};
+use super::cache::Cache;
 use super::kernel::Kernel;
 use super::pipeline::Pipeline;
 use super::reflect::Compiled;
@@ -103,13 +102,13 @@ pub struct Gpu {
 const MOST_KNOWN: usize = 256;
 
 /// Compiled shaders by file name and constants text.
-type ShaderCache = Arc<Mutex<HashMap<(String, String), (Arc<Compiled>, wgpu::ShaderModule)>>>;
+type ShaderCache = Arc<Mutex<Cache<(String, String), Arc<Compiled>>>>;
 
 /// Pipelines asked for, in order.
 type Queue = Arc<Mutex<Vec<Arc<Pipeline>>>>;
 
 /// Kernels by shader, entry point, overrides and constants text.
-type KernelCache = Arc<Mutex<HashMap<String, Kernel>>>;
+type KernelCache = Arc<Mutex<Cache<String, Kernel>>>;
 
 /// What the driver reported since the last [`Gpu::check`].
 #[derive(Debug, Default)]
@@ -170,7 +169,8 @@ impl Gpu {
         let settings = options.settings.or(Settings::from_environment()?).unwrap_or(of_device);
         let written = options.kernels.clone().or_else(|| environment("BRISANCE_KERNELS").map(PathBuf::from));
         let patience = patience(software)?;
-        let (shaders, kernels, allocated) = (Arc::default(), Arc::default(), Arc::default());
+        let (shaders, kernels) =
+            (Arc::new(Mutex::new(Cache::new(MOST_KNOWN))), Arc::new(Mutex::new(Cache::new(MOST_KNOWN))));
         Ok(Gpu {
             instance,
             adapter,
@@ -190,7 +190,7 @@ impl Gpu {
             shaders,
             kernels,
             faults,
-            allocated,
+            allocated: Arc::default(),
         })
     }
 
@@ -286,15 +286,6 @@ impl Gpu {
     pub(super) fn ledger(&self) -> &Arc<AtomicU64> {
         &self.allocated
     }
-}
-
-/// Remembers something. A memory that is full starts over: what is in use lives on with its users.
-pub(super) fn remember<K: Eq + Hash, T>(memory: &Mutex<HashMap<K, T>>, key: K, value: T) {
-    let mut known = lock(memory);
-    if known.len() >= MOST_KNOWN {
-        known.clear();
-    }
-    known.insert(key, value);
 }
 
 /// Locks, also after another thread panicked: the guarded values are valid at every moment.

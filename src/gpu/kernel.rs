@@ -5,7 +5,7 @@ use std::num::NonZeroU64;
 use std::sync::Arc;
 
 use super::buffer::Buffer;
-use super::device::{Gpu, lock, remember};
+use super::device::{Gpu, lock};
 use super::pipeline::{Pipeline, Recipe};
 use super::reflect::{Access, Binding, Compiled};
 use super::shader::Shader;
@@ -89,7 +89,7 @@ impl Kernel {
     }
 
     fn known_or_new(gpu: &Gpu, shader: &str, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
-        let (compiled, module) = compiled(gpu, shader, constants.source)?;
+        let compiled = compiled(gpu, shader, constants.source)?;
         let mut read = String::new();
         for (name, value) in constants.overrides {
             if compiled.reads_override(entry, name)? {
@@ -98,21 +98,16 @@ impl Kernel {
         }
         let key = format!("{shader}: {entry}{read}\n{}", constants.source);
         if let Some(known) = lock(&gpu.kernels).get(&key) {
-            return Ok(known.clone());
+            return Ok(known);
         }
         gpu.go_on()?;
-        let kernel = Kernel::compile(gpu, (&compiled, &module), entry, constants)?;
-        remember(&gpu.kernels, key, kernel.clone());
+        let kernel = Kernel::compile(gpu, &compiled, entry, constants)?;
+        lock(&gpu.kernels).insert(key, kernel.clone());
         Ok(kernel)
     }
 
     /// Has one entry point compiled.
-    fn compile(
-        gpu: &Gpu,
-        (compiled, module): (&Compiled, &wgpu::ShaderModule),
-        entry: &str,
-        constants: &Constants<'_>,
-    ) -> Result<Kernel> {
+    fn compile(gpu: &Gpu, compiled: &Arc<Compiled>, entry: &str, constants: &Constants<'_>) -> Result<Kernel> {
         let label = format!("shaders/{}: {entry}", compiled.shader.name);
         let bindings = compiled.bindings(entry)?;
         let threads_per_group = compiled.threads_per_group(entry)?;
@@ -136,8 +131,9 @@ impl Kernel {
             super::written::write(folder, compiled, entry, &overrides)?;
         }
         let overrides = overrides.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        let (module, entry, name) = (module.clone(), entry.to_owned(), entry.into());
-        let recipe = Recipe { label: label.clone(), layout: pipeline_layout, module, entry, overrides };
+        let (compiled, name) = (Arc::clone(compiled), entry.into());
+        let recipe =
+            Recipe { label: label.clone(), layout: pipeline_layout, compiled, entry: entry.to_owned(), overrides };
         let pipeline = Pipeline::queue(gpu, recipe);
         Ok(Kernel { label, pipeline, layout, bindings, threads_per_group, name })
     }
@@ -203,22 +199,14 @@ impl Kernel {
 }
 
 /// The shader from the device's cache, or compiled now.
-fn compiled(gpu: &Gpu, name: &str, constants: &str) -> Result<(Arc<Compiled>, wgpu::ShaderModule)> {
+fn compiled(gpu: &Gpu, name: &str, constants: &str) -> Result<Arc<Compiled>> {
     let key = (name.to_owned(), constants.to_owned());
     if let Some(known) = lock(&gpu.shaders).get(&key) {
-        return Ok(known.clone());
+        return Ok(known);
     }
     let compiled = Arc::new(Shader::load(name, constants, &gpu.folder)?.compile()?);
-    let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(name),
-        source: wgpu::ShaderSource::Wgsl(compiled.shader.text.as_str().into()),
-    });
-    if let Some(error) = pollster::block_on(scope.pop()) {
-        return Err(Error::Shader(format!("shaders/{name}: {error}")));
-    }
-    remember(&gpu.shaders, key, (Arc::clone(&compiled), module.clone()));
-    Ok((compiled, module))
+    lock(&gpu.shaders).insert(key, Arc::clone(&compiled));
+    Ok(compiled)
 }
 
 /// One line of the explicit layout.

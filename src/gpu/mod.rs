@@ -8,6 +8,7 @@
 mod adapters;
 mod allocations;
 mod buffer;
+mod cache;
 mod device;
 mod kernel;
 mod pass;
@@ -17,6 +18,7 @@ pub mod readback;
 mod reflect;
 mod shader;
 mod sources;
+mod specialised;
 mod written;
 
 pub use adapters::AdapterSummary;

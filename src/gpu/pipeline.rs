@@ -1,8 +1,11 @@
 //! Pipelines that are compiled beside each other, on all cores, while the caller makes buffers and asks for further kernels.
 
+use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 use super::device::{Gpu, lock};
+use super::reflect::Compiled;
+use super::specialised::specialised;
 use crate::error::{Error, Result};
 
 /// A pipeline, compiled by whoever comes first: a core without other work, or the one that needs it.
@@ -17,7 +20,7 @@ pub(super) struct Pipeline {
 pub(super) struct Recipe {
     pub label: String,
     pub layout: wgpu::PipelineLayout,
-    pub module: wgpu::ShaderModule,
+    pub compiled: Arc<Compiled>,
     pub entry: String,
     pub overrides: Vec<(String, f64)>,
 }
@@ -48,14 +51,19 @@ impl Pipeline {
 
 impl Recipe {
     fn compile(&self, device: &wgpu::Device) -> std::result::Result<wgpu::ComputePipeline, String> {
-        let constants: Vec<(&str, f64)> = self.overrides.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let module = specialised(&self.compiled, &self.entry, &self.overrides)
+            .map_err(|reason| format!("{}: {reason}", self.label))?;
         let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(&self.label),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(&self.label),
             layout: Some(&self.layout),
-            module: &self.module,
+            module: &module,
             entry_point: Some(&self.entry),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
             cache: None,
         });
         match pollster::block_on(scope.pop()) {
