@@ -68,6 +68,7 @@ mod sweeps;
 mod synthetic;
 mod thin_walls;
 mod twins;
+mod two_gas_twin;
 #[cfg(feature = "verify")]
 mod verify;
 #[cfg(feature = "viewer")]

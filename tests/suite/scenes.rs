@@ -152,6 +152,8 @@ scenes! {
     vibrating_bar: "validation/vibrating_bar.toml", "time.until=10.0";
     cantilever: "validation/cantilever.toml", "domain.cells=[40, 12]", "time.until=2.0";
     blasted_strip: "validation/blasted_strip.toml", "domain.cells=[120, 48]", "time.until=1e-5";
+    blasted_plate: "validation/blasted_plate.toml", "time.until=2e-6";
+    broken_pane: "validation/broken_pane.toml", "time.until=1e-5", "expect.bodies=[]";
     shocked_panel: "validation/shocked_panel.toml", "domain.cells=[300, 68]", "time.until=1e-6";
     blasted_ellipse: "paper/fig14_ordering.toml", "domain.cells=[32, 32]";
     blasted_ellipse_coupling_first: "paper/fig14_ordering.toml" [small, coupling_first];

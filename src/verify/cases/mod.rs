@@ -27,6 +27,7 @@ mod panel;
 mod pistons;
 mod plane_flows;
 mod plates;
+mod pressure_impulse;
 mod quiet;
 mod riemann_2d;
 mod shells;
@@ -69,8 +70,8 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         contacts::CASES,
         two_gases::CASES,
     ]);
-    let by_file =
-        gas.chain(coupled).chain([solids::CASES, clamped::CASES, blasted_plates::CASES, ablations::CASES]).flatten();
+    let held = [clamped::CASES, blasted_plates::CASES, pressure_impulse::CASES];
+    let by_file = gas.chain(coupled).chain([solids::CASES]).chain(held).chain([ablations::CASES]).flatten();
     let mut cases: Vec<&Case> = by_file.collect();
     let by_file = cases.clone();
     cases.sort_by_key(|case| by_file.iter().position(|first| first.group == case.group));
