@@ -5,6 +5,7 @@ mod fragments;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::material::Strained;
 use crate::snapshot::{ParticleSample, Snapshot};
 pub use fragments::{Fragment, SPEEDS};
 
@@ -34,6 +35,9 @@ pub struct BodyState {
     pub deviatoric_stress: f64,
     /// Kinetic energy of the particles, that of the affine motion around them included \[J\].
     pub kinetic_energy: f64,
+    /// Elastic energy of the particles, less what damage takes of it, without that of the ghost pressure \[J\]; 0 if the snapshot knows
+    /// no laws.
+    pub elastic_energy: f64,
     /// Mass of the particles that have broken \[kg\].
     pub broken_mass: f64,
     /// Low and high corner of the box around the particles \[m\].
@@ -54,12 +58,28 @@ impl Snapshot {
                 body.add(particle, self.grid.spacing.into());
             }
         }
+        for (particle, energy) in self.particles.iter().zip(self.elastic_energies()) {
+            if let Some(body) = bodies.get_mut(particle.body as usize) {
+                body.elastic_energy += energy;
+            }
+        }
         let cell = f64::from(self.grid.spacing).powi(self.grid.dimension as i32);
         for (body, (pieces, cells)) in bodies.iter_mut().zip(self.pieces(count)) {
             body.pieces = pieces;
             body.finish(cell * f64::from(cells));
         }
         bodies
+    }
+
+    /// Elastic energy of each particle \[J\].
+    fn elastic_energies(&self) -> Vec<f64> {
+        let energy = |own: &ParticleSample| {
+            let strained = Strained::of(own.displacement_gradient.map(|column| column.map(f64::from)));
+            let density =
+                self.laws.elastic_energy(own.material, &strained, own.ghost_pressure.into(), own.damage.into());
+            f64::from(own.volume0) * density
+        };
+        self.particles.par_iter().map(energy).collect()
     }
 
     /// Pieces of each body: connected groups of cells that hold particles of it that are not broken; and the number of cells with any.

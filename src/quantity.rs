@@ -1,4 +1,4 @@
-//! The table of quantities: what pictures, files and tables show, by name, unit and caption, and how it is computed. [`TABLE`] has those of
+//! The table of quantities: what pictures, files and tables show, by name, symbol, unit and caption, and how it is computed. [`TABLE`] has those of
 //! cells and particles; those of wholes (bodies, pieces, loads, points, probes, steps) follow.
 
 mod columns;
@@ -33,6 +33,8 @@ pub enum Values {
 pub struct Quantity {
     /// Its name in files.
     pub name: &'static str,
+    /// Its symbol in equations.
+    pub symbol: &'static str,
     /// Unit; of quantities without dimension `1`.
     pub unit: &'static str,
     /// Its name and unit in pictures, or what it means.
@@ -54,49 +56,49 @@ impl Quantity {
 
 const fn quantity(
     place: Place,
-    name: &'static str,
+    [name, symbol]: [&'static str; 2],
     unit: &'static str,
     caption: &'static str,
     components: usize,
     compute: fn(&Snapshot) -> Values,
 ) -> Quantity {
-    Quantity { name, unit, caption, place, components, compute }
+    Quantity { name, symbol, unit, caption, place, components, compute }
 }
 
 /// All quantities. Inside bodies and obstacles, values of the gas are 0, and `kind` says where that is.
 #[rustfmt::skip]
 pub const TABLE: &[Quantity] = &[
-    quantity(Place::Cell, "density", "kg m^-3", "density [kg/m\u{b3}]", 1, |s| gas(s, |i| [s.density[i]])),
-    quantity(Place::Cell, "pressure", "Pa", "pressure [Pa]", 1, |s| gas(s, |i| [s.pressure[i]])),
-    quantity(Place::Cell, "velocity", "m s^-1", "speed [m/s]", 3, |s| gas(s, |i| s.velocity[i])),
-    quantity(Place::Cell, "energy", "J m^-3", "total energy [J/m\u{b3}]", 1, |s| gas(s, |i| [s.energy[i]])),
-    quantity(Place::Cell, "temperature", "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [s.thermal_energy_at(i)])),
-    quantity(Place::Cell, "mach", "1", "Mach number", 1, |s| gas(s, |i| [mach(s, i)])),
-    quantity(Place::Cell, "schlieren", "kg m^-4", "density gradient [kg/m\u{2074}]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
-    quantity(Place::Cell, "vorticity", "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
-    quantity(Place::Cell, "entropy", "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma_at(i) as f32)])),
-    quantity(Place::Cell, "mass_fraction", "1", "mass fraction of the second gas", 1, |s| gas(s, |i| [s.mass_fraction_at(i)])),
-    quantity(Place::Cell, "volume_fraction", "1", "volume fraction of the second gas", 1, |s| gas(s, |i| [s.species.get(i).map_or(0.0, |own| own[1])])),
-    quantity(Place::Cell, "soot", "m^-1", "extinction by soot [1/m]", 1, |s| gas(s, |i| [s.fire.soot(second(s, i)) as f32])),
-    quantity(Place::Cell, "flames", "m^-1", "light of hot gas over that of white paper [1/m]", 1, |s| gas(s, |i| [s.fire.light(second(s, i), s.thermal_energy_at(i).into()) as f32])),
-    quantity(Place::Cell, "owed", "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
-    quantity(Place::Cell, "peak_pressure", "Pa", "largest pressure so far [Pa]", 1, |s| map(s, 0)),
-    quantity(Place::Cell, "impulse", "Pa s", "impulse so far [Pa s]", 1, |s| map(s, 1)),
-    quantity(Place::Cell, "peak_plastic_strain", "1", "largest plastic strain so far", 1, |s| map(s, 2)),
-    quantity(Place::Cell, "kind", "1", "0 gas, 1 solid, 2 wall, 3 beyond an open side", 1, |s| Values::Whole(s.kind.iter().map(|kind| u32::from(*kind)).collect())),
-    quantity(Place::Particle, "velocity", "m s^-1", "speed of solids [m/s]", 3, |s| each(s, |p| p.velocity)),
-    quantity(Place::Particle, "mass", "kg", "mass [kg]", 1, |s| each(s, |p| [p.mass])),
-    quantity(Place::Particle, "volume", "m^3", "volume [m\u{b3}]", 1, |s| each(s, |p| [p.volume0 * p.volume_ratio()])),
-    quantity(Place::Particle, "ghost_pressure", "Pa", "ghost pressure [Pa]", 1, |s| each(s, |p| [p.ghost_pressure])),
-    quantity(Place::Particle, "plastic_strain", "1", "plastic strain", 1, |s| each(s, |p| [p.plastic_strain])),
-    quantity(Place::Particle, "damage", "1", "damage", 1, |s| each(s, |p| [p.damage])),
-    quantity(Place::Particle, "J", "1", "volume over volume at rest", 1, |s| each(s, |p| [p.volume_ratio()])),
-    quantity(Place::Particle, "deviatoric_stress", "Pa", "deviatoric stress [Pa]", 1, |s| each(s, |p| [p.deviatoric_stress()])),
-    quantity(Place::Particle, "stress", "Pa", "Cauchy stress xx, yy, zz, xy, yz, zx [Pa]", 6, |s| each(s, |p| p.stress)),
-    quantity(Place::Particle, "body", "1", "index of the body in the scene", 1, |s| whole(s, |p| p.body)),
-    quantity(Place::Particle, "material", "1", "index of the material in the scene", 1, |s| whole(s, |p| p.material)),
-    quantity(Place::Particle, "id", "1", "number among the particles of the start", 1, |s| whole(s, |p| p.index)),
-    quantity(Place::Particle, "piece", "1", "smallest id in the piece", 1, |s| Values::Whole(s.piece_of_each())),
+    quantity(Place::Cell, ["density", "rho"], "kg m^-3", "density [kg/m\u{b3}]", 1, |s| gas(s, |i| [s.density[i]])),
+    quantity(Place::Cell, ["pressure", "p"], "Pa", "pressure [Pa]", 1, |s| gas(s, |i| [s.pressure[i]])),
+    quantity(Place::Cell, ["velocity", "u"], "m s^-1", "speed [m/s]", 3, |s| gas(s, |i| s.velocity[i])),
+    quantity(Place::Cell, ["energy", "E"], "J m^-3", "total energy [J/m\u{b3}]", 1, |s| gas(s, |i| [s.energy[i]])),
+    quantity(Place::Cell, ["temperature", "R T"], "m^2 s^-2", "p/rho [m\u{b2}/s\u{b2}]", 1, |s| gas(s, |i| [s.thermal_energy_at(i)])),
+    quantity(Place::Cell, ["mach", "M"], "1", "Mach number", 1, |s| gas(s, |i| [mach(s, i)])),
+    quantity(Place::Cell, ["schlieren", "|grad rho|"], "kg m^-4", "density gradient [kg/m\u{2074}]", 1, |s| gas(s, |i| [length(gradient(s, i, |j| s.density[j]))])),
+    quantity(Place::Cell, ["vorticity", "curl u"], "s^-1", "vorticity [1/s]", 3, |s| gas(s, |i| vorticity(s, i))),
+    quantity(Place::Cell, ["entropy", "p / rho^gamma"], "Pa (m^3 kg^-1)^gamma", "p/rho^gamma", 1, |s| gas(s, |i| [s.pressure[i] * s.density[i].powf(-s.gamma_at(i) as f32)])),
+    quantity(Place::Cell, ["mass_fraction", "Y"], "1", "mass fraction of the second gas", 1, |s| gas(s, |i| [s.mass_fraction_at(i)])),
+    quantity(Place::Cell, ["volume_fraction", "phi"], "1", "volume fraction of the second gas", 1, |s| gas(s, |i| [s.species.get(i).map_or(0.0, |own| own[1])])),
+    quantity(Place::Cell, ["soot", "kappa"], "m^-1", "extinction by soot [1/m]", 1, |s| gas(s, |i| [s.fire.soot(second(s, i)) as f32])),
+    quantity(Place::Cell, ["flames", "j"], "m^-1", "light of hot gas over that of white paper [1/m]", 1, |s| gas(s, |i| [s.fire.light(second(s, i), s.thermal_energy_at(i).into()) as f32])),
+    quantity(Place::Cell, ["owed", "rho_owed"], "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
+    quantity(Place::Cell, ["peak_pressure", "p_max"], "Pa", "largest pressure so far [Pa]", 1, |s| map(s, 0)),
+    quantity(Place::Cell, ["impulse", "I"], "Pa s", "impulse so far [Pa s]", 1, |s| map(s, 1)),
+    quantity(Place::Cell, ["peak_plastic_strain", "eps_p,max"], "1", "largest plastic strain so far", 1, |s| map(s, 2)),
+    quantity(Place::Cell, ["kind", "k"], "1", "0 gas, 1 solid, 2 wall, 3 beyond an open side", 1, |s| Values::Whole(s.kind.iter().map(|kind| u32::from(*kind)).collect())),
+    quantity(Place::Particle, ["velocity", "v"], "m s^-1", "speed of solids [m/s]", 3, |s| each(s, |p| p.velocity)),
+    quantity(Place::Particle, ["mass", "m"], "kg", "mass [kg]", 1, |s| each(s, |p| [p.mass])),
+    quantity(Place::Particle, ["volume", "V"], "m^3", "volume [m\u{b3}]", 1, |s| each(s, |p| [p.volume0 * p.volume_ratio()])),
+    quantity(Place::Particle, ["ghost_pressure", "q"], "Pa", "ghost pressure [Pa]", 1, |s| each(s, |p| [p.ghost_pressure])),
+    quantity(Place::Particle, ["plastic_strain", "eps_p"], "1", "plastic strain", 1, |s| each(s, |p| [p.plastic_strain])),
+    quantity(Place::Particle, ["damage", "d"], "1", "damage", 1, |s| each(s, |p| [p.damage])),
+    quantity(Place::Particle, ["J", "J"], "1", "volume over volume at rest", 1, |s| each(s, |p| [p.volume_ratio()])),
+    quantity(Place::Particle, ["deviatoric_stress", "sigma_vM"], "Pa", "deviatoric stress [Pa]", 1, |s| each(s, |p| [p.deviatoric_stress()])),
+    quantity(Place::Particle, ["stress", "sigma"], "Pa", "Cauchy stress xx, yy, zz, xy, yz, zx [Pa]", 6, |s| each(s, |p| p.stress)),
+    quantity(Place::Particle, ["body", "b"], "1", "index of the body in the scene", 1, |s| whole(s, |p| p.body)),
+    quantity(Place::Particle, ["material", "a"], "1", "index of the material in the scene", 1, |s| whole(s, |p| p.material)),
+    quantity(Place::Particle, ["id", "i"], "1", "number among the particles of the start", 1, |s| whole(s, |p| p.index)),
+    quantity(Place::Particle, ["piece", "c"], "1", "smallest id in the piece", 1, |s| Values::Whole(s.piece_of_each())),
 ];
 
 impl Snapshot {
@@ -229,6 +231,7 @@ mod tests {
             grid,
             gases: crate::scene::EquationOfState { gamma: 1.4, species: None },
             fire: crate::scene::Fire::default(),
+            laws: crate::material::Laws::default(),
             species: Vec::new(),
             kind: kinds,
             density,

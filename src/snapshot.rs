@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::error::Result;
 use crate::gpu::{Gpu, readback};
+use crate::material::Laws;
 use crate::scene::{Conserved, EquationOfState, Fire};
 use crate::state::{Grid, State};
 
@@ -40,6 +41,8 @@ pub struct Snapshot {
     pub gases: EquationOfState,
     /// What pictures make of it; nothing unless it is told.
     pub fire: Fire,
+    /// Laws of the materials; none unless they are told.
+    pub laws: Laws,
     /// Kind of each cell, see [`kind`].
     pub kind: Vec<u8>,
     /// Gas density \[kg m^-3\].
@@ -87,6 +90,8 @@ pub struct ParticleSample {
     pub damage: f32,
     /// Deformation gradient, columns.
     pub deformation: [[f32; 3]; 3],
+    /// The same less the identity: of a small strain it has all digits.
+    pub displacement_gradient: [[f32; 3]; 3],
     /// Cauchy stress \[Pa\]: xx, yy, zz, xy, yz, zx.
     pub stress: [f32; 6],
     /// Index of the body in the scene.
@@ -110,6 +115,7 @@ impl Default for ParticleSample {
             plastic_strain: 0.0,
             damage: 0.0,
             deformation: glam::Mat3::IDENTITY.to_cols_array_2d(),
+            displacement_gradient: [[0.0; 3]; 3],
             stress: [0.0; 6],
             body: 0,
             material: 0,
@@ -230,6 +236,7 @@ impl Snapshot {
             grid,
             gases: EquationOfState { gamma: 1.4, species: None },
             fire: Fire::default(),
+            laws: Laws::default(),
             kind: Vec::new(),
             density: Vec::new(),
             velocity: Vec::new(),
@@ -273,7 +280,7 @@ impl Snapshot {
             species: state.gas.read_species(gpu, grid.slots())?,
             kind: readback::read(gpu, &state.interface.cells)?.iter().map(|word| *word as u8 & kind::MASK).collect(),
         };
-        Ok(Self::of(grid, gases, (time, step), &cells, &rows))
+        Ok(Snapshot { laws: state.laws()?, ..Self::of(grid, gases, (time, step), &cells, &rows) })
     }
 
     /// From arrays in the layout of the device, of a grid and gas, at a time \[s\] after so many steps.
@@ -294,6 +301,7 @@ impl Snapshot {
             grid,
             gases,
             fire: Fire::default(),
+            laws: Laws::default(),
             kind: grid.unpadded(&cells.kind),
             density: grid.unpadded_by(|slot| flow[slot][0]),
             velocity: grid.unpadded_by(velocity),
@@ -356,6 +364,7 @@ impl ParticleRows {
                 let unit = |row: usize| if row == column { 1.0 } else { 0.0 };
                 std::array::from_fn(|row| unit(row) + deformation[3 * p + column][row])
             }),
+            displacement_gradient: [0, 1, 2].map(|column| xyz(deformation[3 * p + column])),
             stress: {
                 let (diagonal, aside) = (stress[2 * p], stress[2 * p + 1]);
                 let all = [diagonal[0], diagonal[1], diagonal[2], aside[0], aside[1], aside[2]];

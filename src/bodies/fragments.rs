@@ -5,12 +5,11 @@ use std::collections::BTreeMap;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use crate::math::principal;
 use crate::snapshot::{ParticleSample, Snapshot};
 
 /// Shares of the mass by speed: below 1/8, 2/8, ... of the largest speed of the frame.
 pub const SPEEDS: usize = 8;
-/// Turns of the axes, at most: each makes the products off the diagonal smaller.
-const TURNS: usize = 32;
 
 /// A piece at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -93,31 +92,6 @@ impl Snapshot {
         let along = |axis: u32| if axis < self.grid.dimension { value } else { 0.0 };
         DVec3::new(along(0), along(1), along(2))
     }
-}
-
-/// Moments along the axes of a symmetric matrix, largest first. [Jacobi 1846]
-fn principal(matrix: DMat3) -> [f64; 3] {
-    let mut a = matrix.to_cols_array_2d();
-    for turn in 0..TURNS {
-        let (p, q) = [(0, 1), (0, 2), (1, 2)][turn % 3];
-        let off = a[p][q];
-        if off == 0.0 {
-            continue;
-        }
-        let theta = (a[q][q] - a[p][p]) / (2.0 * off);
-        let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-        let c = 1.0 / t.hypot(1.0);
-        let s = t * c;
-        for row in &mut a {
-            (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
-        }
-        let (first, second) = (a[p], a[q]);
-        a[p] = std::array::from_fn(|k| c * first[k] - s * second[k]);
-        a[q] = std::array::from_fn(|k| s * first[k] + c * second[k]);
-    }
-    let mut moments = [a[0][0], a[1][1], a[2][2]];
-    moments.sort_by(|one, two| two.total_cmp(one));
-    moments
 }
 
 #[cfg(test)]

@@ -58,6 +58,7 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
         belongs(path, (&hash, &scene_hash), &stored, needs.cells.then_some(&grid))?;
         let mut snapshot = states::snapshot(stored, grid, scene.gas.equation_of_state());
         snapshot.fire = Fire::of(&scene);
+        snapshot.laws = scene.laws();
         let (time, step) = (snapshot.time, snapshot.step);
         let snapshot = Some(&snapshot);
         let moment = Moment { index: *index, origin: &origin, time, step, pictures: &[], snapshot, stored: None };

@@ -2,6 +2,7 @@
 
 mod curves;
 mod gauges;
+pub(super) mod moving;
 mod pieces;
 pub(super) mod run;
 pub(super) mod spans;
@@ -13,14 +14,9 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::check::size;
-use crate::export::apng;
 use crate::math::plain;
 use crate::render::{PAGE_STYLE, escape};
-
-/// Pictures in a moving one, at most.
-const MOVING_FRAMES: usize = 32;
-/// How long each of them stands \[ms\].
-const DELAY: u16 = 120;
+use moving::Small;
 
 /// Looks beside those of the report of `verify`.
 const OWN_PAGE_STYLE: &str = "figure{margin:.6rem 0;display:flex;flex-wrap:wrap;gap:.6rem;align-items:flex-start}\
@@ -81,7 +77,7 @@ pub(super) fn memory(report: &Value) -> String {
 }
 
 /// The last picture as it is, and all of them as a small moving one.
-pub(super) fn pictures(page: &mut String, frames: &Path, width: u32) {
+pub(super) fn pictures(page: &mut String, frames: &Path, small: &Small) {
     let mut files: Vec<PathBuf> =
         std::fs::read_dir(frames).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
     files.retain(|path| path.extension().is_some_and(|end| end == "png"));
@@ -90,11 +86,9 @@ pub(super) fn pictures(page: &mut String, frames: &Path, width: u32) {
         let _ = writeln!(page, "<p>No picture.</p>");
         return;
     };
-    let step = files.len().div_ceil(MOVING_FRAMES).max(1);
-    let some: Vec<PathBuf> = files.iter().step_by(step).cloned().collect();
     let _ =
         write!(page, "<figure><img class=\"last\" alt=\"the end\" src=\"data:image/png;base64,{}\">", base64(&last));
-    match apng::moving(&some, width, DELAY) {
+    match small.of_files(&files) {
         Ok(moving) => {
             let _ = write!(
                 page,

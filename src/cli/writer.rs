@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use super::folder::Folder;
 use super::index::Index;
 use super::interrupt;
+use super::page::moving::Small;
 use super::run::Checkpoint;
 use super::tables::{Marks, Tables};
 use crate::Result;
@@ -117,6 +118,8 @@ pub(super) struct Written {
     pub(super) busy: Duration,
     /// What became of films.
     pub(super) films: Vec<std::result::Result<String, String>>,
+    /// What the page of the run shows of its pictures.
+    pub(super) small: Small,
 }
 
 impl Writer {
@@ -190,7 +193,9 @@ impl<'a> Work<'a> {
             Index::begin(&files.folder, &origin, (&files.formats, names), *frames)
         });
         let films = files.lost_film.iter().cloned().map(Err).collect();
-        let written = Written { frames: *frames, films, ..Written::default() };
+        let paged = files.tables && files.formats.iter().any(|name| name == "png");
+        let small = if paged { Small::of(scene.time.frames as usize + 1) } else { Small::default() };
+        let written = Written { frames: *frames, films, small, ..Written::default() };
         Ok(Self { files, exporters, origin, tables, index, written, given_up: false })
     }
 
@@ -238,6 +243,10 @@ impl<'a> Work<'a> {
             Moment { index: *index, origin: &self.origin, time: *time, step: *step, pictures, snapshot, stored };
         for exporter in &mut self.exporters {
             exporter.write(&moment)?;
+        }
+        if let Some((place, picture)) = moment.places().next() {
+            let path = self.files.folder.join("frames").join(place).with_extension("png");
+            self.written.small.keep(*index, &path, &picture.frame);
         }
         self.written.frames += 1;
         if let Some(list) = &mut self.index {

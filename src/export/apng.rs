@@ -2,10 +2,9 @@
 
 use std::fs::File;
 use std::io::BufReader;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use ::png::{BitDepth, ColorType, Compression, Decoder, Encoder, Transformations};
-use rayon::prelude::*;
+use ::png::{BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, Transformations};
 
 use crate::render::Frame;
 use crate::{Error, Result};
@@ -26,29 +25,25 @@ pub fn read(path: &Path) -> Result<Frame> {
     Ok(Frame { width: info.width, height: info.height, rgba, ..Frame::default() })
 }
 
-/// The pictures in these files, at most `width` pixels wide, `delay` milliseconds each, over and over.
+/// These pictures one after another, `delay` milliseconds each, over and over.
 ///
 /// # Errors
-/// [`Error::Io`] if a picture cannot be read or differs in size from the first.
-pub fn moving(files: &[PathBuf], width: u32, delay: u16) -> Result<Vec<u8>> {
-    let Some(path) = files.first() else { return Ok(Vec::new()) };
-    let wrong = |error: ::png::EncodingError| Error::io(path, std::io::Error::other(error));
-    let small = |file: &PathBuf| read(file).map(|frame| shrunk(&frame, width));
-    let frames: Vec<Frame> = files.par_iter().map(small).collect::<Result<_>>()?;
-    let first = &frames[0];
+/// A picture differs in size from the first.
+pub fn moving(frames: &[Frame], delay: u16) -> std::result::Result<Vec<u8>, EncodingError> {
+    let Some(first) = frames.first() else { return Ok(Vec::new()) };
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, first.width, first.height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::Balanced);
-    encoder.set_animated(u32::try_from(files.len()).unwrap_or(u32::MAX), 0).map_err(wrong)?;
-    encoder.set_frame_delay(delay, 1000).map_err(wrong)?;
-    let mut writer = encoder.write_header().map_err(wrong)?;
-    for frame in &frames {
+    encoder.set_compression(Compression::Fast);
+    encoder.set_animated(u32::try_from(frames.len()).unwrap_or(u32::MAX), 0)?;
+    encoder.set_frame_delay(delay, 1000)?;
+    let mut writer = encoder.write_header()?;
+    for frame in frames {
         let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-        writer.write_image_data(&rgb).map_err(wrong)?;
+        writer.write_image_data(&rgb)?;
     }
-    writer.finish().map_err(wrong)?;
+    writer.finish()?;
     Ok(bytes)
 }
 
@@ -79,16 +74,12 @@ pub fn shrunk(frame: &Frame, width: u32) -> Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::png;
 
     #[test]
     fn pictures_move_and_shrink() {
-        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
-        let files: Vec<PathBuf> = (0..3).map(|k| folder.path().join(format!("{k}.png"))).collect();
-        for (shade, file) in [10, 20, 250].into_iter().zip(&files) {
-            png::write(file, &Frame::filled(10, 6, [shade, 0, 255 - shade]), &[]).unwrap_or_else(|e| panic!("{e}"));
-        }
-        let bytes = moving(&files, 5, 80).unwrap_or_else(|error| panic!("{error}"));
+        let filled = |shade: u8| Frame::filled(10, 6, [shade, 0, 255 - shade]);
+        let frames = [10, 20, 250].map(|shade| shrunk(&filled(shade), 5));
+        let bytes = moving(&frames, 80).unwrap_or_else(|error| panic!("{error}"));
         let mut reader = Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap_or_else(|e| panic!("{e}"));
         let info = reader.info();
         assert_eq!((info.width, info.height), (5, 3));
@@ -99,7 +90,7 @@ mod tests {
             pixels[0]
         });
         assert_eq!(shades, [10, 20, 250]);
-        assert!(moving(&[folder.path().join("none.png")], 5, 80).is_err());
+        assert!(moving(&[frames[0].clone(), filled(10)], 80).is_err());
         let low = shrunk(&Frame::filled(40, 2, [7, 8, 9]), 10);
         assert_eq!((low.width, low.height, &low.rgba[..3]), (10, 1, &[7, 8, 9][..]));
     }

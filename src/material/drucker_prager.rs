@@ -1,7 +1,7 @@
 //! Soil and sand: linear in the logarithmic strain, flows where shear exceeds friction and cohesion, and opens without tension.
 //! The cone meets Mohr-Coulomb's in compression. [Drucker & Prager 1952; Klar et al. 2016]
 
-use super::{Constants, GHOST_MODULUS, Kind, POISSON_RATIO, Parameter, YOUNG_MODULUS};
+use super::{Constants, GHOST_MODULUS, Hyperelastic, Kind, POISSON_RATIO, Parameter, YOUNG_MODULUS};
 
 /// Slope of the cone.
 const FRICTION_ANGLE: Parameter = Parameter::positive(
@@ -21,6 +21,7 @@ pub(super) const KIND: Kind = Kind {
     summary: "Soil and sand: yields by friction and cohesion, bears no tension beyond its cohesion.",
     parameters: &[YOUNG_MODULUS, POISSON_RATIO, FRICTION_ANGLE, COHESION, GHOST_MODULUS],
     keeps_volume: false,
+    energy: Hyperelastic::Hencky,
     constants: |values| {
         let (sine, cosine) = values[2].to_radians().sin_cos();
         // |dev tau| <= yield_stress - friction tr(tau)

@@ -5,6 +5,7 @@
 //! WGSL switch follow from it.
 
 mod drucker_prager;
+mod energy;
 mod fixed_corotated;
 mod fracture;
 mod hencky;
@@ -16,6 +17,7 @@ mod text;
 mod von_mises;
 mod wgsl;
 
+pub use energy::{Hyperelastic, Laws, Strained};
 pub use fracture::{AtCoarse, BAND, Fracture, LEAST_RATIO, Softening, Weibull};
 pub use preset::{PRESETS, Preset, Units, kind_names};
 #[doc(hidden)]
@@ -44,6 +46,8 @@ pub struct Kind {
     pub constants: fn(&[f64]) -> Constants,
     /// Whether its plastic flow is shear alone, so that the deformation gradient knows the volume.
     pub keeps_volume: bool,
+    /// Its energy.
+    pub energy: Hyperelastic,
 }
 
 /// A parameter of a law.
@@ -207,29 +211,6 @@ structure! {
         softening: u32,
         /// Density times the square of the rate of damage at most: Rayleigh's waves over the width of a band `[kg m^-3 s^-2]`.
         crack_modulus: f32,
-    }
-}
-
-impl MaterialParams {
-    /// Energy of the ghost pressure per volume at rest, minus the integral of q dJ, of a body that starts with the pressure `start`
-    /// \[J m^-3\]. By its volume ratio J q is start + K (J^-7 - 1) / 7 in compression and start - K ln J in tension, K = `ghost_modulus`.
-    /// Where plastic flow changes the volume, so that the deformation gradient does not know it, q tells J.
-    #[must_use]
-    pub fn ghost_energy(&self, volume_ratio: f64, q: f64, start: f64) -> f64 {
-        let keeps_volume = KINDS.get(self.kind as usize).is_some_and(|kind| kind.keeps_volume);
-        let (n, modulus) = (GHOST_STIFFENING, f64::from(self.ghost_modulus));
-        let over = (q - start) / modulus;
-        let logarithm = match keeps_volume {
-            true => volume_ratio.ln(),
-            false if over > 0.0 => -(n * over).ln_1p() / n,
-            false => -over,
-        };
-        let swelling = logarithm.exp_m1();
-        let shape = match swelling < 0.0 {
-            true => ((-(n - 1.0) * logarithm).exp_m1() / (n - 1.0) + swelling) / n,
-            false => (1.0 + swelling) * logarithm - swelling,
-        };
-        modulus * shape - start * swelling
     }
 }
 

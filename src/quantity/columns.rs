@@ -1,4 +1,4 @@
-//! What a table says of a whole: its columns by name, unit and meaning, and how their entries are computed.
+//! What a table says of a whole: its columns by name, symbol, unit and meaning, and how their entries are computed.
 
 /// An entry of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +29,8 @@ pub(super) enum Compute<T> {
 pub struct Columns<T> {
     /// Its name, before those of its parts; of a place there is none.
     pub name: &'static str,
+    /// Its symbol in equations.
+    pub symbol: &'static str,
     /// Unit; of counts and quantities without dimension `1`.
     pub unit: &'static str,
     /// What it means.

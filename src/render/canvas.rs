@@ -128,33 +128,53 @@ impl<'a> Canvas<'a> {
 
     /// Draws a smooth line through points given in pixels, inside `clip`.
     pub(crate) fn curve(&mut self, points: &[[f32; 2]], clip: Rectangle, color: [u8; 3], width: f32) {
-        let mut coverage = vec![0.0_f32; (clip.width * clip.height).max(0) as usize];
+        let mut pen = Pen::over(clip);
         for pair in points.windows(2) {
             if pair.iter().flatten().all(|coordinate| coordinate.is_finite()) {
-                cover_segment(&mut coverage, clip, [pair[0], pair[1]], width);
+                pen.cover([pair[0], pair[1]], width);
             }
         }
-        for (index, &amount) in coverage.iter().enumerate().filter(|(_, amount)| **amount > 0.0) {
-            let (x, y) = (index as i32 % clip.width, index as i32 / clip.width);
-            self.blend(clip.x + x, clip.y + y, color, amount);
+        let rows = pen.coverage.chunks_exact(clip.width.max(1) as usize).zip(&pen.touched);
+        for (y, (row, [from, to])) in (clip.y..).zip(rows) {
+            let own = row.iter().enumerate().take(*to).skip(*from);
+            own.filter(|(_, amount)| **amount > 0.0)
+                .for_each(|(x, amount)| self.blend(clip.x + x as i32, y, color, *amount));
         }
     }
 }
 
-/// Raises the coverage of the pixels near a segment to their share under a round pen.
-fn cover_segment(coverage: &mut [f32], clip: Rectangle, segment: [[f32; 2]; 2], width: f32) {
-    let [from, to] = segment.map(|[x, y]| glam::Vec2::new(x - clip.x as f32, y - clip.y as f32));
-    let reach = 0.5 * width + 1.0;
-    let (low, high) = (from.min(to) - reach, from.max(to) + reach);
-    let along = to - from;
-    let length_squared = along.length_squared().max(f32::MIN_POSITIVE);
-    for y in (low.y.max(0.0) as i32)..(high.y.ceil().min(clip.height as f32) as i32) {
-        for x in (low.x.max(0.0) as i32)..(high.x.ceil().min(clip.width as f32) as i32) {
-            let point = glam::Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-            let nearest = from + along * ((point - from).dot(along) / length_squared).clamp(0.0, 1.0);
-            let amount = (reach - 0.5 - point.distance(nearest)).clamp(0.0, 1.0);
-            let pixel = &mut coverage[(y * clip.width + x) as usize];
-            *pixel = pixel.max(amount);
+/// Shares of the pixels of an area that a line covers, and the part of each row that it comes near.
+struct Pen {
+    clip: Rectangle,
+    coverage: Vec<f32>,
+    touched: Vec<[usize; 2]>,
+}
+
+impl Pen {
+    fn over(clip: Rectangle) -> Self {
+        let [wide, high] = [clip.width, clip.height].map(|n| n.max(0) as usize);
+        Self { clip, coverage: vec![0.0; wide * high], touched: vec![[wide, 0]; high] }
+    }
+
+    /// Raises the coverage of the pixels near a segment to their share under a round pen.
+    fn cover(&mut self, segment: [[f32; 2]; 2], width: f32) {
+        let clip = self.clip;
+        let [from, to] = segment.map(|[x, y]| glam::Vec2::new(x - clip.x as f32, y - clip.y as f32));
+        let reach = 0.5 * width + 1.0;
+        let (low, high) = (from.min(to) - reach, from.max(to) + reach);
+        let along = to - from;
+        let length_squared = along.length_squared().max(f32::MIN_POSITIVE);
+        let [left, right] = [low.x.max(0.0) as usize, high.x.ceil().clamp(0.0, clip.width as f32) as usize];
+        for y in (low.y.max(0.0) as i32)..(high.y.ceil().min(clip.height as f32) as i32) {
+            let [first, end] = &mut self.touched[y as usize];
+            (*first, *end) = ((*first).min(left), (*end).max(right));
+            for x in left..right {
+                let point = glam::Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                let nearest = from + along * ((point - from).dot(along) / length_squared).clamp(0.0, 1.0);
+                let amount = (reach - 0.5 - point.distance(nearest)).clamp(0.0, 1.0);
+                let pixel = &mut self.coverage[y as usize * clip.width as usize + x];
+                *pixel = pixel.max(amount);
+            }
         }
     }
 }

@@ -346,6 +346,13 @@ impl Scene {
         self.materials.values().map(|material| material.params_with_fracture(share, cell)).collect()
     }
 
+    /// The same for energies on the host.
+    #[must_use]
+    pub fn laws(&self) -> crate::material::Laws {
+        let shared = self.numerics.paper.ghost == Ghost::SharedVolume;
+        crate::material::Laws { materials: self.material_parameters(), start: self.gas.ambient.pressure, shared }
+    }
+
     /// The JSON schema of scene files (draft 2020-12).
     #[must_use]
     pub fn schema() -> schemars::Schema {

@@ -1,8 +1,25 @@
 //! The particles of the solids and the nodes they write to.
 
 use crate::error::Result;
-use crate::gpu::{Buffer, Gpu};
+use crate::gpu::{Buffer, Gpu, readback};
+use crate::material::{Laws, MaterialParams};
 use crate::scene::Scene;
+
+use super::State;
+
+impl State {
+    /// The laws of the materials, as the device has them now.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub(crate) fn laws(&self) -> Result<Laws> {
+        let numbers: Vec<f32> = readback::read(&self.gpu, &self.materials)?;
+        let width = size_of::<MaterialParams>() / size_of::<f32>();
+        let materials = numbers.chunks_exact(width).map(|own| *bytemuck::from_bytes(bytemuck::cast_slice(own)));
+        let shared = self.overrides.iter().any(|(name, value)| *name == "SHARED_VOLUME" && *value != 0.0);
+        Ok(Laws { materials: materials.collect(), start: self.params.ambient_pressure.into(), shared })
+    }
+}
 
 /// Buffers of the particles, structure of arrays.
 #[derive(Debug)]

@@ -35,6 +35,7 @@ fn snapshot(dimension: u32) -> Snapshot {
         grid,
         gases: brisance::scene::EquationOfState { gamma: 1.4, species: None },
         fire: brisance::scene::Fire::default(),
+        laws: brisance::material::Laws::default(),
         kind: kinds,
         density: (0..count).map(number).collect(),
         velocity: (0..count).map(|index| [number(index), 10.0, -1.0]).collect(),

@@ -250,3 +250,39 @@ fn what_is_pressed_or_bears_its_load_has_no_damage() {
     assert!(damage([-4e-4, 4e-4], [1e-3, 6e-4]) == 0.0, "pulled to 0.4 and 0.7 of the strengths");
     assert!(damage([-2e-3, 2e-3], [1e-3, 1e-3]) > 0.0, "pulled to twice the strength");
 }
+
+/// A disc of each law in a blast, one of which breaks: energies of bodies on the host are together that of the step, from the device.
+#[test]
+fn elastic_energies_of_bodies_are_those_of_the_step() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let laws = [
+        ("neo_hookean", "", "\nfracture = { tensile_strength = 0.02, fracture_energy = 1e-4 }"),
+        ("von_mises", ", yield_stress = 0.2", ""),
+        ("fixed_corotated", "", "\nfracture = { tensile_strength = 0.02, fracture_energy = 1e-4 }"),
+        ("hencky", ", yield_stress = 0.3", ""),
+        ("drucker_prager", ", cohesion = 0.2", ""),
+    ];
+    let disc = |(k, (law, more, fracture)): (usize, &(&str, &str, &str))| {
+        let height = 0.2 + 0.4 * k as f64;
+        format!(
+            "[materials.{law}]\n{law} = {{ young_modulus = 20.0, poisson_ratio = 0.3{more} }}{fracture}\n\
+             [[bodies]]\nname = \"{law}\"\nmaterial = \"{law}\"\ndensity = 4.0\n\
+             shape = {{ sphere = {{ center = [0.6, {height:?}], radius = 0.15 }} }}\n"
+        )
+    };
+    let discs: String = laws.iter().enumerate().map(disc).collect();
+    let text = format!(
+        "title = \"laws\"\n[domain]\ndimension = 2\ncells = [32, 40]\nsize = [1.6, 2.0]\n\
+         [gas]\nambient = {{ density = 1.0, pressure = 1.0 }}\n[[gas.regions]]\ndensity = 4.0\npressure = 8.0\n\
+         shape = {{ half_space = {{ point = [0.35, 0.0], normal = [1.0, 0.0] }} }}\n{discs}[time]\nuntil = 0.4\n"
+    );
+    let scene = Scene::parse(&text, "laws.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(&gpu, &scene).unwrap_or_else(|error| panic!("{error}"));
+    let last = simulation.advance_to(0.4).unwrap_or_else(|error| panic!("{error}")).pop().expect("some steps");
+    let bodies = simulation.snapshot().unwrap().bodies(laws.len());
+    let (energy, right) = (bodies.iter().map(|body| body.elastic_energy).sum::<f64>(), f64::from(last.elastic_energy));
+    let cracks = last.fracture_energy;
+    println!("{energy} {right}, cracks {cracks}, broken {}", last.broken_mass);
+    assert!(bodies.iter().all(|body| body.elastic_energy > 0.0) && cracks > 0.0, "{bodies:?}");
+    assert!((energy / right - 1.0).abs() < 1e-5, "{energy}, not {right}");
+}

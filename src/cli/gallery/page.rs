@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use super::Shown;
 use crate::cli::args::Cli;
+use crate::cli::page::moving::Small;
 use crate::cli::page::{cells, checks, device_text, memory, number, parameters, pictures, start, table};
 use crate::cli::progress::clock;
 use crate::render::escape;
@@ -69,7 +70,7 @@ fn section(page: &mut String, out: &Path, one: &Shown) {
     if let Some(error) = &one.error {
         let _ = writeln!(page, "<p class=\"fail\">{}</p>", escape(error));
     }
-    pictures(page, &out.join(&one.entry.id).join("frames"), MOVING_WIDTH);
+    pictures(page, &out.join(&one.entry.id).join("frames"), &Small::none(MOVING_WIDTH));
     let _ = writeln!(page, "<div class=\"sides\">");
     table(page, "parameter", &parameters(report));
     table(page, "number", &numbers(one));

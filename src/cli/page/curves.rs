@@ -13,12 +13,13 @@ const PARTS: usize = 300;
 /// Tables of gauges: points in the gas, and what `[[gauges]]` sit on.
 const GAUGES: [&str; 2] = ["probes.csv", "gauges.csv"];
 /// Plots of bodies with their columns: strain, stress and energy.
-const OF_BODIES: [(&str, &str); 5] = [
+const OF_BODIES: [(&str, &str); 6] = [
     ("Plastic strain", "plastic_strain"),
     ("Mean plastic strain", "mean_plastic_strain"),
     ("Elastic strain", "elastic_strain"),
     ("Deviatoric stress", "deviatoric_stress"),
-    ("Energy of bodies", "kinetic_energy"),
+    ("Kinetic energy of bodies", "kinetic_energy"),
+    ("Elastic energy of bodies", "elastic_energy"),
 ];
 /// Time axes.
 pub(super) const TIME: &str = "time [s]";

@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::curves::Tables;
 pub(in crate::cli) use super::curves::gauges;
+use super::moving::Small;
 use super::pieces;
 use super::{cells, checks, device_text, memory, number, parameters, pictures, start, table};
 use crate::Result;
@@ -16,19 +17,17 @@ use crate::render::{Plot, escape};
 
 /// Name of the file.
 pub(in crate::cli) const NAME: &str = "report.html";
-/// Width of the moving picture, at most \[pixels\].
-const MOVING_WIDTH: u32 = 320;
 
-/// Writes the page of a run that has ended, from its report, its scene as text, its tables and its pictures.
+/// Writes the page of a run that has ended, from its report, its scene as text, its tables and its pictures, small ones of which are kept.
 ///
 /// # Errors
 /// [`crate::Error::Io`] if it cannot be written.
-pub(in crate::cli) fn write(folder: &Path, report: &Value, scene: &str) -> Result<()> {
-    let page = html(folder, report, scene);
+pub(in crate::cli) fn write(folder: &Path, report: &Value, scene: &str, small: &Small) -> Result<()> {
+    let page = html(folder, report, scene, small);
     atomic::write(&folder.join(NAME), |out| out.write_all(page.as_bytes()))
 }
 
-fn html(folder: &Path, report: &Value, scene: &str) -> String {
+fn html(folder: &Path, report: &Value, scene: &str, small: &Small) -> String {
     let (tables, title) = (Tables::read(folder), report["scene"]["title"].as_str().unwrap_or("a run"));
     let text = |key: &str| escape(report[key].as_str().unwrap_or_default());
     let mut page = start(&format!("Brisance: {title}"));
@@ -46,7 +45,7 @@ fn html(folder: &Path, report: &Value, scene: &str) -> String {
     for wrong in &tables.wrong {
         let _ = writeln!(page, "<p class=\"fail\">{}</p>", escape(wrong));
     }
-    pictures(&mut page, &folder.join("frames"), MOVING_WIDTH);
+    pictures(&mut page, &folder.join("frames"), small);
     heading(&mut page, "Verdict");
     verdict(&mut page, report);
     let axes = report["scene"]["domain"]["dimension"].as_u64().unwrap_or(3).clamp(1, 3) as usize;

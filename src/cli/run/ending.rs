@@ -6,6 +6,7 @@ use std::time::Duration;
 use super::super::film;
 use super::super::folder::Folder;
 use super::super::outcome::{Verdict, changes, device, status, totals, verdict};
+use super::super::page::moving::Small;
 use super::super::page::{run as page, spans};
 use super::super::progress::clock;
 use super::super::writer::{Message, Written};
@@ -29,7 +30,8 @@ impl Run<'_> {
             (Ok(()), Err(error)) => Err(error),
             (outcome, _) => outcome,
         };
-        let written = std::mem::take(&mut self.written);
+        let mut written = std::mem::take(&mut self.written);
+        let small = std::mem::take(&mut written.small);
         let filmed = film::tell(&written.films, self.options.quiet || json);
         let judged = match status(&outcome) {
             Status::Failed => Ok(Verdict::default()),
@@ -58,7 +60,7 @@ impl Run<'_> {
                 report
             }
         };
-        outcome = outcome.and(self.write_page(&report));
+        outcome = outcome.and(self.write_page(&report, &small));
         if json && outcome.is_ok() {
             say!("{}", serde_json::to_string(&report).unwrap_or_default());
         } else if !json && !self.options.quiet {
@@ -139,10 +141,10 @@ impl Run<'_> {
     }
 
     /// The page of the run; its last files are written.
-    fn write_page(&self, report: &Report<&Scene>) -> Result<()> {
+    fn write_page(&self, report: &Report<&Scene>, small: &Small) -> Result<()> {
         let path = &self.folder.path;
         let report = serde_json::to_value(report).map_err(|error| Error::io(path, error.into()))?;
-        page::write(path, &report, &toml::to_string(&self.scene).unwrap_or_default())?;
+        page::write(path, &report, &toml::to_string(&self.scene).unwrap_or_default(), small)?;
         Folder::note(path, &[path.join(page::NAME)])
     }
 
