@@ -1,13 +1,14 @@
 // interface, the ledger: what happens to the gas of cells that a body covers or uncovers.
-// A SOLID slot of the gas state keeps the gas of the cell it covers plus all fluxes through its faces: owed gas, not pressurised.
+// A SOLID slot of the gas state keeps the gas of the cell it covers plus all fluxes through its faces, by sides [interface/sides.wgsl].
 // `owed` is what a GAS cell still owes (negative: it was filled with more than it holds). Gas plus owed gas is conserved.
 // A GAS cell settles what it owes if it can stand that, so much per step that its state changes little, and passes the rest on to its gas
 // neighbours. A SOLID cell at the surface holds as much as it covered, and gives it off through its faces while the body goes on to the
-// next cell; what is beyond goes to its gas neighbours. A buried one passes all that it has back to the surface, if that is next to it,
-// or to all its neighbours: through the body gas would leak to its lee.
+// next cell; what is beyond goes to its gas neighbours on that side. Gas of a side that has none any more goes on in its direction: through
+// the body it would leak to its lee.
 #include "shared/index.wgsl"
 #include "shared/gas_at.wgsl"
 #include "interface/owed_species.wgsl"
+#include "interface/sides.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;
@@ -17,6 +18,7 @@
 @group(0) @binding(6) var<storage, read_write> work: array<vec4f>;
 @group(0) @binding(7) var<storage, read> ghost: array<f32>;
 @group(0) @binding(8) var<storage, read> node: array<vec4f>;
+@group(0) @binding(9) var<storage, read_write> control: Control;
 
 // Largest relative change of density and internal energy that a cell settles in one step.
 const SETTLED_PER_STEP = 0.1;
@@ -99,7 +101,9 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let word = cells[slot];
-    if kind_of(word) != GAS || previous_kind_of(word) != SOLID { return; }
+    if previous_kind_of(word) != SOLID { return; }
+    if kind_of(word) == SOLID { sort_by_sides(slot); }
+    if kind_of(word) != GAS { return; }
     let c = cell_of(slot);
     let sum = fill_from_neighbours(c);
     let count = max(sum.count, 1.0);
@@ -131,29 +135,6 @@ fn with_part(gas: Gas, slot: u32, part: f32) -> Gas {
 
 fn at_surface(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && neighbours_of_kind(cell_of(slot), GAS) > 0u; }
 
-// SOLID neighbours of a slot that have gas beside them.
-fn surface_neighbours(slot: u32) -> u32 {
-    let c = cell_of(slot);
-    var count = 0u;
-    for (var a = 0u; a < DIM; a++) {
-        if inside(c - axis(a)) { count += u32(at_surface(slot - step_of(a))); }
-        if inside(c + axis(a)) { count += u32(at_surface(slot + step_of(a))); }
-    }
-    return count;
-}
-
-// Density of the gas beside a slot.
-fn density_beside(slot: u32) -> f32 {
-    var sum = vec2f(0.0);
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = 0u; side < 2u; side++) {
-            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
-            if kind_of(cells[other]) == GAS { sum += vec2f(1.0, conserved[other].x); }
-        }
-    }
-    return sum.y / max(sum.x, 1.0);
-}
-
 // Part of what it owes that a gas cell with so many gas neighbours settles now.
 fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     let gas = Gas(conserved[slot], energy[slot], species_now(slot), unburned_at(slot));
@@ -178,34 +159,28 @@ fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     return 0.0;
 }
 
-// Who gets what a slot hands on: its GAS neighbours, its SOLID ones at the surface, or all that are SOLID.
-const TO_GAS = 0.0;
-const TO_SURFACE = 1.0;
-const TO_SOLID = 2.0;
+fn is_covered_now(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && previous_kind_of(cells[slot]) == GAS; }
 
-struct Handed { flow: vec4f, energy: f32, species: vec2f, receivers: f32 }
-
-fn handed_by_gas(slot: u32, c: vec3i) -> Handed {
-    let count = neighbours_of_kind(c, GAS);
-    if count == 0u { return Handed(vec4f(0.0), 0.0, vec2f(0.0), TO_GAS); }
-    let each = (1.0 - settled_part(slot, count)) / f32(count);
-    return Handed(each * owed_flow[slot], each * owed_energy[slot], each * owed_species(slot), TO_GAS);
+// How many cells beside one that opens are covered in the same step: a wall of one cell goes from the one to the other.
+fn followers(slot: u32) -> u32 {
+    if kind_of(cells[slot]) != GAS || previous_kind_of(cells[slot]) != SOLID { return 0u; }
+    var count = 0u;
+    for (var a = 0u; a < DIM; a++) { count += u32(is_covered_now(slot - step_of(a))) + u32(is_covered_now(slot + step_of(a))); }
+    return count;
 }
 
-fn handed_by_solid(slot: u32, c: vec3i) -> Handed {
-    let flow = conserved[slot] * cell_volume() + owed_flow[slot];
-    let heat = energy[slot] * cell_volume() + owed_energy[slot];
-    let species = covered_species(slot) * cell_volume() + owed_species(slot);
+// What a GAS cell hands to each of its GAS neighbours; where a wall has just left it, all that it owes to the cells that the wall covers now:
+// it is gas from ahead.
+fn handed_by_gas(slot: u32, c: vec3i) -> Handed {
+    var out: Handed;
     let gas = neighbours_of_kind(c, GAS);
-    if gas > 0u {
-        let part = 1.0 - HELD_AT_SURFACE * density_beside(slot) * cell_volume() / max(abs(flow.x), 1e-30);
-        let each = max(part, 0.0) / f32(gas);
-        return Handed(each * flow, each * heat, each * species, TO_GAS);
-    }
-    let surface = surface_neighbours(slot);
-    let count = select(neighbours_of_kind(c, SOLID), surface, surface > 0u);
-    let each = select(0.0, 1.0 / f32(max(count, 1u)), count > 0u);
-    return Handed(each * flow, each * heat, each * species, select(TO_SOLID, TO_SURFACE, surface > 0u));
+    let ahead = followers(slot);
+    let count = select(gas, ahead, ahead > 0u);
+    if count == 0u { return out; }
+    var part = 0.0;
+    for (var turn = 0u; turn < when(ahead == 0u); turn++) { part = settled_part(slot, gas); }
+    let each = (1.0 - part) / f32(count);
+    return Handed(each * owed_flow[slot], each * owed_energy[slot], each * owed_species(slot), TO_NOBODY);
 }
 
 // To each of the receivers.
@@ -217,36 +192,88 @@ fn ledger_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     let owes = kind == GAS && (any(owed_flow[slot] != vec4f(0.0)) || owed_energy[slot] != 0.0);
     var out: Handed;
     for (var turn = 0u; turn < when(owes); turn++) { out = handed_by_gas(slot, cell_of(slot)); }
-    for (var turn = 0u; turn < when(kind == SOLID); turn++) { out = handed_by_solid(slot, cell_of(slot)); }
+    for (var turn = 0u; turn < when(kind == SOLID); turn++) { out = handed_by_solid(slot); }
     work[part(HANDED_FLOW, slot)] = out.flow;
     energy[part(HANDED_ENERGY, slot)] = out.energy;
     if SPECIES {
         energy[part(HANDED_SPECIES_MASS, slot)] = out.species.x;
         energy[part(HANDED_SPECIES_ENERGY, slot)] = out.species.y;
     }
-    if kind == SOLID { energy[part(RECEIVERS, slot)] = out.receivers; }
+    if kind == SOLID { energy[part(RECEIVERS, slot)] = f32(out.receivers); }
 }
 
-// What the neighbours of a slot hand on to it.
-fn incoming(slot: u32, kind: u32) -> Sum {
-    var sum: Sum;
+fn receivers_of(slot: u32) -> u32 { return u32(energy[part(RECEIVERS, slot)]); }
+
+fn handed_to_each(slot: u32) -> Held {
+    return Held(work[part(HANDED_FLOW, slot)], energy[part(HANDED_ENERGY, slot)], species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_ENERGY, slot));
+}
+
+// Whether a SOLID neighbour across an axis hands something on to a slot of a kind; `up`: from below.
+fn takes_from(other: u32, a: u32, up: bool, kind: u32, surface: bool) -> bool {
+    let receivers = receivers_of(other);
+    let whom = receivers & 3u;
+    if whom == TO_NOBODY || !serves(other, receivers, a, up, kind) { return false; }
+    if kind == GAS { return whom == TO_GAS; }
+    return whom == TO_SOLID || (whom == TO_SURFACE && surface);
+}
+
+// What the neighbours of a slot hand on to it: in a SOLID one, what comes from below is for the side above, and the other way round.
+fn incoming(slot: u32, kind: u32) -> Books {
+    var sum: Books;
     let surface = kind == SOLID && at_surface(slot);
     for (var a = 0u; a < DIM; a++) {
         for (var side = 0u; side < 2u; side++) {
-            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
+            let up = side == 0u;
+            let other = select(slot + step_of(a), slot - step_of(a), up);
             let kind_there = kind_of(cells[other]);
-            var takes = kind_there == GAS || kind_there == SOLID;
-            if kind == SOLID {
-                let receivers = energy[part(RECEIVERS, other)];
-                takes = kind_there == SOLID && (receivers == TO_SOLID || (receivers == TO_SURFACE && surface));
-            }
+            var takes = false;
+            if kind_there == GAS { takes = select(followers(other) == 0u, followers(other) > 0u && is_covered_now(slot), kind == SOLID); }
+            if kind_there == SOLID { takes = takes_from(other, a, up, kind, surface); }
             if !takes { continue; }
-            sum.flow += work[part(HANDED_FLOW, other)];
-            sum.energy += energy[part(HANDED_ENERGY, other)];
-            sum.species += species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_ENERGY, other);
+            if kind == SOLID && side_of(slot, (receivers_of(slot) & TURNED) != 0u, a, up) == UPPER {
+                sum.upper = sum_of_held(sum.upper, handed_to_each(other));
+            } else {
+                sum.lower = sum_of_held(sum.lower, handed_to_each(other));
+            }
         }
     }
     return sum;
+}
+
+fn settle_solid(slot: u32) {
+    let receivers = receivers_of(slot);
+    var books = books_of(slot, receivers);
+    let whom = receivers & 3u;
+    if whom != TO_NOBODY {
+        var left: Held;
+        let from_upper = (receivers & FROM_UPPER) != 0u;
+        if whom == TO_GAS {
+            left = books.lower;
+            if from_upper { left = books.upper; }
+            left = sum_of_held(left, times(handed_to_each(slot), -counts_beside(slot, receivers).x));
+        }
+        if from_upper { books.upper = left; } else { books.lower = left; }
+    }
+    let more = incoming(slot, SOLID);
+    keep_books(slot, Books(sum_of_held(books.lower, more.lower), sum_of_held(books.upper, more.upper)));
+}
+
+fn settle_gas(slot: u32) {
+    var owed = Held(owed_flow[slot], owed_energy[slot], owed_species(slot));
+    if followers(slot) > 0u { owed = Held(); }
+    for (var turn = 0u; turn < when(!is_nothing(owed)); turn++) {
+        let part = settled_part(slot, neighbours_of_kind(cell_of(slot), GAS));
+        if SPECIES { hold_species(slot, with_part(gas_at(slot), slot, part).species); }
+        conserved[slot] += part * owed.flow / cell_volume();
+        energy[slot] += part * owed.energy / cell_volume();
+        owed = times(owed, 1.0 - part);
+        // The rest goes on, if there is somebody to take it.
+        if neighbours_of_kind(cell_of(slot), GAS) > 0u && part < 1.0 { owed = Held(); }
+    }
+    owed = sum_of_held(owed, incoming(slot, GAS).lower);
+    owed_flow[slot] = owed.flow;
+    owed_energy[slot] = owed.energy;
+    owe_species(slot, owed.species);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -254,47 +281,7 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let kind = kind_of(cells[slot]);
-    let c = cell_of(slot);
-    if (kind != GAS && kind != SOLID) || !inside(c) { return; }
-    var flow = owed_flow[slot];
-    var heat = owed_energy[slot];
-    var species = owed_species(slot);
-    let owes = kind == GAS && (any(flow != vec4f(0.0)) || heat != 0.0);
-    for (var turn = 0u; turn < when(owes); turn++) {
-        let part = settled_part(slot, neighbours_of_kind(c, GAS));
-        if SPECIES { hold_species(slot, with_part(gas_at(slot), slot, part).species); }
-        conserved[slot] += part * flow / cell_volume();
-        energy[slot] += part * heat / cell_volume();
-        flow *= 1.0 - part;
-        heat *= 1.0 - part;
-        species *= 1.0 - part;
-    }
-    if kind == SOLID {
-        flow += conserved[slot] * cell_volume();
-        heat += energy[slot] * cell_volume();
-        species += covered_species(slot) * cell_volume();
-    }
-    let handed_on = any(work[part(HANDED_FLOW, slot)] != vec4f(0.0)) || energy[part(HANDED_ENERGY, slot)] != 0.0;
-    for (var turn = 0u; turn < when(handed_on); turn++) {
-        let keeps = at_surface(slot);
-        let count = f32(neighbours_of_kind(c, GAS));
-        flow = select(vec4f(0.0), flow - count * work[part(HANDED_FLOW, slot)], keeps);
-        heat = select(0.0, heat - count * energy[part(HANDED_ENERGY, slot)], keeps);
-        species = select(vec2f(0.0), species - count * species_at(HANDED_SPECIES_MASS, HANDED_SPECIES_ENERGY, slot), keeps);
-    }
-    let more = incoming(slot, kind);
-    flow += more.flow;
-    heat += more.energy;
-    species += more.species;
-    if kind == SOLID {
-        conserved[slot] = flow / cell_volume();
-        energy[slot] = heat / cell_volume();
-        hold_species(slot, species / cell_volume());
-        flow = vec4f(0.0);
-        heat = 0.0;
-        species = vec2f(0.0);
-    }
-    owed_flow[slot] = flow;
-    owed_energy[slot] = heat;
-    owe_species(slot, species);
+    if !inside(cell_of(slot)) { return; }
+    for (var turn = 0u; turn < when(kind == GAS); turn++) { settle_gas(slot); }
+    for (var turn = 0u; turn < when(kind == SOLID); turn++) { settle_solid(slot); }
 }

@@ -1,7 +1,7 @@
 // time_step: how far may the next step go?
 // Reads gas, particles. Writes control.dt and the partial maxima. On return dt satisfies every bound and stays on the device.
 // rate = max over cells of sum over axes of (a + sqrt(a^2 + 4 b)) / 2, a = |u| / dx, b = |dp| / (dx^2 rho)
-// [Kwatra et al. 2009, eq. 20]; also dt <= cfl dx / |v_particle|, dt <= max_courant dx / c and dt <= max_growth dt_previous.
+// [Kwatra et al. 2009, eq. 20]; also dt <= cfl dx / |v_particle|, dt <= max_courant dx / c and dt <= max_growth times the step before.
 #include "shared/domain.wgsl"
 #include "shared/gas_at.wgsl"
 #include "shared/reduce.wgsl"
@@ -139,7 +139,8 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     if dt == 0.0 {
         dt = params.max_courant * params.spacing / max(sound, 1e-30);
         dt = min(dt, params.cfl / max(largest.x, 1e-30));
-        if control.dt_previous > 0.0 { dt = min(dt, params.max_growth * control.dt_previous); }
+        // growth counts from the step as taken: steps that alternate between short and long blow up
+        if control.duration > 0.0 { dt = min(dt, params.max_growth * control.duration); }
     }
     let elastic_step = params.elastic_cfl * params.spacing / max(largest.w, 1e-30);
     if SOLIDS {
@@ -149,8 +150,8 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     // Reach the asked time exactly, without a tiny last step.
     if dt >= control.remaining * (1.0 - 1e-5) { dt = control.remaining; }
     else if dt > 0.5 * control.remaining { dt = 0.5 * control.remaining; }
+    control.dt_previous = control.duration;
     control.duration = dt;
-    control.dt_previous = dt; // growth counts from the step as taken: steps that alternate between short and long blow up
     control.dt = select(dt, ARS_SHARE * dt, ARS);
     control.stage = 0u;
     control.substeps = 0u;

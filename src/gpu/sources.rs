@@ -30,6 +30,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "interface/ledger.wgsl",
     "interface/owed_species.wgsl",
     "interface/parting.wgsl",
+    "interface/sides.wgsl",
     "interface/thin_walls.wgsl",
     "materials/drucker_prager.wgsl",
     "materials/fixed_corotated.wgsl",

@@ -334,7 +334,7 @@ pub const USES: &[Use] = &[
     Use::new("ghost", Name::Array, (At(SolidKick), At(G2p)), "Pa",
         "its change by the solve").of(Scenes::Bodies).in_place(),
     Use::new("owed_flow", Name::Array, (At(Interface), Next(Interface)), "kg, kg m s^-1",
-        "gas that cells owe; in the ring what has crossed since the start, over the volume of a cell"),
+        "gas that cells owe, in bodies covered gas of their upper side; in the ring what has crossed since the start, over the volume of a cell"),
     Use::new("owed_energy", Name::First, (At(Interface), Next(Interface)), "J", "the same"),
     Use::new("owed_energy", Name::Part(1, "OWED_SPECIES_MASS"), (At(Interface), Next(Interface)), "kg",
         "the same of the second gas").of(Scenes::TwoGases),

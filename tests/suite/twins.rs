@@ -266,8 +266,13 @@ impl Twins {
                 // gas cells have no budgets of their own: what floors took is one sum
                 (vec![all[k] / volume], vec![slots.iter().map(twin).sum()])
             } else {
-                let found = covered.iter().map(held).chain(slots.iter().map(owes)).collect();
-                (found, covered.iter().chain(&slots).map(twin).collect())
+                // solid cells have two books, for the gas on either side
+                let found = covered.iter().map(held).chain(covered.iter().chain(&slots).map(owes)).collect();
+                let above = |slot: &usize| self.state.above[*slot][k] / volume;
+                (
+                    found,
+                    covered.iter().map(twin).chain(covered.iter().map(above)).chain(slots.iter().map(twin)).collect(),
+                )
             };
             self.check_scaled(&format!("owed {name}"), tolerance, 1.0, &found, &expected);
         }

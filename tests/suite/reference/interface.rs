@@ -2,6 +2,7 @@
 
 pub(crate) mod ledger;
 pub(crate) mod parting;
+pub(crate) mod sides;
 
 use crate::reference::grid::{add, shift, subtract};
 use crate::reference::solid::p2g::Nodes;

@@ -312,12 +312,16 @@ pub(crate) struct State {
     pub(crate) cells: Vec<u32>,
     /// Amounts of (mass, momentum, energy) of gas owed to or held by a cell.
     pub(crate) ledger: Vec<[f64; 5]>,
+    /// Of a solid cell, what it holds for the gas on its upper side; the rest is in `ledger`.
+    pub(crate) above: Vec<[f64; 5]>,
     pub(crate) particles: Vec<Particle>,
     pub(crate) time: f64,
     /// What outlets with a far pressure know of themselves.
     pub(crate) open: boundary::Memory,
     /// The step before, 0 before the first.
     pub(crate) previous_dt: f64,
+    /// What the last whole step spanned.
+    pub(crate) passed_dt: f64,
 }
 
 impl State {
@@ -344,10 +348,12 @@ impl State {
             gas: cells_gas,
             cells,
             ledger: vec![[0.0; 5]; grid.slots()],
+            above: vec![[0.0; 5]; grid.slots()],
             particles,
             time: 0.0,
             open: boundary::Memory::new(),
             previous_dt: 0.0,
+            passed_dt: 0.0,
         }
     }
 
@@ -357,7 +363,7 @@ impl State {
         for slot in problem.grid.interior().into_iter().map(|c| problem.grid.slot(c)) {
             let held = if self.cells[slot] == GAS { self.gas.get(slot) } else { [0.0; 5] };
             for k in 0..5 {
-                total[k] += held[k] * problem.grid.volume() + self.ledger[slot][k];
+                total[k] += held[k] * problem.grid.volume() + self.ledger[slot][k] + self.above[slot][k];
             }
         }
         total

@@ -49,8 +49,8 @@ pub(crate) fn traced_step(problem: &Problem, state: &mut State, dt: f64) -> (Rep
     let mut bins = particle_sort::bin(problem, &state.particles);
     let mut nodes = p2g::p2g(problem, &state.particles);
     let kinds = interface::kinds(problem, &mut bins, &state.cells);
-    ledger::change_kinds(problem, state, &kinds, &bins);
     let faces = interface::interface(problem, kinds, &bins, &nodes);
+    ledger::change_kinds(problem, state, &faces, (&bins, &nodes), dt);
     elastic_reaction::fill(problem, &faces.cells, &mut nodes);
     if problem.numerics.two_solves {
         let (report, solution) = ars222::two_solves(problem, &faces, (&bins, &nodes), state, dt);

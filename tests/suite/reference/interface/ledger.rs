@@ -1,12 +1,21 @@
 //! Gas owed to or held by cells: covering, uncovering, settling.
 
 use crate::reference::grid::{Grid, add, shift};
+use crate::reference::interface::Interface;
+use crate::reference::interface::sides::Walls;
+use crate::reference::solid::p2g::Nodes;
 use crate::reference::solid::particle_sort::Bins;
 use crate::reference::{GAS, Problem, SOLID, State, internal_energy};
 
-/// Replaces the cell kinds: covered cells put their gas on the ledger, uncovered ones are filled from it.
-pub(crate) fn change_kinds(problem: &Problem, state: &mut State, kinds: &[u32], bins: &Bins) {
-    let grid = &problem.grid;
+/// Replaces the cell kinds before a step of dt: covered cells put their gas on the ledger, uncovered ones are filled from it.
+pub(crate) fn change_kinds(
+    problem: &Problem,
+    state: &mut State,
+    faces: &Interface,
+    (bins, nodes): (&Bins, &Nodes),
+    dt: f64,
+) {
+    let (grid, kinds) = (&problem.grid, &faces.cells);
     let (before, volume) = (state.cells.clone(), grid.volume());
     let old = state.gas.clone();
     for c in grid.interior() {
@@ -21,17 +30,21 @@ pub(crate) fn change_kinds(problem: &Problem, state: &mut State, kinds: &[u32], 
                 let total = |k: usize| near.iter().map(|n| old.get(*n)[k]).sum::<f64>() / near.len() as f64;
                 (!near.is_empty()).then(|| [0, 1, 2, 3, 4].map(total))
             };
-            let fill = mean(faces(grid)).or_else(|| mean(grid.offsets(-1, 1))).or_else(|| mean(grid.offsets(-2, 2)));
+            let fill = mean(across(grid)).or_else(|| mean(grid.offsets(-1, 1))).or_else(|| mean(grid.offsets(-2, 2)));
             let fill = fill.unwrap_or_else(|| pocket(problem, state, bins, c));
             state.gas.set(slot, fill);
-            (0..5).for_each(|k| state.ledger[slot][k] -= fill[k] * volume);
+            let above = std::mem::take(&mut state.above[slot]);
+            (0..5).for_each(|k| state.ledger[slot][k] += above[k] - fill[k] * volume);
         }
     }
-    state.cells = kinds.to_vec();
-    settle(problem, state);
+    let walls = Walls { grid, faces, nodes, before: &before };
+    walls.sort(state, &old, state.passed_dt);
+    state.passed_dt = dt;
+    state.cells.clone_from(kinds);
+    settle(problem, state, &walls);
 }
 
-fn faces(grid: &Grid) -> Vec<[i32; 3]> {
+fn across(grid: &Grid) -> Vec<[i32; 3]> {
     (0..grid.dimension).flat_map(|axis| [shift([0; 3], axis, -1), shift([0; 3], axis, 1)]).collect()
 }
 
@@ -91,47 +104,52 @@ pub(crate) fn settled_part(
     0.0
 }
 
-/// Gas cells apply a part of their ledger and hand the rest to gas neighbours. Solid cells at the surface keep up to 1.1 times what gas of
-/// the density beside them would be, and hand the rest to it; buried ones hand all they have to the surface beside them, or to all sides.
-pub(crate) fn settle(problem: &Problem, state: &mut State) {
+/// Gas cells apply a part of their ledger and hand the rest to gas neighbours. Solid cells hand on as [`Walls::handed`] says.
+fn settle(problem: &Problem, state: &mut State, walls: &Walls<'_>) {
     let grid = &problem.grid;
-    let mut next = vec![[0.0; 5]; grid.slots()];
-    let density: Vec<f64> = (0..grid.slots()).map(|slot| state.gas.get(slot)[0]).collect();
-    let near = |c: [i32; 3]| faces(grid).into_iter().map(move |o| add(c, o)).filter(|n| grid.contains(*n));
-    let cells = state.cells.clone();
-    let beside = |c: [i32; 3], kind: u32| near(c).filter(|n| cells[grid.slot(*n)] == kind).collect::<Vec<_>>();
+    let (mut next, mut above) = (vec![[0.0; 5]; grid.slots()], vec![[0.0; 5]; grid.slots()]);
+    let mut give = |to: usize, amount: [f64; 5], upper: bool| {
+        let book = if upper { &mut above } else { &mut next };
+        (0..5).for_each(|k| book[to][k] += amount[k]);
+    };
+    let mut gas = state.gas.clone();
     for c in grid.interior() {
         let slot = grid.slot(c);
-        let mut rest = state.ledger[slot];
-        if rest == [0.0; 5] {
+        if state.cells[slot] == SOLID {
+            let handed = walls.handed(state, c);
+            let taken = |upper| match &handed {
+                Some(handed) if handed.upper == upper => handed.each.map(|x| x * handed.receivers.len() as f64),
+                _ => [0.0; 5],
+            };
+            let left = |held: [f64; 5], taken: [f64; 5]| [0, 1, 2, 3, 4].map(|k| held[k] - taken[k]);
+            give(slot, left(state.ledger[slot], taken(false)), false);
+            give(slot, left(state.above[slot], taken(true)), true);
+            for (to, upper) in handed.iter().flat_map(|handed| &handed.receivers) {
+                give(*to, handed.as_ref().map_or([0.0; 5], |handed| handed.each), *upper);
+            }
             continue;
         }
-        let mut targets = beside(c, GAS);
-        if state.cells[slot] == GAS {
-            let u = state.gas.get(slot);
-            let open = targets.len() + 1 >= 2 * grid.dimension;
-            let part = settled_part(u, rest, grid.volume(), open, (problem.gamma, problem.least_entropy));
-            state.gas.set(slot, [0, 1, 2, 3, 4].map(|k| u[k] + part * rest[k] / grid.volume()));
-            rest = rest.map(|owed| (1.0 - part) * owed);
-        } else if targets.is_empty() {
-            targets = beside(c, SOLID);
-            let surface: Vec<_> = targets.iter().copied().filter(|n| !beside(*n, GAS).is_empty()).collect();
-            if !surface.is_empty() {
-                targets = surface;
-            }
-        } else {
-            let mean = targets.iter().map(|n| density[grid.slot(*n)]).sum::<f64>() / targets.len() as f64;
-            let part = (1.0 - 1.1 * mean * grid.volume() / rest[0].abs()).max(0.0);
-            (0..5).for_each(|k| next[slot][k] += (1.0 - part) * rest[k]);
-            rest = rest.map(|held| part * held);
+        let owed = state.ledger[slot];
+        if owed == [0.0; 5] {
+            continue;
         }
+        let ahead = walls.followers(&state.gas, c);
+        if !ahead.is_empty() {
+            let each = owed.map(|x| x / ahead.len() as f64);
+            ahead.into_iter().for_each(|(to, upper)| give(to, each, upper));
+            continue;
+        }
+        let near = across(grid).into_iter().map(|o| add(c, o)).filter(|n| grid.contains(*n));
+        let mut targets: Vec<_> = near.map(|n| grid.slot(n)).filter(|n| state.cells[*n] == GAS).collect();
+        let u = state.gas.get(slot);
+        let open = targets.len() + 1 >= 2 * grid.dimension;
+        let part = settled_part(u, owed, grid.volume(), open, (problem.gamma, problem.least_entropy));
+        gas.set(slot, [0, 1, 2, 3, 4].map(|k| u[k] + part * owed[k] / grid.volume()));
         if targets.is_empty() {
-            targets.push(c);
+            targets.push(slot);
         }
-        let share = 1.0 / targets.len() as f64;
-        for target in targets {
-            (0..5).for_each(|k| next[grid.slot(target)][k] += share * rest[k]);
-        }
+        let share = (1.0 - part) / targets.len() as f64;
+        targets.into_iter().for_each(|target| give(target, owed.map(|x| share * x), false));
     }
-    state.ledger = next;
+    (state.gas, state.ledger, state.above) = (gas, next, above);
 }
