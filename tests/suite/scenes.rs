@@ -10,11 +10,7 @@ use crate::common::{files_below, gpu_or_skip, is_kind, slashed};
 
 /// Scenes that were not looked through for warnings: what is told of them may be right, or a fault.
 const UNJUDGED: &[&str] = &[
-    "demos/glass_front_2d.toml",
     "demos/meteor_3d.toml",
-    "demos/playground_2d.toml",
-    "demos/shaped_cavity_2d.toml",
-    "demos/sonic_boom_2d.toml",
     "paper/fig01_car_landmine.toml",
     "paper/fig02_tribunny.toml",
     "paper/fig03_elastic_shell_2d.toml",
