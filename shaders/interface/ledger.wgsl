@@ -159,13 +159,21 @@ fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     return 0.0;
 }
 
-fn is_covered_now(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && previous_kind_of(cells[slot]) == GAS; }
+// Whether a wall of one cell goes in this step from a slot, which opens, to the one across an axis: it moves that way, with gas behind it.
+fn goes_on(slot: u32, a: u32, up: bool) -> bool {
+    let ahead = select(slot - step_of(a), slot + step_of(a), up);
+    let behind = cells[select(slot + step_of(a), slot - step_of(a), up)];
+    let opens = kind_of(cells[slot]) == GAS && previous_kind_of(cells[slot]) == SOLID;
+    let covers = kind_of(cells[ahead]) == SOLID && previous_kind_of(cells[ahead]) == GAS;
+    if !opens || !covers || kind_of(behind) != GAS || previous_kind_of(behind) != GAS { return false; }
+    return side_of(ahead, false, a, up) == UPPER;
+}
 
-// How many cells beside one that opens are covered in the same step: a wall of one cell goes from the one to the other.
+// How many cells a wall of one cell goes to from a slot.
 fn followers(slot: u32) -> u32 {
     if kind_of(cells[slot]) != GAS || previous_kind_of(cells[slot]) != SOLID { return 0u; }
     var count = 0u;
-    for (var a = 0u; a < DIM; a++) { count += u32(is_covered_now(slot - step_of(a))) + u32(is_covered_now(slot + step_of(a))); }
+    for (var a = 0u; a < DIM; a++) { count += u32(goes_on(slot, a, false)) + u32(goes_on(slot, a, true)); }
     return count;
 }
 
@@ -209,11 +217,12 @@ fn handed_to_each(slot: u32) -> Held {
 }
 
 // Whether a SOLID neighbour across an axis hands something on to a slot of a kind; `up`: from below.
-fn takes_from(other: u32, a: u32, up: bool, kind: u32, surface: bool) -> bool {
+fn takes_from(slot: u32, other: u32, a: u32, up: bool, kind: u32, surface: bool) -> bool {
     let receivers = receivers_of(other);
     let whom = receivers & 3u;
     if whom == TO_NOBODY || !serves(other, receivers, a, up, kind) { return false; }
     if kind == GAS { return whom == TO_GAS; }
+    if !follows(other, slot) { return false; }
     return whom == TO_SOLID || (whom == TO_SURFACE && surface);
 }
 
@@ -227,8 +236,9 @@ fn incoming(slot: u32, kind: u32) -> Books {
             let other = select(slot + step_of(a), slot - step_of(a), up);
             let kind_there = kind_of(cells[other]);
             var takes = false;
-            if kind_there == GAS { takes = select(followers(other) == 0u, followers(other) > 0u && is_covered_now(slot), kind == SOLID); }
-            if kind_there == SOLID { takes = takes_from(other, a, up, kind, surface); }
+            if kind_there == GAS && kind == GAS { takes = followers(other) == 0u; }
+            if kind_there == GAS && kind == SOLID { takes = goes_on(other, a, up); }
+            if kind_there == SOLID { takes = takes_from(slot, other, a, up, kind, surface); }
             if !takes { continue; }
             if kind == SOLID && side_of(slot, (receivers_of(slot) & TURNED) != 0u, a, up) == UPPER {
                 sum.upper = sum_of_held(sum.upper, handed_to_each(other));

@@ -2,7 +2,7 @@
 // A wall of one or two cells takes in gas behind while it gives off gas ahead, from the same cell. Those are two gases: what is left of one
 // must not come out on the other side. So a SOLID slot keeps two books: one for the gas on its lower side, `conserved`, which collects all
 // that passes, and one for its upper side, `owed_flow`. Ahead is upper, but where gas lies on both sides and that behind is denser, behind
-// is: a wall that swings back keeps its sides. Faces along the motion belong to neither side, and serve both.
+// is: a wall that swings back keeps its sides. Faces along the motion belong to neither side, and serve both, as do all of a body at rest.
 // Needs the bindings of interface/ledger.wgsl.
 
 // Amounts of gas that a SOLID slot holds [kg, kg m s^-1, J]; the second gas as in interface/owed_species.wgsl.
@@ -30,11 +30,16 @@ const UPPER = 2u;
 // A face whose normal is nearer to a right angle with the motion than this cosine lies along it.
 const SIDEWAYS = 0.05;
 
+// A body that is slower than this share of the speed of sound has no sides: noise at rest may cover and open cells.
+const STILL = 1e-3;
+
+fn is_still_body(slot: u32) -> bool { return length(node[slot].xyz) <= STILL * control.sound; }
+
 // Which side of a slot lies behind a face; `turned`: upper is behind.
 fn side_of(slot: u32, turned: bool, a: u32, up: bool) -> u32 {
     let v = node[slot].xyz;
     let towards = select(-v[a], v[a], up != turned);
-    if abs(towards) <= SIDEWAYS * length(v) { return ALONG; }
+    if abs(towards) <= SIDEWAYS * length(v) || is_still_body(slot) { return ALONG; }
     return select(LOWER, UPPER, towards > 0.0);
 }
 
@@ -142,11 +147,14 @@ const SWAPPED = 16u;
 // What goes to each of the receivers.
 struct Handed { flow: vec4f, energy: f32, species: vec2f, receivers: u32 }
 
-// Whether a face is one through which a side hands on: to gas also along the motion.
+// Whether a face is one through which a side hands on: to gas also along the motion, and all faces where there is none.
 fn serves(slot: u32, receivers: u32, a: u32, up: bool, kind: u32) -> bool {
     let here = side_of(slot, (receivers & TURNED) != 0u, a, up);
-    return here == select(LOWER, UPPER, (receivers & FROM_UPPER) != 0u) || (kind == GAS && here == ALONG);
+    return here == select(LOWER, UPPER, (receivers & FROM_UPPER) != 0u) || (here == ALONG && (kind == GAS || is_still_body(slot)));
 }
+
+// Whether a SOLID cell can get what a SOLID slot hands on: one beside gas hands on only to what is covered ahead of it.
+fn follows(slot: u32, other: u32) -> bool { return !at_surface(slot) || previous_kind_of(cells[other]) == GAS; }
 
 // GAS neighbours that a side of a slot has, SOLID ones at the surface, and all that are SOLID.
 fn counts_beside(slot: u32, receivers: u32) -> vec3f {
@@ -155,7 +163,7 @@ fn counts_beside(slot: u32, receivers: u32) -> vec3f {
         for (var side = 0u; side < 2u; side++) {
             let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
             let kind = kind_of(cells[other]);
-            if !serves(slot, receivers, a, side == 1u, kind) { continue; }
+            if !serves(slot, receivers, a, side == 1u, kind) || (kind == SOLID && !follows(slot, other)) { continue; }
             sum += vec3f(f32(kind == GAS), f32(kind == SOLID && at_surface(other)), f32(kind == SOLID));
         }
     }

@@ -58,7 +58,7 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
         if !RING_LEDGER && (kind == GAS || kind == SOLID) {
             owed += owed_flow[slot];
             heat.y += owed_energy[slot];
-            more.y += abs(owed_flow[slot].x);
+            more.y += abs(owed_flow[slot].x + select(0.0, volume * u.flow.x, kind == SOLID));
             if SPECIES { species.x += owed_energy[ledger_part(OWED_SPECIES_MASS) + slot]; }
         }
         if kind == GAS {
@@ -77,7 +77,6 @@ fn totals_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
         } else if SOLIDS && kind == SOLID {
             owed += volume * u.flow;
             heat.y += volume * u.energy;
-            more.y += volume * abs(u.flow.x);
             species.x += volume * u.species.x;
         } else if RING_LEDGER {
             crossed += volume * u.flow;

@@ -37,7 +37,12 @@ pub(crate) fn change_kinds(
             (0..5).for_each(|k| state.ledger[slot][k] += above[k] - fill[k] * volume);
         }
     }
-    let walls = Walls { grid, faces, nodes, before: &before };
+    let sound = |slot: usize| {
+        let u = old.get(slot);
+        (problem.gamma * (problem.gamma - 1.0) * internal_energy(u) / u[0]).sqrt()
+    };
+    let gas = grid.interior().into_iter().map(|c| grid.slot(c)).filter(|slot| before[*slot] == GAS);
+    let walls = Walls { grid, faces, nodes, before: &before, sound: gas.map(sound).fold(0.0, f64::max) };
     walls.sort(state, &old, state.passed_dt);
     state.passed_dt = dt;
     state.cells.clone_from(kinds);

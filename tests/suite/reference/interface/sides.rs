@@ -15,6 +15,8 @@ pub(crate) struct Walls<'a> {
     pub(crate) nodes: &'a Nodes,
     /// Kinds of the step before.
     pub(crate) before: &'a [u32],
+    /// Largest speed of sound at the end of the step before.
+    pub(crate) sound: f64,
 }
 
 fn sum(a: Amounts, b: Amounts, factor: f64) -> Amounts {
@@ -22,11 +24,16 @@ fn sum(a: Amounts, b: Amounts, factor: f64) -> Amounts {
 }
 
 impl Walls<'_> {
+    /// Whether a body is so slow that it has no sides.
+    fn is_still(&self, slot: usize) -> bool {
+        glam::DVec3::from(self.nodes.velocity[slot]).length() <= 1e-3 * self.sound
+    }
+
     /// The side behind a face of a slot: 1 upper, -1 lower, 0 along the motion. `turned`: upper is behind.
     fn side(&self, slot: usize, near: &Near, turned: bool) -> i32 {
         let v = glam::DVec3::from(self.nodes.velocity[slot]);
         let towards = f64::from(near.sign) * v[near.axis] * if turned { -1.0 } else { 1.0 };
-        if towards.abs() <= 0.05 * v.length() { 0 } else { towards.signum() as i32 }
+        if towards.abs() <= 0.05 * v.length() || self.is_still(slot) { 0 } else { towards.signum() as i32 }
     }
 
     /// Whether the upper side is behind: where gas of these densities lies on both sides and that behind is denser.
@@ -105,15 +112,20 @@ impl Walls<'_> {
         self.side(near.slot, near, self.is_turned(near.cell, &self.faces.cells, gas)) > 0
     }
 
-    /// Cells that are covered in the step in which a cell beside them opens, and whether what it owes is for their upper side.
+    /// Cells that a wall of one cell goes to from one that opens, with gas behind it, and whether what is owed is for their upper side.
     pub(crate) fn followers(&self, gas: &Gas, c: [i32; 3]) -> Vec<(usize, bool)> {
         let slot = self.grid.slot(c);
         if self.kind(slot) != GAS || self.before[slot] != SOLID {
             return Vec::new();
         }
-        let covered = |near: &Near| self.kind(near.slot) == SOLID && self.before[near.slot] == GAS;
-        let near = self.around(c).into_iter().filter(covered);
-        near.map(|near| (near.slot, self.is_for_upper(&near, gas))).collect()
+        let around = self.around(c);
+        let goes_on = |near: &&Near| {
+            let covers = self.kind(near.slot) == SOLID && self.before[near.slot] == GAS;
+            let behind = around.iter().find(|other| other.axis == near.axis && other.sign != near.sign);
+            let left = |behind: &Near| self.kind(behind.slot) == GAS && self.before[behind.slot] == GAS;
+            covers && behind.is_some_and(left) && self.side(near.slot, near, false) == 1
+        };
+        around.iter().filter(goes_on).map(|near| (near.slot, self.is_for_upper(near, gas))).collect()
     }
 
     /// What a solid cell hands on in this step, of one side.
@@ -133,7 +145,7 @@ impl Walls<'_> {
             return None;
         }
         let serves = |near: &Near| match self.side(slot, near, turned) {
-            0 => self.kind(near.slot) == GAS,
+            0 => self.kind(near.slot) == GAS || self.is_still(slot),
             side => (side > 0) == upper,
         };
         let here = self.around(c).into_iter().filter(serves);
@@ -144,9 +156,12 @@ impl Walls<'_> {
             let receivers = gas.into_iter().map(|near| (near.slot, false)).collect();
             return (part > 0.0).then(|| Handed { upper, each: held.map(|x| part * x), receivers, to_gas: true });
         }
-        let solid: Vec<_> = rest.into_iter().filter(|near| self.kind(near.slot) == SOLID).collect();
-        let at_surface = |near: &Near| self.around(near.cell).iter().any(|next| self.kind(next.slot) == GAS);
-        let surface: Vec<_> = solid.iter().copied().filter(at_surface).collect();
+        // one beside gas hands on only to what is covered ahead of it
+        let at_surface = |c: [i32; 3]| self.around(c).iter().any(|next| self.kind(next.slot) == GAS);
+        let buried = !at_surface(c);
+        let follows = |near: &Near| self.kind(near.slot) == SOLID && (buried || self.before[near.slot] == GAS);
+        let solid: Vec<_> = rest.into_iter().filter(follows).collect();
+        let surface: Vec<_> = solid.iter().copied().filter(|near| at_surface(near.cell)).collect();
         let takers = if surface.is_empty() { solid } else { surface };
         let each = held.map(|x| x / takers.len().max(1) as f64);
         let receivers: Vec<_> = takers.iter().map(|near| (near.slot, self.is_for_upper(near, &state.gas))).collect();
