@@ -4,6 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Component, Path, PathBuf};
 
+use crate::export::atomic;
 use crate::export::report::REPORT;
 use crate::{Error, Result, input};
 
@@ -56,14 +57,17 @@ impl Folder {
         Err(Error::Usage(format!("{} and {MOST_NAMES} beside it hold runs; name another --out", path.display())))
     }
 
-    /// Takes the folder of a run that goes on; everything stays.
+    /// Takes the folder of a run that goes on; everything stays but what a killed process left half written.
     ///
     /// # Errors
     /// [`Error::Usage`] if another process writes there, or no run is there.
     pub(super) fn again(path: &Path) -> Result<Self> {
         let folder = Self::locked(path)?;
         match path.join(REPORT).is_file() {
-            true => Ok(folder),
+            true => {
+                folder.remove_abandoned();
+                Ok(folder)
+            }
             false => Err(Error::Usage(format!("{} is no folder of a run: it has no report.json", path.display()))),
         }
     }
@@ -100,8 +104,14 @@ impl Folder {
         self.path.join(REPORT).is_file() && !read.is_some_and(nothing)
     }
 
-    /// Removes what the list names, and folders that are empty then.
+    /// Removes files that were never finished; runs in folders below this one keep theirs.
+    fn remove_abandoned(&self) {
+        atomic::remove_abandoned(&self.path, |below| below.join(LOCK).exists() || below.join(REPORT).exists());
+    }
+
+    /// Removes what the list names, what was never finished, and folders that are empty then.
     fn clear(&self) -> Result<()> {
+        self.remove_abandoned();
         let list = self.path.join(LIST);
         let text = match input::text(&list, input::MOST_REPORT) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),

@@ -2,10 +2,14 @@
 
 use std::cell::RefCell;
 use std::collections::HashSet;
+use std::fs::DirEntry;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::{Error, Result};
+
+/// How the names of files begin and end that are being written.
+const ASIDE: (&str, &str) = (".brisance-", ".tmp");
 
 /// Files that a thread has written.
 #[derive(Default)]
@@ -39,7 +43,7 @@ fn try_write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder)?;
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".").suffix(".tmp");
+    builder.prefix(ASIDE.0).suffix(ASIDE.1);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -62,9 +66,48 @@ fn try_write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
     Ok(())
 }
 
+/// Removes what a killed process left half written in a folder and the folders in it, as far as they can be read.
+///
+/// No other process may write there; folders that `is_foreign` names stay as they are, and no link is followed.
+pub fn remove_abandoned(folder: &Path, is_foreign: impl Fn(&Path) -> bool) {
+    for entry in entries(folder) {
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) && !is_foreign(&entry.path()) {
+            entries(&entry.path()).for_each(|entry| remove_if_aside(&entry));
+        } else {
+            remove_if_aside(&entry);
+        }
+    }
+}
+
+fn entries(folder: &Path) -> impl Iterator<Item = DirEntry> {
+    std::fs::read_dir(folder).into_iter().flatten().flatten()
+}
+
+fn remove_if_aside(entry: &DirEntry) {
+    let name = entry.file_name();
+    let name = name.to_string_lossy();
+    if name.starts_with(ASIDE.0) && name.ends_with(ASIDE.1) && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+        // one that stays is in nobody's way
+        let _ = std::fs::remove_file(entry.path());
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_was_left_half_written_goes_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let kept = [".mine.tmp", "frames/0000.png", "other/.brisance-b.tmp"].map(|name| folder.path().join(name));
+        let gone = [".brisance-a.tmp", "frames/.brisance-a.tmp"].map(|name| folder.path().join(name));
+        for path in kept.iter().chain(&gone) {
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, "").unwrap();
+        }
+        remove_abandoned(folder.path(), |path| path.ends_with("other"));
+        assert!(kept.iter().all(|path| path.exists()) && !gone.iter().any(|path| path.exists()));
+    }
 
     #[test]
     fn failed_write_keeps_the_old_file_and_leaves_nothing_behind() {

@@ -332,6 +332,8 @@ fn a_killed_run_loses_an_interval_at_most() {
         // what is written aside at that moment has another name
         before = left.into_iter().filter(|path| !path.to_string_lossy().contains(".tmp")).collect();
     }
+    // what a process leaves that is killed while it writes a picture
+    std::fs::write(parts.join("frames/.brisance-killed.tmp"), "half").unwrap();
     succeeds(&["run", "--resume", parts.to_str().unwrap(), "-q"]);
     same_files(&whole, &parts);
 }
