@@ -33,7 +33,7 @@ class Frame:
         return sorted(self.head["arrays"])
 
     def unit(self, name):
-        """What an array is, and its unit."""
+        """What an array is, its symbol and its unit."""
         return self.head["arrays"][name]
 
     def scene(self):

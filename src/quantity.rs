@@ -7,7 +7,7 @@ mod wholes;
 use rayon::prelude::*;
 
 use crate::snapshot::{ParticleSample, Snapshot, kind};
-pub use columns::{Columns, Entry, label, names, row};
+pub use columns::{Columns, Entry, label, letters, names, row};
 pub use wholes::{BODY, LOAD, PIECE, POINT, PROBE, STEP, WAVE, pages};
 
 /// What a quantity belongs to.
@@ -51,6 +51,12 @@ impl Quantity {
     #[must_use]
     pub fn of(&self, snapshot: &Snapshot) -> Values {
         (self.compute)(snapshot)
+    }
+
+    /// What files say of it: caption, symbol and unit.
+    #[must_use]
+    pub fn about(&self) -> String {
+        format!("{}, symbol {}, unit {}", self.caption, self.symbol, self.unit)
     }
 }
 

@@ -73,5 +73,5 @@ fn array(snapshot: &Snapshot, quantity: &Quantity) -> Array {
         Values::Real(values) => Numbers::F32(values),
         Values::Whole(values) => Numbers::U32(values),
     };
-    Array { name, shape, numbers, about: format!("{}, unit {}", quantity.caption, quantity.unit) }
+    Array { name, shape, numbers, about: quantity.about() }
 }

@@ -28,6 +28,7 @@ pub mod vtk;
 
 use std::path::{Path, PathBuf};
 
+use crate::quantity::{self, Place};
 use crate::render::{Depth, Picture, Stored};
 use crate::scene::{Obstacle, Scene};
 use crate::snapshot::Snapshot;
@@ -114,6 +115,9 @@ impl Moment<'_> {
             ("Field", picture.name.clone()),
             ("Range", format!("{:?} {:?}", picture.range[0], picture.range[1])),
         ];
+        if let Some(shown) = quantity::find(Place::Cell, &picture.name) {
+            text.extend([("Symbol", shown.symbol.to_owned()), ("Unit", shown.unit.to_owned())]);
+        }
         if !picture.view.is_empty() {
             text.push(("View", picture.view.clone()));
         }

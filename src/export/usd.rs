@@ -28,6 +28,9 @@ const PRIMVARS: [(&str, &str); 6] = [
     ("piece", "int[]"),
 ];
 
+/// What the temperature is where the scene says what its ambient gas has.
+const KELVIN: &str = "temperature [K], symbol T, unit K";
+
 /// Writes `stage.usda`, `usd/NNNN.usdc` and `vdb/NNNN.vdb`.
 #[derive(Debug)]
 pub struct UsdExporter {
@@ -92,7 +95,7 @@ impl UsdExporter {
                 env!("CARGO_PKG_VERSION")
             ))
         );
-        self.volume(&mut text, &extent, &names(snapshot));
+        self.volume(&mut text, &extent, &names(snapshot), moment.origin.kelvin.is_some());
         if self.points {
             self.clips(&mut text, &extent, (first, last), moment);
         }
@@ -101,7 +104,7 @@ impl UsdExporter {
         text
     }
 
-    fn volume(&self, text: &mut String, extent: &str, names: &[&str]) {
+    fn volume(&self, text: &mut String, extent: &str, names: &[&str], kelvin: bool) {
         let _ = writeln!(text, "    def Volume \"gas\"\n    {{\n        float3[] extent = {extent}");
         for name in names {
             let _ = writeln!(text, "        rel field:{name} = </run/gas/{name}>");
@@ -109,7 +112,9 @@ impl UsdExporter {
         for name in names {
             let _ = writeln!(
                 text,
-                "        def OpenVDBAsset \"{name}\"\n        {{\n            token fieldName = \"{name}\""
+                "        def OpenVDBAsset \"{name}\" (\n            doc = \"{}\"\n        )\n        {{\n            \
+                 token fieldName = \"{name}\"",
+                if kelvin && *name == "temperature" { KELVIN.to_owned() } else { about(Place::Cell, name) }
             );
             text.push_str("            asset filePath.timeSamples = {\n");
             for (index, _) in &self.frames {
@@ -137,8 +142,11 @@ impl UsdExporter {
         );
         // what no schema declares, clips alone do not bring into being
         for (name, kind) in PRIMVARS {
-            let _ =
-                writeln!(text, "        {kind} primvars:{name} (\n            interpolation = \"vertex\"\n        )");
+            let _ = writeln!(
+                text,
+                "        {kind} primvars:{name} (\n            interpolation = \"vertex\"\n            doc = \"{}\"\n        )",
+                about(Place::Particle, name)
+            );
         }
         text.push_str("    }\n");
     }
@@ -223,6 +231,11 @@ fn points(snapshot: &Snapshot, frame: u32) -> Vec<u8> {
 
 fn vector([x, y, z]: [f32; 3]) -> String {
     format!("({x:?}, {y:?}, {z:?})")
+}
+
+/// What a quantity is.
+fn about(place: Place, name: &str) -> String {
+    quantity::find(place, name).map_or_else(String::new, |quantity| quoted(&quantity.about()))
 }
 
 /// A text between quotes, on one line.

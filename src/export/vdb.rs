@@ -97,6 +97,7 @@ fn unique(hash: &str, index: u32) -> String {
 /// A grid in the making.
 struct Volume {
     name: &'static str,
+    symbol: &'static str,
     unit: &'static str,
     components: usize,
     values: Vec<f32>,
@@ -124,7 +125,8 @@ impl Volume {
         let differs = |cell: usize| at(cell).iter().zip(&background).any(|(a, b)| a.to_bits() != b.to_bits());
         let active = (0..snapshot.kind.len()).into_par_iter().map(|cell| gas(&cell) && differs(cell)).collect();
         let unit = if kelvin.is_some() { "K" } else { quantity.unit };
-        Some(Self { name: quantity.name, unit, components, values, active, background })
+        let (name, symbol) = (quantity.name, if kelvin.is_some() { "T" } else { quantity.symbol });
+        Some(Self { name, symbol, unit, components, values, active, background })
     }
 
     fn write(&self, out: &mut Bytes, snapshot: &Snapshot) {
@@ -151,9 +153,10 @@ impl Volume {
 
     fn write_meta(&self, out: &mut Bytes, snapshot: &Snapshot, half: bool) {
         let fog = if ["density", "soot"].contains(&self.name) { "fog volume" } else { "unknown" };
-        out.words(&[if self.components == 3 { 8 } else { 7 }]);
+        out.words(&[if self.components == 3 { 9 } else { 8 }]);
         out.text_entry("class", fog);
         out.text_entry("name", self.name);
+        out.text_entry("symbol", self.symbol);
         out.text_entry("unit", self.unit);
         out.text_entry("up_axis", "Z");
         out.entry("meters_per_unit", "double", &1.0f64.to_le_bytes());

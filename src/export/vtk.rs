@@ -193,7 +193,7 @@ impl Appended {
         Self { head, blocks: Vec::new(), offset: 0 }
     }
 
-    /// The physical time, under the name ParaView looks for, the units of the arrays, and further lists of names.
+    /// The physical time, under the name ParaView looks for, units and symbols of the arrays, and further lists of names.
     fn field_data(&mut self, snapshot: &Snapshot, place: Place, lists: &[(&str, &[String])]) {
         let time = snapshot.time;
         let _ = writeln!(
@@ -202,6 +202,8 @@ impl Appended {
         );
         let unit = |own: &quantity::Quantity| format!("{}: {}", own.name, own.unit);
         self.texts("units", &quantity::all(snapshot, place).map(unit).collect::<Vec<_>>());
+        let symbol = |own: &quantity::Quantity| format!("{}: {}", own.name, own.symbol);
+        self.texts("symbols", &quantity::all(snapshot, place).map(symbol).collect::<Vec<_>>());
         for (name, texts) in lists {
             self.texts(name, texts);
         }

@@ -96,12 +96,64 @@ pub fn row<T>(quantities: &[Columns<T>], whole: &T) -> impl Iterator<Item = Entr
     quantities.iter().flat_map(move |quantity| quantity.of(whole))
 }
 
-/// Meaning and unit of a quantity, for the axis of a plot; nothing where there is none of that name.
+/// Meaning, symbol and unit of a quantity, for the axis of a plot; nothing where there is none of that name.
 #[must_use]
 pub fn label<T>(quantities: &[Columns<T>], name: &str) -> String {
     let found = quantities.iter().find(|quantity| quantity.name == name);
-    found.map_or_else(String::new, |own| match own.unit {
-        "1" => own.caption.to_owned(),
-        unit => format!("{} [{unit}]", own.caption),
+    found.map_or_else(String::new, |own| {
+        // what follows a comma says how it is computed
+        let meaning = own.caption.split([',', ';']).next().unwrap_or_default();
+        let begin = format!("{meaning} {}", letters(own.symbol));
+        if own.unit == "1" { begin } else { format!("{begin} [{}]", printed(own.unit)) }
     })
+}
+
+/// A symbol as it is printed: Greek letters instead of their names.
+#[must_use]
+pub fn letters(symbol: &str) -> String {
+    const GREEK: [(&str, &str); 8] = [
+        ("rho", "\u{3c1}"),
+        ("gamma", "\u{3b3}"),
+        ("sigma", "\u{3c3}"),
+        ("omega", "\u{3c9}"),
+        ("kappa", "\u{3ba}"),
+        ("phi", "\u{3c6}"),
+        ("eps", "\u{3b5}"),
+        ("grad ", "\u{2207}"),
+    ];
+    GREEK.iter().fold(symbol.to_owned(), |text, (name, letter)| text.replace(name, letter))
+}
+
+/// A unit as it is printed: `m/s` instead of `m s^-1`.
+fn printed(unit: &str) -> String {
+    const POWERS: [(&str, &str); 3] = [("^3", "\u{b3}"), ("^2", "\u{b2}"), (" ", "\u{b7}")];
+    if unit.contains('(') {
+        return unit.to_owned();
+    }
+    let (below, above): (Vec<&str>, Vec<&str>) = unit.split(' ').partition(|part| part.contains("^-"));
+    let above = if above.is_empty() { "1".to_owned() } else { above.join(" ") };
+    let below: String = below.iter().map(|part| format!("/{}", part.replace("^-1", "").replace("^-", "^"))).collect();
+    POWERS.iter().fold(above + &below, |text, (name, letter)| text.replace(name, letter))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quantity::{BODY, LOAD};
+
+    #[test]
+    fn axes_of_plots_have_meaning_symbol_and_unit() {
+        let of_body = |name| label(BODY, name);
+        assert_eq!(of_body("kinetic_energy"), "kinetic energy of the particles E_kin [J]");
+        assert_eq!(of_body("elastic_energy"), "elastic energy of the particles E_el [J]");
+        assert_eq!(of_body("mean_plastic_strain"), "mean equivalent plastic strain <\u{3b5}_p>");
+        assert_eq!(of_body("deviatoric_stress"), "largest deviatoric stress \u{3c3}_vM [Pa]");
+        assert_eq!(of_body("velocity"), "velocity of the centre of mass v [m/s]");
+        assert_eq!(label(LOAD, "impulse"), "force over the time since the start I [kg\u{b7}m/s]");
+        assert_eq!(of_body("none"), "");
+        assert_eq!(
+            [printed("kg m^2 s^-1"), printed("s^-1"), printed("kg m^-3")],
+            ["kg\u{b7}m\u{b2}/s", "1/s", "kg/m\u{b3}"]
+        );
+    }
 }

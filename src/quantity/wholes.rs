@@ -55,7 +55,7 @@ pub const LOAD: &[Columns<Borne>] = lines! {
 
 /// Of a point of a body, in `gauges.csv`.
 pub const POINT: &[Columns<PointRecord>] = lines! {
-    Vector "displacement", "u", "m", "from its place at the start", |p| p.displacement.map(f64::from);
+    Vector "displacement", "u", "m", "displacement from the place at the start", |p| p.displacement.map(f64::from);
     Vector "velocity", "v", "m s^-1", "velocity", |p| p.velocity.map(f64::from);
     Tensor "elastic_strain", "E", "1", "elastic strain of Green and Lagrange", |p| p.elastic_strain.map(f64::from);
     Tensor "stress", "sigma", "Pa", "stress of Cauchy", |p| p.stress.map(f64::from);

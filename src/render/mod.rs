@@ -42,7 +42,7 @@ pub use {
     colormap::colors,
     kernels::constants as shader_constants,
     layers::{LayerPixel, Layers},
-    quantity::{caption, particle_caption},
+    quantity::{caption, particle_caption, symbol},
     stored::{Loaded, Stored, StoredParticles},
     svg::{Plot, Style},
     view::View,

@@ -4,13 +4,16 @@ use super::Stamp;
 use super::canvas::{Anchor, Canvas, Rectangle};
 use super::frame::Frame;
 use super::overlay::header;
+use super::quantity::caption;
 use super::ticks::ticks;
-use crate::scene::RenderSettings;
+use crate::scene::{Field, RenderSettings};
 use crate::snapshot::kind;
 use crate::state::Grid;
 
-/// Captions of the three panels.
-const CAPTIONS: [&str; 3] = ["density [kg/m\u{b3}]", "velocity [m/s]", "pressure [Pa]"];
+/// Captions of the three panels; that of velocities has their sign.
+fn captions() -> [&'static str; 3] {
+    [caption(Field::Density), "velocity [m/s]", caption(Field::Pressure)]
+}
 
 /// A one-dimensional state: gas per cell, solids per particle.
 pub(crate) struct Line {
@@ -105,7 +108,7 @@ impl Panel<'_> {
         }
         canvas.outline(self.area, canvas.paper.faint);
         let y = self.area.y - 2 * canvas.lettering.line() / 3;
-        canvas.text(self.area.x, y, Anchor::Left, CAPTIONS[self.index], canvas.paper.curves[self.index]);
+        canvas.text(self.area.x, y, Anchor::Left, captions()[self.index], canvas.paper.curves[self.index]);
     }
 
     /// Bands where a body or an obstacle takes the place of the gas.

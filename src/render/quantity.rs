@@ -88,6 +88,12 @@ pub fn caption(field: Field) -> &'static str {
     named(Place::Cell, field.keyword())
 }
 
+/// Symbol of a field in equations.
+#[must_use]
+pub fn symbol(field: Field) -> String {
+    quantity::find(Place::Cell, field.keyword()).map_or_else(String::new, |quantity| quantity::letters(quantity.symbol))
+}
+
 /// p / rho^gamma of a state.
 pub(super) fn entropy(state: &GasState, gamma: f64) -> f64 {
     state.pressure / state.density.powf(gamma)

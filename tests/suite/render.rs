@@ -301,6 +301,7 @@ fn png_tells_where_it_comes_from() {
     assert_eq!(text("Scene").as_deref(), Some("cafe"));
     assert_eq!(text("Field").as_deref(), Some("pressure"));
     assert!(text("Range").is_some());
+    assert_eq!([text("Symbol"), text("Unit")], ["p", "Pa"].map(|own| Some(own.to_owned())));
     assert_eq!(info.utf8_text[0].get_text().unwrap(), "Sod \u{2192} shell");
     assert!(folder.path().join("frames/density/0007.png").exists());
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::gauges;
 use crate::expect::Gauge;
 use crate::export::csv::Sheet;
-use crate::quantity::{self, BODY};
+use crate::quantity::{self, BODY, LOAD, PROBE, STEP};
 use crate::render::{Plot, Style};
 
 /// Parts of a curve that keep their least and largest value.
@@ -94,24 +94,36 @@ impl Tables {
             })
         };
         vec![
-            plot("Pressure", "pressure [Pa]", &[("max_pressure", "largest"), ("min_pressure", "least")]),
-            plot("Density", "density [kg/m\u{b3}]", &[("max_density", "largest"), ("min_density", "least")]),
+            plot(
+                "Pressure",
+                &quantity::label(PROBE, "pressure"),
+                &[("max_pressure", "largest"), ("min_pressure", "least")],
+            ),
+            plot(
+                "Density",
+                &quantity::label(PROBE, "density"),
+                &[("max_density", "largest"), ("min_density", "least")],
+            ),
             plot("Speed", "largest speed [m/s]", &[("max_gas_speed", "gas"), ("max_solid_speed", "solids")]),
-            plot("Step", "dt [s]", &[("dt", "step")]),
+            plot("Step", &quantity::label(STEP, "dt"), &[("dt", "step")]),
             plot("Solver", "per step", &[("pcg_iterations", "PCG iterations"), ("substeps", "elastic sub-steps")]),
         ]
     }
 
     /// Pressure of each gauge over time, with what was measured.
     pub(super) fn gauges(&self) -> Vec<(String, Option<Gauge>, Plot)> {
-        let sheets = [&self.probes, &self.gauges].into_iter().flatten();
+        let labels = [quantity::label(PROBE, "pressure"), quantity::label(LOAD, "pressure")];
+        let sheets = [&self.probes, &self.gauges].into_iter().zip(&labels);
         sheets
-            .flat_map(|sheet| pressures(sheet).map(|own| (sheet.numbers("time").unwrap_or_default(), own)))
-            .map(|(times, (name, pressure))| {
+            .filter_map(|(sheet, label)| Some((sheet.as_ref()?, label)))
+            .flat_map(|(sheet, label)| {
+                pressures(sheet).map(move |own| (sheet.numbers("time").unwrap_or_default(), label, own))
+            })
+            .map(|(times, label, (name, pressure))| {
                 let gauge = Gauge::of(times, &pressure);
                 let title = format!("Gauge {name}");
                 let mut plot =
-                    Plot::new(title, TIME, "pressure [Pa]").with("pressure", Style::Line, thin(times, &pressure));
+                    Plot::new(title, TIME, label.as_str()).with("pressure", Style::Line, thin(times, &pressure));
                 if let Some((gauge, arrival)) = gauge.and_then(|gauge| Some((gauge, gauge.arrival?))) {
                     let line = |time: f64| vec![[time, gauge.first], [time, gauge.peak]];
                     plot = plot.with("arrival", Style::Guide, line(arrival));
@@ -143,26 +155,31 @@ impl Tables {
                 }
             }
             let speed = |rows: &Rows| rows.size("velocity");
-            plots.push(each(bodies, "body", ("Speed of bodies", TIME, "speed of the centre [m/s]"), speed));
+            plots.push(each(bodies, "body", ("Speed of bodies", TIME, &quantity::label(BODY, "velocity")), speed));
             for (title, column) in OF_BODIES {
                 let label = quantity::label(BODY, column);
                 plots.push(each(bodies, "body", (title, TIME, &label), |rows| rows.pair("time", column)));
             }
-            plots.push(each(bodies, "body", ("Pieces", TIME, "pieces"), |rows| rows.pair("time", "pieces")));
+            plots.push(each(bodies, "body", ("Pieces", TIME, &quantity::label(BODY, "pieces")), |rows| {
+                rows.pair("time", "pieces")
+            }));
             if bodies.numbers("gas_force_x").is_some() {
                 for axis in &["x", "y", "z"][..axes] {
                     let (title, column) = (format!("Force of the gas along {axis}"), format!("gas_force_{axis}"));
-                    plots.push(each(bodies, "body", (&title, TIME, "force [N]"), |rows| rows.pair("time", &column)));
+                    let label = quantity::label(LOAD, "force");
+                    plots.push(each(bodies, "body", (&title, TIME, &label), |rows| rows.pair("time", &column)));
                 }
             }
         }
         if let Some(obstacles) = &self.obstacles {
             for axis in &["x", "y", "z"][..axes] {
                 let (title, column) = (format!("Force on obstacles along {axis}"), format!("force_{axis}"));
-                plots.push(each(obstacles, "obstacle", (&title, TIME, "force [N]"), |rows| rows.pair("time", &column)));
+                let label = quantity::label(LOAD, "force");
+                plots.push(each(obstacles, "obstacle", (&title, TIME, &label), |rows| rows.pair("time", &column)));
             }
             let pressure = |rows: &Rows| rows.pair("time", "pressure");
-            plots.push(each(obstacles, "obstacle", ("Pressure on obstacles", TIME, "mean pressure [Pa]"), pressure));
+            let label = quantity::label(LOAD, "pressure");
+            plots.push(each(obstacles, "obstacle", ("Pressure on obstacles", TIME, &label), pressure));
         }
         plots
     }

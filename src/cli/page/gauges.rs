@@ -2,6 +2,7 @@
 
 use super::curves::{TIME, thin};
 use crate::export::csv::Sheet;
+use crate::quantity::{LOAD, POINT, label};
 use crate::render::{Plot, Style};
 
 /// Components of a vector and of a symmetric tensor, as far as a scene of so many axes has them.
@@ -14,17 +15,17 @@ pub(super) fn plots(sheet: &Sheet, axes: usize) -> Vec<Plot> {
     let mut all = Vec::new();
     for column in sheet.names() {
         if let Some(name) = column.strip_suffix("_force_x") {
-            all.push(curves(sheet, name, ("force", "Force on", "force [N]"), &VECTOR[..axes]));
+            all.push(curves(sheet, name, ("force", "Force on", &label(LOAD, "force")), &VECTOR[..axes]));
         }
         if let Some(name) = column.strip_suffix("_displacement_x") {
             let tensor: Vec<&str> = TENSOR[axes - 1].into_iter().filter(|part| !part.is_empty()).collect();
-            let shown: [(_, &[&str]); 4] = [
-                (("displacement", "Displacement of", "displacement [m]"), &VECTOR[..axes]),
-                (("velocity", "Velocity of", "velocity [m/s]"), &VECTOR[..axes]),
-                (("elastic_strain", "Elastic strain of", "strain"), &tensor),
-                (("stress", "Stress of", "stress [Pa]"), &tensor),
+            let shown: [(_, _, &[&str]); 4] = [
+                ("displacement", "Displacement of", &VECTOR[..axes]),
+                ("velocity", "Velocity of", &VECTOR[..axes]),
+                ("elastic_strain", "Elastic strain of", &tensor),
+                ("stress", "Stress of", &tensor),
             ];
-            all.extend(shown.map(|(what, parts)| curves(sheet, name, what, parts)));
+            all.extend(shown.map(|(own, title, parts)| curves(sheet, name, (own, title, &label(POINT, own)), parts)));
         }
     }
     all

@@ -4,7 +4,7 @@ use egui::{ComboBox, DragValue, Slider, Ui};
 
 use super::super::view::View;
 use super::{curve, rows, short};
-use crate::render::caption;
+use crate::render::{caption, symbol};
 use crate::scene::{Colormap, Emission, Field, RenderMode, RenderSettings, ToneMap};
 
 /// Colour maps with their names.
@@ -78,7 +78,7 @@ pub(super) fn show(ui: &mut Ui, view: &mut View) {
 fn field(ui: &mut Ui, field: &mut Field) {
     ComboBox::from_id_salt("field").selected_text(caption(*field)).width(WIDTH).show_ui(ui, |ui| {
         for (number, own) in Field::ALL.into_iter().enumerate() {
-            ui.selectable_value(field, own, caption(own)).on_hover_text(format!("key {}", number + 1));
+            ui.selectable_value(field, own, caption(own)).on_hover_text(format!("{}; key {}", symbol(own), number + 1));
         }
     });
 }
