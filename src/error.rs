@@ -1,6 +1,6 @@
 //! The one error type. Every message names the thing, the value, what is allowed and what to do next.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Shorthand for results of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -52,6 +52,9 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A file that a run has left is cut, damaged, foreign, or of a program that this one does not go on from.
+    #[error("{0}")]
+    Spoilt(String),
     /// A film could not be made; pictures and tables are there.
     #[error("{0}; the pictures are written all the same")]
     Film(String),
@@ -81,7 +84,8 @@ fn advice(source: &std::io::Error) -> &'static str {
 }
 
 impl Error {
-    /// Process exit code: 1 internal, 2 usage, 3 scene, 4 no adapter, 5 does not fit, 7 diverged, 8 expectation, 9 disk, 75 device lost, 130 interrupted.
+    /// Process exit code: 1 internal, 2 usage, 3 scene, 4 no adapter, 5 does not fit, 6 a spoilt file of a run, 7 diverged,
+    /// 8 expectation, 9 disk, 75 device lost, 130 interrupted.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
@@ -89,6 +93,7 @@ impl Error {
             Error::Scene(_) => 3,
             Error::NoAdapter(_) => 4,
             Error::DoesNotFit(_) => 5,
+            Error::Spoilt(_) => 6,
             Error::Diverged { .. } => 7,
             Error::Expectation(_) => 8,
             Error::Io { .. } | Error::Film(_) => 9,
@@ -96,6 +101,11 @@ impl Error {
             Error::Interrupted => 130,
             Error::Shader(_) | Error::Bug(_) => 1,
         }
+    }
+
+    /// A file of a run that is not what it should be.
+    pub(crate) fn spoilt(path: &Path, reason: impl std::fmt::Display) -> Self {
+        Error::Spoilt(format!("{}: {reason}", path.display()))
     }
 
     /// Wraps an I/O error with the file it belongs to.

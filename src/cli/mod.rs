@@ -152,6 +152,7 @@ fn kind(error: &Error) -> &'static str {
         Error::DoesNotFit(_) => "does_not_fit",
         Error::Diverged { .. } => "diverged",
         Error::Expectation(_) => "expectation",
+        Error::Spoilt(_) => "spoilt",
         Error::Io { .. } => "io",
         Error::Film(_) => "film",
         Error::Gpu(_) => "gpu",

@@ -70,7 +70,7 @@ fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli)
     let scene = with_look(recorded, options)?;
     if form == report::FORM && scene.hash() != hash {
         let message = "the scene of the run is read differently by this program, or a mesh file of it has changed";
-        return Err(Error::Usage(format!("{}: {message}; run it again", options.run.display())));
+        return Err(Error::spoilt(&options.run, format_args!("{message}; run it again")));
     }
     let mut shots = chosen(&scene, options)?;
     if !labelled {
@@ -107,7 +107,7 @@ fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli)
 /// Refuses a state that is none of the scene of a report, or is not whole.
 ///
 /// # Errors
-/// [`Error::Usage`] with the file, and the array that is wrong.
+/// [`Error::Spoilt`] with the file, and the array that is wrong.
 pub(super) fn belongs(path: &Path, (hash, scene): (&str, &str), stored: &Stored, grid: Option<&Grid>) -> Result<()> {
     let wrong = grid.map_or_else(|| stored.wrong_particles(), |grid| stored.wrong_length(grid));
     let why = match (wrong, hash == scene) {
@@ -121,7 +121,7 @@ pub(super) fn belongs(path: &Path, (hash, scene): (&str, &str), stored: &Stored,
             None => return Ok(()),
         },
     };
-    Err(Error::Usage(format!("{}: {why}", path.display())))
+    Err(Error::spoilt(path, why))
 }
 
 /// Reads the report of a run.
@@ -139,7 +139,7 @@ pub(super) fn read_report(run: &Path, outside: bool) -> Result<Recorded> {
         _ => Error::io(&path, source),
     })?;
     recorded(&text)
-        .map_err(|error| Error::Usage(format!("{}: {error}; run the scene again with this program", path.display())))
+        .map_err(|error| Error::spoilt(&path, format_args!("{error}; run the scene again with this program")))
 }
 
 /// What a report says, its scene in the words of this program.

@@ -59,10 +59,10 @@ fn array(saved: &SavedArray) -> Array {
 pub fn read_texts(path: &Path) -> Result<(Head, String, String)> {
     let (head, texts) = container::read_texts(path)?;
     if head.form != Form::Full {
-        return Err(container::broken(path, "holds what pictures need, no whole state; only checkpoints do"));
+        return Err(Error::spoilt(path, "holds what pictures need, no whole state; only checkpoints do"));
     }
     let take = |texts: &BTreeMap<String, String>, name: &str| {
-        texts.get(name).cloned().ok_or_else(|| container::broken(path, &format!("{name} is missing")))
+        texts.get(name).cloned().ok_or_else(|| Error::spoilt(path, format!("{name} is missing")))
     };
     let (scene, about) = (take(&texts, SCENE)?, take(&texts, RUN)?);
     Ok((head, scene, about))
@@ -80,7 +80,7 @@ pub fn read(path: &Path, most: u64) -> Result<Saved> {
         let Array { name, numbers, .. } = array;
         let kind = numbers.kind();
         if !matches!(kind, Kind::F32 | Kind::U32) {
-            return Err(container::broken(path, &format!("array `{name}` has no words of 32 bits")));
+            return Err(Error::spoilt(path, format!("array `{name}` has no words of 32 bits")));
         }
         saved.arrays.push(SavedArray { name, real: kind == Kind::F32, columns, words: numbers.cast() });
     }

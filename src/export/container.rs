@@ -238,7 +238,7 @@ pub fn read(path: &Path, most: u64) -> Result<Contents> {
 /// The same with those arrays alone whose names are wanted.
 pub(super) fn read_some(path: &Path, most: u64, wanted: impl Fn(&str) -> bool) -> Result<Contents> {
     let bytes = input::bytes(path, most.saturating_add(ROOM)).map_err(|source| Error::io(path, source))?;
-    parse(&bytes, most, wanted).map_err(|reason| broken(path, &reason))
+    parse(&bytes, most, wanted).map_err(|reason| Error::spoilt(path, &reason))
 }
 
 /// Reads the head and the texts of a file, without its arrays.
@@ -248,17 +248,12 @@ pub(super) fn read_some(path: &Path, most: u64, wanted: impl Fn(&str) -> bool) -
 pub fn read_texts(path: &Path) -> Result<(Head, BTreeMap<String, String>)> {
     let about = std::fs::metadata(path).map_err(|source| Error::io(path, source))?;
     if !about.is_file() {
-        return Err(broken(path, "no regular file"));
+        return Err(Error::spoilt(path, "no regular file"));
     }
     let file = std::fs::File::open(path).map_err(|source| Error::io(path, source))?;
-    let mut archive = opened(io::BufReader::new(file)).map_err(|reason| broken(path, &reason))?;
+    let mut archive = opened(io::BufReader::new(file)).map_err(|reason| Error::spoilt(path, &reason))?;
     let read = head(&mut archive).and_then(|head| Ok((head, texts(&mut archive)?)));
-    read.map_err(|reason| broken(path, &reason))
-}
-
-/// A file that is no whole state.
-pub(super) fn broken(path: &Path, reason: &str) -> Error {
-    Error::io(path, io::Error::new(io::ErrorKind::InvalidData, reason.to_owned()))
+    read.map_err(|reason| Error::spoilt(path, &reason))
 }
 
 fn opened<R: Read + Seek>(from: R) -> std::result::Result<ZipArchive<R>, String> {
@@ -321,6 +316,10 @@ fn parse(bytes: &[u8], most: u64, wanted: impl Fn(&str) -> bool) -> std::result:
     let names: Vec<String> = names(&mut archive)?.into_iter().filter(is_wanted).collect();
     let mut promised = 0u64;
     for name in &names {
+        let own = name.trim_end_matches(".npy");
+        if !head.arrays.contains_key(own) {
+            return Err(format!("array `{own}` is none of a state: {HEAD} does not name it"));
+        }
         let size = archive.by_name(name).map_err(|error| format!("{name}: {error}"))?.size();
         promised = promised.saturating_add(size);
         if size > most.saturating_add(npy::MOST_HEAD) || promised > most.saturating_add(ROOM) {

@@ -98,7 +98,7 @@ impl Table {
         let kept = usize::try_from(mark.bytes).ok().and_then(|bytes| text.get(..bytes));
         let Some(kept) = kept.filter(|kept| checksum(kept) == mark.checksum) else {
             let reason = "its rows up to the checkpoint are not those that the run wrote";
-            return Err(Error::io(before, io::Error::new(io::ErrorKind::InvalidData, reason)));
+            return Err(Error::spoilt(before, reason));
         };
         if kept.lines().next() == self.text.lines().next() {
             kept.clone_into(&mut self.text);
@@ -201,10 +201,7 @@ impl Sheet {
     /// # Errors
     /// As those of [`Sheet::read`].
     pub fn parse(path: &Path, text: &str, texts: &[&str]) -> Result<Self> {
-        let wrong = |line: usize, reason: &str| {
-            let message = format!("line {}: {reason}", line + 1);
-            Error::io(path, io::Error::new(io::ErrorKind::InvalidData, message))
-        };
+        let wrong = |line: usize, reason: &str| Error::spoilt(path, format_args!("line {}: {reason}", line + 1));
         let mut lines = text.lines().enumerate();
         let names = entries(lines.next().map_or("", |(_, line)| line));
         let mut sheet = Self { numbers: vec![Vec::new(); names.len()], texts: vec![Vec::new(); names.len()], names };

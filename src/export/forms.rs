@@ -21,7 +21,7 @@ const FILES: [(&str, u32, &str, &str); 2] =
 /// read, pass; one that names no form has the first. `outside`: they may lie elsewhere.
 ///
 /// # Errors
-/// [`Error::Usage`] with the file, its program and both forms, or with a file that lies elsewhere.
+/// [`Error::Spoilt`] with the file, its program and both forms; [`Error::Usage`] with a file that lies elsewhere.
 pub fn known(run: &Path, outside: bool) -> Result<()> {
     FILES.iter().try_for_each(|(name, known, form, program)| {
         let path = run.join(name);
@@ -37,6 +37,6 @@ pub fn known(run: &Path, outside: bool) -> Result<()> {
         let (program, this) = (read[program].as_str().unwrap_or("of no name"), env!("CARGO_PKG_VERSION"));
         let text =
             format!("brisance {program} wrote it in form {written}; this is {this}, which reads forms up to {known}");
-        Err(Error::Usage(format!("{}: {text}: take a newer program", path.display())))
+        Err(Error::spoilt(&path, format_args!("{text}: take a newer program")))
     })
 }

@@ -154,7 +154,7 @@ fn part(one: &Fragment, snapshot: &Snapshot) -> Part {
 
 /// Pieces by the indices of particles, as [`MeshExporter`] has left them.
 fn read_pieces(path: &Path) -> Result<BTreeMap<u32, u32>> {
-    let wrong = |reason: String| Error::io(path, std::io::Error::new(std::io::ErrorKind::InvalidData, reason));
+    let wrong = |reason: String| Error::spoilt(path, reason);
     let bytes = input::bytes(path, MOST_PIECES).map_err(|source| Error::io(path, source))?;
     let (shape, numbers) = npy::read(&bytes[..], bytes.len() as u64).map_err(wrong)?;
     match (numbers, &shape[..]) {

@@ -127,7 +127,7 @@ const OF_CELLS: [&str; 6] = ["conserved", "energy", "species", "kind", "owed", "
 pub fn read(path: &Path, most: u64, cells: bool) -> Result<(String, Stored)> {
     let contents = container::read_some(path, most, |name| cells || !OF_CELLS.contains(&name))?;
     let scene = contents.head.source.scene_hash.clone();
-    let stored = stored(contents, cells).map_err(|reason| container::broken(path, &reason))?;
+    let stored = stored(contents, cells).map_err(|reason| Error::spoilt(path, &reason))?;
     Ok((scene, stored))
 }
 

@@ -6,6 +6,7 @@ use super::recorded::Recorded;
 use super::{Released, Simulation};
 use crate::error::{Error, Result};
 use crate::gpu::{Allocation, readback};
+use crate::snapshot::kind;
 
 /// Buffers that follow from the scene alone; the device only reads them.
 const FROM_SCENE: [&str; 8] =
@@ -15,8 +16,10 @@ const FROM_SCENE: [&str; 8] =
 const SCRATCH: [&str; 9] =
     ["work", "stiffness", "solution", "residual", "direction", "inverse_diagonal", "surface rows", "elastic", "node"];
 
-/// Buffers whose numbers are checked before a run goes on from them.
-const CHECKED: [&str; 3] = ["conserved", "position", "velocity"];
+/// Buffers that hold numbers alone.
+const NUMBERS: [&str; 3] = ["conserved", "position", "velocity"];
+/// Buffers of particles with as many rows each, whose fourth words are bits of indices, too.
+const ROWS: [(&str, usize); 3] = [("affine", 3), ("deformation", 3), ("stress", 2)];
 
 /// The state of a simulation between two steps.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +69,34 @@ pub struct SavedArray {
     pub words: Vec<u32>,
 }
 
+impl Saved {
+    /// The first array, and where in it, that holds something else than a number where a step reads one: everywhere, in cells of gas, or of
+    /// particles inside the domain.
+    fn not_finite(&self) -> Option<(&str, usize)> {
+        let words = |name: &str| {
+            let array = self.arrays.iter().find(|array| array.name == name);
+            array.map_or(&[][..], |array| &array.words)
+        };
+        let bad = |word: &u32| !f32::from_bits(*word).is_finite();
+        let gas = words("cells")
+            .iter()
+            .zip(words("energy"))
+            .position(|(cell, word)| *cell as u8 & kind::MASK == kind::GAS && bad(word));
+        let inside: Vec<bool> =
+            words("deformation").chunks(12).map(|own| own.get(7).is_some_and(|w| f32::from_bits(*w) > 0.0)).collect();
+        let of_particles = |(name, rows): (&'static str, usize)| {
+            let each = words(name).chunks(4 * rows).zip(&inside);
+            let mut found = each.enumerate().filter(|(_, (_, inside))| **inside);
+            found.find_map(|(number, (own, _))| {
+                let at = own.iter().enumerate().position(|(place, word)| place % 4 < 3 && bad(word))?;
+                Some((name, 4 * rows * number + at))
+            })
+        };
+        let numbers = NUMBERS.iter().find_map(|name| Some((*name, words(name).iter().position(bad)?)));
+        numbers.or(gas.map(|at| ("energy", at))).or_else(|| ROWS.into_iter().find_map(of_particles))
+    }
+}
+
 impl Simulation {
     /// Copies what carries the state from step to step. Between two steps only, see [`Simulation::settle`].
     ///
@@ -98,7 +129,8 @@ impl Simulation {
     /// Goes on from a state that was saved of the same scene.
     ///
     /// # Errors
-    /// [`Error::Usage`] if an array is missing, foreign, of another length, or holds what is no number; driver errors.
+    /// [`Error::Spoilt`] if an array is missing, foreign, of another length, or holds what is no number; [`Error::Usage`] if it has other
+    /// loads; driver errors.
     pub fn restore(&mut self, saved: &Saved) -> Result<()> {
         let wanted = self.carried();
         if saved.host.borne.len() != self.borne.len() {
@@ -108,23 +140,22 @@ impl Simulation {
         }
         for array in &saved.arrays {
             if !wanted.iter().any(|(name, _)| *name == array.name) {
-                return Err(Error::Usage(format!("array `{}` is none of this scene's and program's", array.name)));
+                return Err(Error::Spoilt(format!("array `{}` is none of this scene's and program's", array.name)));
             }
         }
         for (name, buffer) in &wanted {
             let Some(array) = saved.arrays.iter().find(|array| array.name == *name) else {
-                return Err(Error::Usage(format!("array `{name}` is missing")));
+                return Err(Error::Spoilt(format!("array `{name}` is missing")));
             };
             let (words, expected) = (array.words.len(), buffer.bytes as usize / 4);
             if words != expected {
-                return Err(Error::Usage(format!(
+                return Err(Error::Spoilt(format!(
                     "array `{name}` has {words} words; this scene and program have {expected}"
                 )));
             }
-            let bad = |word: &u32| !f32::from_bits(*word).is_finite();
-            if let Some(at) = array.words.iter().position(bad).filter(|_| CHECKED.contains(&name.as_str())) {
-                return Err(Error::Usage(format!("array `{name}`, word {at}: not a finite number")));
-            }
+        }
+        if let Some((name, at)) = saved.not_finite() {
+            return Err(Error::Spoilt(format!("array `{name}`, word {at}: not a finite number")));
         }
         for (name, buffer) in &wanted {
             let array = saved.arrays.iter().find(|array| array.name == *name);

@@ -65,8 +65,22 @@ impl Kept {
             Place::File(path, host) => {
                 Found::Whole(Box::new(Saved { host: (**host).clone(), ..checkpoint::read(path, most)? }))
             }
-            Place::Light(path) => Found::Light(Box::new(states::read(path, most, true)?.1)),
+            Place::Light(path) => {
+                let state = states::read(path, most, true)?.1;
+                if let Some(name) = state.not_finite() {
+                    return Err(Error::spoilt(path, format_args!("array `{name}` holds numbers that are not finite")));
+                }
+                Found::Light(Box::new(state))
+            }
         })
+    }
+
+    /// Where it lies, if on the disk.
+    pub(super) fn path(&self) -> Option<PathBuf> {
+        match &self.place {
+            Place::Memory(_) => None,
+            Place::File(path, _) | Place::Light(path) => Some(path.clone()),
+        }
     }
 
     fn is_whole(&self) -> bool {
@@ -186,7 +200,7 @@ pub(super) fn of_run(run: &Path, changes: &Changes) -> Result<Recorded> {
     let (was, scene) = (recorded(&[])?, recorded(&changes.set)?);
     for path in all() {
         if container::read_texts(path)?.0.source.scene_hash != head.source.scene_hash {
-            return Err(Error::Usage(format!("{}: a state of another scene than the last one", path.display())));
+            return Err(Error::spoilt(path, "a state of another scene than the last one"));
         }
     }
     let goes_on = head.version == container::VERSION;
@@ -195,7 +209,7 @@ pub(super) fn of_run(run: &Path, changes: &Changes) -> Result<Recorded> {
     for (step, path) in whole {
         let (own, _, about) = checkpoint::read_texts(&path)?;
         let About { host, summary, start_budget } =
-            toml::from_str(&about).map_err(|error| Error::Usage(format!("{}: {error}", path.display())))?;
+            toml::from_str(&about).map_err(|error| Error::spoilt(&path, error))?;
         start = Some(start_budget);
         kept.push(Kept { time: own.time, step, summary, place: Place::File(path, Box::new(host)) });
     }

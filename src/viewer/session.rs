@@ -1,6 +1,6 @@
 //! One open scene: simulation and renderer on one device. No thread and no window: tests drive it as the worker does.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::model::{Look, Source, Strike};
@@ -184,8 +184,8 @@ impl Session {
     pub fn rewind(&mut self, time: f64) -> Result<f64> {
         let Some(kept) = self.past.latest(time) else { return Ok(self.time()) };
         if kept.step != self.step_count() || kept.time != self.time() {
-            let (state, summary) = self.read(kept)?;
-            self.take(state, summary)?;
+            let read = self.read(kept)?;
+            self.take(read)?;
         }
         Ok(self.time())
     }
@@ -196,8 +196,8 @@ impl Session {
     /// As [`Session::rewind`].
     pub fn show_next(&mut self) -> Result<bool> {
         let Some(kept) = self.past.after(self.time()) else { return Ok(false) };
-        let (state, summary) = self.read(kept)?;
-        self.take(state, summary).map(|()| true)
+        let read = self.read(kept)?;
+        self.take(read).map(|()| true)
     }
 
     /// Time of the state that is kept behind this one \[s\].
@@ -211,16 +211,21 @@ impl Session {
     }
 
     /// A state that is kept; one of an earlier program may have more arrays than this one asks for.
-    fn read(&self, kept: &Kept) -> Result<(Found, Summary)> {
+    fn read(&self, kept: &Kept) -> Result<(Found, Summary, Option<PathBuf>)> {
         let most = 2 * self.simulation.saved_bytes().max(self.most_light());
-        Ok((kept.state(most)?, kept.summary.clone()))
+        Ok((kept.state(most)?, kept.summary.clone(), kept.path()))
     }
 
-    fn take(&mut self, state: Found, summary: Summary) -> Result<()> {
-        match state {
+    /// Takes a state from where it lay.
+    fn take(&mut self, (state, summary, path): (Found, Summary, Option<PathBuf>)) -> Result<()> {
+        let taken = match state {
             Found::Whole(saved) => self.set(&saved, summary),
             Found::Light(stored) => self.show(&stored),
-        }
+        };
+        taken.map_err(|error| match (path, error) {
+            (Some(path), Error::Spoilt(text)) => Error::spoilt(&path, text),
+            (_, error) => error,
+        })
     }
 
     /// Bytes that a state to look at has at most.
@@ -232,7 +237,7 @@ impl Session {
     fn show(&mut self, stored: &Stored) -> Result<()> {
         let buffers = SceneBuffers::of(&self.simulation.state);
         if !stored.write(self.simulation.gpu(), &buffers) {
-            return Err(Error::Usage("a state of the run has other sizes than its scene".to_owned()));
+            return Err(Error::Spoilt("its arrays have other lengths than its scene asks for".to_owned()));
         }
         self.light = Some((stored.time, stored.step));
         Ok(())
@@ -256,8 +261,8 @@ impl Session {
         let kept = self.past.latest_whole(time).ok_or_else(|| {
             Error::Usage("this state can only be looked at: the run left no checkpoint up to it".to_owned())
         })?;
-        let (state, summary) = (kept.state(self.simulation.saved_bytes())?, kept.summary.clone());
-        if let Found::Whole(saved) = state { self.set(&saved, summary) } else { Ok(()) }
+        let read = self.read(kept)?;
+        self.take(read)
     }
 
     /// Times of the states to go back to \[s\].

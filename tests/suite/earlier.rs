@@ -41,7 +41,7 @@ fn a_run_of_the_first_form_is_drawn_and_converted_and_does_not_go_on() {
     let (one, two) = (read("states"), read("checkpoints"));
     assert!(one.len() > 10 && one == two, "the checkpoint of the end holds the state of its frame");
     for verb in [&["run", "--resume", &text][..], &["run", "--branch", &format!("{text}@0.2"), "--out", &out("new")]] {
-        let told = fails(2, verb);
+        let told = fails(6, verb);
         assert!(told.contains("in form 1") && told.contains("run the scene again"), "{told}");
     }
     assert!(states::list(&run).unwrap().is_empty() && !place.path().join("new/report.json").exists());

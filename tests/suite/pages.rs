@@ -75,7 +75,7 @@ fn a_sweep_leaves_a_table_and_a_page_and_goes_on() {
     for (name, form, own) in [("report.json", "\"form\": ", 2), ("run.json", "\"version\": ", 1)] {
         let next = own + 1;
         later(name, &format!("{form}{own},"), &format!("{form}{next},"));
-        let told = fails(2, &[&base[..], &over].concat());
+        let told = fails(6, &[&base[..], &over].concat());
         let form_told = told.contains(&format!("in form {next}"));
         assert!(told.contains(name) && form_told && told.contains("newer program"), "{told}");
         later(name, &format!("{form}{next},"), &format!("{form}{own},"));

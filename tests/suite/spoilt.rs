@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use brisance::export::container::{self, Array, Form, Numbers, Source};
+use brisance::export::container::{self, Array, Numbers, Source};
 
 use crate::checkpoint::SHORT;
 use crate::cli::{fails, succeeds};
@@ -34,7 +34,7 @@ fn what_a_later_program_wrote_is_refused_and_what_the_first_wrote_is_read() {
             &convert,
         ];
         for verb in verbs {
-            let told = fails(2, verb);
+            let told = fails(6, verb);
             assert!(
                 told.contains(file) && told.contains(&format!("in form {form}")) && told.contains("newer program"),
                 "{told}"
@@ -55,10 +55,8 @@ fn what_a_later_program_wrote_is_refused_and_what_the_first_wrote_is_read() {
 /// Changes the arrays of a state.
 type Spoil<'a> = &'a dyn Fn(&mut Vec<Array>);
 
-/// A state with an array too many, one cut, one with NaN.
+/// States with an array too many, one cut, one with NaN: what `convert` says of them, and what whoever goes on from them or looks at them.
 fn spoiled_states_are_refused(run: &Path, convert: &[&str]) {
-    let path = run.join("states/0001.npz");
-    let good = std::fs::read(&path).unwrap();
     let one_more = |arrays: &mut Vec<Array>| {
         let other = Array { name: "banana".to_owned(), ..energy(arrays).clone() };
         arrays.push(other);
@@ -72,22 +70,53 @@ fn spoiled_states_are_refused(run: &Path, convert: &[&str]) {
         let array = energy(arrays);
         array.numbers = Numbers::F32(vec![f32::NAN; array.shape[0]]);
     };
-    let spoilt: [(Spoil, &str); 3] = [
-        (&one_more, "`banana` is none of a state"),
-        (&cut, "`energy` has a wrong length"),
-        (&not_finite, "`energy` holds numbers that are not finite"),
+    let spoilt: [(Spoil, &str, &str); 3] = [
+        (&one_more, "`banana` is none of a state", "`banana` is none of this scene's"),
+        (&cut, "`energy` has a wrong length", "`energy` has 3 words"),
+        (&not_finite, "`energy` holds numbers that are not finite", "`energy`, word"),
     ];
-    for (spoil, told) in spoilt {
-        let mut state = container::read(&path, 1 << 20).unwrap();
-        spoil(&mut state.arrays);
-        let head = &state.head;
-        let source = Source { scene: state.texts[container::SCENE].clone(), ..head.source.clone() };
-        container::write(&path, (Form::Fields, &source), (head.time, head.step), &[], state.arrays.clone()).unwrap();
-        let code = if told.contains("none of") { 9 } else { 2 };
-        let text = fails(code, convert);
+    let state = run.join("states/0001.npz");
+    let newest = brisance::export::checkpoint::list(run).unwrap().pop().unwrap().1;
+    for (spoil, told, told_of_all) in spoilt {
+        let good = [&state, &newest].map(|path| std::fs::read(path).unwrap());
+        spoil_file(&state, spoil);
+        let text = fails(6, convert);
         assert!(text.contains(told) && text.contains("0001.npz"), "{text}");
-        std::fs::write(&path, &good).unwrap();
+        spoil_file(&newest, spoil);
+        let (out, name) = (run.to_str().unwrap(), newest.file_name().unwrap().to_str().unwrap());
+        let branch = run.with_file_name("spoilt").display().to_string();
+        let verbs: [&[&str]; 2] = [
+            &["run", "--resume", out, "-q"],
+            &["run", "--branch", &format!("{out}@0.02"), "--force", "--out", &branch],
+        ];
+        for verb in verbs {
+            let text = fails(6, verb);
+            assert!(text.contains(told_of_all) && text.contains(name), "{text}");
+        }
+        #[cfg(feature = "viewer")]
+        looked_at(run, (told_of_all, name));
+        std::fs::write(&state, &good[0]).unwrap();
+        std::fs::write(&newest, &good[1]).unwrap();
     }
+}
+
+/// The window shows no spoilt state.
+#[cfg(feature = "viewer")]
+fn looked_at(run: &Path, (told, name): (&str, &str)) {
+    let Some(gpu) = crate::common::gpu_or_skip() else { return };
+    let opened = brisance::viewer::session::Session::open_run(&gpu, run, &brisance::scene::Changes::default());
+    let text = opened.map(|_| ()).unwrap_err().to_string();
+    assert!(text.contains(told) && text.contains(name), "{text}");
+}
+
+fn spoil_file(path: &Path, spoil: Spoil) {
+    let mut state = container::read(path, 1 << 24).unwrap();
+    spoil(&mut state.arrays);
+    let head = &state.head;
+    let source = Source { scene: state.texts[container::SCENE].clone(), ..head.source.clone() };
+    let texts = state.texts.iter().filter(|(name, _)| *name != container::SCENE);
+    let texts: Vec<(&str, &str)> = texts.map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    container::write(path, (head.form, &source), (head.time, head.step), &texts, state.arrays.clone()).unwrap();
 }
 
 fn energy(arrays: &mut [Array]) -> &mut Array {

@@ -146,7 +146,9 @@ impl Tables {
         let mut plots = Vec::new();
         if let Some(bodies) = &self.bodies {
             let path = |rows: &Rows| rows.pair("x", "y");
-            plots.push(each(bodies, "body", ("Paths of bodies", "x [m]", "y [m]"), path));
+            if ["x", "y"].iter().any(|column| bodies.numbers(column).is_some_and(spreads)) {
+                plots.push(each(bodies, "body", ("Paths of bodies", "x [m]", "y [m]"), path));
+            }
             let heads = [("x", "x [m]"), ("y", "y [m]"), ("z", "z [m]")];
             for (column, label) in &heads[..axes] {
                 if bodies.numbers(column).is_some_and(spreads) {

@@ -148,7 +148,11 @@ impl Beginning {
         let mut simulation = Simulation::new(gpu, &before)?;
         let read = checkpoint::read(&from.path, plan.bytes(None).max(simulation.saved_bytes()))?;
         let saved = Saved { host: from.about.host.clone(), ..read };
-        let told = |error: Error| Error::Usage(format!("{}: {error}", from.path.display()));
+        let told = |error: Error| match error {
+            Error::Usage(text) => Error::Usage(format!("{}: {text}", from.path.display())),
+            Error::Spoilt(text) => Error::spoilt(&from.path, text),
+            other => other,
+        };
         simulation.restore(&saved).map_err(told)?;
         if from.branch {
             simulation.change(&before, &self.scene, &mut Vec::new())?;
@@ -210,9 +214,8 @@ fn listed(run: &Path) -> Result<Vec<(u64, PathBuf)>> {
 /// Says that an older checkpoint is there.
 fn older(error: Error, all: &[(u64, PathBuf)]) -> Error {
     match (error, all) {
-        (Error::Io { path, source }, [.., (_, older), _]) => {
-            let text = format!("{source}; remove it to go on from {}", older.display());
-            Error::io(path, std::io::Error::new(source.kind(), text))
+        (Error::Spoilt(text), [.., (_, older), _]) => {
+            Error::Spoilt(format!("{text}; remove it to go on from {}", older.display()))
         }
         (error, _) => error,
     }
@@ -259,14 +262,14 @@ impl From {
                 "brisance {program} wrote it in form {form}, and the steps of this program ask for form {VERSION}"
             );
             let hint = "`render`, `convert` and `view` read it; run the scene again to go on";
-            return Err(Error::Usage(format!("{}: {text}: {hint}", path.display())));
+            return Err(Error::spoilt(path, format_args!("{text}: {hint}")));
         }
         let about: About = toml::from_str(&about)
-            .map_err(|error| Error::Usage(format!("{}: {}: {error}", path.display(), checkpoint::RUN)))?;
+            .map_err(|error| Error::spoilt(path, format_args!("{}: {error}", checkpoint::RUN)))?;
         let outside = about.options.scene.allow_outside;
         let parsed =
             |set: &[String]| Scene::parse(&text, &head.source.scene_file, Changes { outside, ..Changes::from(set) });
-        let foreign = |reason: &str| Error::Usage(format!("{}: {reason}", path.display()));
+        let foreign = |reason: &str| Error::spoilt(path, reason);
         if parsed(&[])?.hash() != head.source.scene_hash {
             return Err(foreign(
                 "its scene is read differently by this program, or a mesh file has changed; run it again",
