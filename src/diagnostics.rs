@@ -111,6 +111,9 @@ pub struct StepRecord {
     /// Mass of the second gas, what is owed included, and what of it has left since the start \[kg\].
     #[serde(default)]
     pub species_mass: [f32; 2],
+    /// Mass of dust: in the gas and in bodies, on the ground, and what has left since the start \[kg\].
+    #[serde(default)]
+    pub dust_mass: [f32; 3],
     /// Momentum and energy that walls, gas films at walls and gravity have given to the bodies since the start, the energy of blasts, and what
     /// charges have given to the gas, their mass among it. What clamped and driven parts give is not in it.
     pub given: Total,
@@ -208,6 +211,7 @@ impl StepRecord {
             fracture_energy: cracks[0],
             broken_mass: cracks[1],
             species_mass: [cracks[2], cracks[3]],
+            dust_mass: [raw[14][1], raw[14][2], raw[14][3]],
             given: total([0.0, given[0], given[1], given[2]], given[3]),
             solid_speed: solid_speed[0].max(0.0),
             rounds: solid_speed[1].to_bits(),

@@ -87,6 +87,7 @@ pub const TABLE: &[Quantity] = &[
     quantity(Place::Cell, ["volume_fraction", "phi"], "1", "volume fraction of the second gas", 1, |s| gas(s, |i| [s.species.get(i).map_or(0.0, |own| own[1])])),
     quantity(Place::Cell, ["soot", "kappa"], "m^-1", "extinction by soot [1/m]", 1, |s| gas(s, |i| [s.fire.soot(second(s, i)) as f32])),
     quantity(Place::Cell, ["flames", "j"], "m^-1", "light of hot gas over that of white paper [1/m]", 1, |s| gas(s, |i| [s.fire.light(second(s, i), s.thermal_energy_at(i).into()) as f32])),
+    quantity(Place::Cell, ["dust", "rho_d"], "kg m^-3", "dust [kg/m\u{b3}]", 1, |s| gas(s, |i| [s.dust.get(i).copied().unwrap_or(0.0)])),
     quantity(Place::Cell, ["owed", "rho_owed"], "kg m^-3", "owed gas [kg/m\u{b3}]", 1, |s| Values::Real(s.owed.clone())),
     quantity(Place::Cell, ["peak_pressure", "p_max"], "Pa", "largest pressure so far [Pa]", 1, |s| map(s, 0)),
     quantity(Place::Cell, ["impulse", "I"], "Pa s", "impulse so far [Pa s]", 1, |s| map(s, 1)),
@@ -128,13 +129,15 @@ pub fn find(place: Place, name: &str) -> Option<&'static Quantity> {
     TABLE.iter().find(|quantity| quantity.place == place && quantity.name == name)
 }
 
-/// All quantities of cells or of particles that a state has: maps only where they were kept, fractions where there are two gases, soot and
-/// flames where pictures have them.
+/// All quantities of cells or of particles that a state has: maps only where they were kept, fractions where there are two gases, dust where the
+/// scene has some, soot and flames where pictures have them.
 pub fn all(snapshot: &Snapshot, place: Place) -> impl Iterator<Item = &'static Quantity> {
     let (kept, mixed, fire) = (!snapshot.maps.is_empty(), !snapshot.species.is_empty(), snapshot.fire);
+    let dusty = !snapshot.dust.is_empty();
     let has = move |name: &str| match name {
         SOOT => fire.extinction.is_some(),
         FLAMES => fire.emission.is_some(),
+        DUST => dusty,
         _ => (kept || !MAPS.contains(&name)) && (mixed || !FRACTIONS.contains(&name)),
     };
     TABLE.iter().filter(move |quantity| quantity.place == place && has(quantity.name))
@@ -147,6 +150,8 @@ const FRACTIONS: [&str; 2] = ["mass_fraction", "volume_fraction"];
 /// What absorbs light, and what shines.
 const SOOT: &str = "soot";
 const FLAMES: &str = "flames";
+/// What the gas takes along from the ground.
+const DUST: &str = "dust";
 /// Quantities of what has been so far.
 const MAPS: [&str; 3] = ["peak_pressure", "impulse", "peak_plastic_strain"];
 
@@ -246,6 +251,7 @@ mod tests {
             energy,
             owed: vec![0.0; 25],
             maps: Vec::new(),
+            dust: Vec::new(),
             particles: Vec::new(),
         }
     }

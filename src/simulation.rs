@@ -19,7 +19,7 @@ use crate::gpu::{Allocation, Detail, Gpu, Pass, Settings, Times, readback, watch
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, Decision, Detonate, ElasticFirst, ElasticReaction, ElasticSolve,
+    Carried, CarrierVelocity, CoupledSolve, Decision, Detonate, Dust, ElasticFirst, ElasticReaction, ElasticSolve,
     FluidUpdate, G2p, GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven,
     P2g, ParticleSort, Still, Supports, TimeStep, Totals, Transfer,
 };
@@ -48,6 +48,7 @@ pub struct Simulation {
     supports: Option<Supports>,
     interface: InterfaceStage,
     still: Still,
+    dust: Option<Dust>,
     carrier: CarrierVelocity,
     gas_advection: GasAdvection,
     intermediate_pressure: IntermediatePressure,
@@ -109,8 +110,7 @@ impl Simulation {
 
     fn build(gpu: &Gpu, scene: &Scene) -> Result<Simulation> {
         let state = State::new(gpu, scene)?;
-        let solids = state.has_solids();
-        let transfer = Transfer::of(scene.numerics.expert.transfer, gpu.settings);
+        let (solids, transfer) = (state.has_solids(), Transfer::of(scene.numerics.expert.transfer, gpu.settings));
         let coupled_solve = CoupledSolve::new(&state, scene)?;
         let simulation = Simulation {
             time_step: TimeStep::new(&state, scene, coupled_solve.pcg.control.raw())?,
@@ -119,6 +119,7 @@ impl Simulation {
             supports: scene.has_supports().then(|| Supports::new(&state)).transpose()?,
             interface: InterfaceStage::new(&state)?,
             still: Still::new(&state)?,
+            dust: Dust::new(&state, scene)?,
             carrier: CarrierVelocity::new(&state, scene.consistent(), scene.solves())?,
             gas_advection: GasAdvection::new(&state, scene.solves())?,
             intermediate_pressure: IntermediatePressure::new(&state)?,
@@ -190,6 +191,9 @@ impl Simulation {
         self.record_force(pass);
         self.time_step.decide(pass, Decision::Listed);
         self.still.record(pass, state);
+        if let Some(dust) = &self.dust {
+            dust.record(pass, state);
+        }
         self.record_advection(pass, 0, Carried::Start, Phase::Begin); // (3) eqs. 10-12
         if self.solves == 1 {
             self.record_advection(pass, 1, Carried::Halfway, Phase::Begin);
@@ -240,19 +244,6 @@ impl Simulation {
             elastic_reaction.record_aside(pass, state);
         }
         self.fluid_update.record(pass, state, &self.carrier, &self.time_step); // eqs. 14 and 3, local gradients
-    }
-
-    fn record_totals(&self, pass: &mut Pass) {
-        self.totals.record(pass, &self.state);
-        if let Some(loads) = &self.loads {
-            loads.record(pass, &self.state);
-        }
-        if let Some(gauges) = &self.gauges {
-            gauges.record(pass, &self.state);
-        }
-        if let Some(maps) = &self.maps {
-            maps.record(pass, &self.state);
-        }
     }
 
     /// Clamped and driven nodes, friction at walls.

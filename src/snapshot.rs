@@ -1,16 +1,16 @@
 //! A CPU copy of the state at one time: what tests, tables and exporters see.
 
 mod cell_rows;
+mod device;
 
 use rayon::prelude::*;
 
-use crate::error::Result;
-use crate::gpu::{Gpu, readback};
 use crate::material::Laws;
 use crate::scene::{Conserved, EquationOfState, Fire};
-use crate::state::{Grid, State};
+use crate::state::Grid;
 
 pub use cell_rows::CellRows;
+pub(crate) use device::gone;
 
 /// Kind of a cell, bits 0..1 of a cell word.
 pub mod kind {
@@ -60,6 +60,8 @@ pub struct Snapshot {
     /// Of each cell since the start: largest pressure \[Pa\], integral over time of the pressure above ambient \[Pa s\], largest plastic
     /// strain of what has passed; empty where the scene keeps no maps.
     pub maps: Vec<[f32; 3]>,
+    /// Dust \[kg m^-3\]; empty without any.
+    pub dust: Vec<f32>,
     /// All particles of all bodies, in an order that does not change over time.
     pub particles: Vec<ParticleSample>,
 }
@@ -245,6 +247,7 @@ impl Snapshot {
             species: Vec::new(),
             owed: Vec::new(),
             maps: Vec::new(),
+            dust: Vec::new(),
             particles,
         }
     }
@@ -256,33 +259,6 @@ impl Snapshot {
 }
 
 impl Snapshot {
-    /// Copies the state of the device at a time \[s\] after so many steps.
-    ///
-    /// # Errors
-    /// Driver errors.
-    pub(crate) fn read(gpu: &Gpu, state: &State, (time, step): (f64, u64), gases: EquationOfState) -> Result<Snapshot> {
-        let grid = state.grid;
-        let particles = &state.particles;
-        let rows = ParticleRows {
-            position: readback::read(gpu, &particles.position)?,
-            velocity: readback::read(gpu, &particles.velocity)?,
-            affine: readback::read(gpu, &particles.affine)?,
-            deformation: readback::read(gpu, &particles.deformation)?,
-            stress: readback::read(gpu, &particles.stress)?,
-        };
-        let everywhere = state.gas.owed_flow.len() == grid.slots();
-        let owed = if everywhere { readback::read(gpu, &state.gas.owed_flow)? } else { Vec::new() };
-        let cells = CellRows {
-            owed: owed.iter().map(|entry| entry[0]).collect(),
-            maps: readback::read(gpu, &state.maps)?,
-            conserved: readback::read(gpu, &state.gas.conserved)?,
-            energy: readback::read_range(gpu, &state.gas.energy, 0, grid.slots())?,
-            species: state.gas.read_species(gpu, grid.slots())?,
-            kind: readback::read(gpu, &state.interface.cells)?.iter().map(|word| *word as u8 & kind::MASK).collect(),
-        };
-        Ok(Snapshot { laws: state.laws()?, ..Self::of(grid, gases, (time, step), &cells, &rows) })
-    }
-
     /// From arrays in the layout of the device, of a grid and gas, at a time \[s\] after so many steps.
     #[must_use]
     pub fn of(
@@ -310,6 +286,7 @@ impl Snapshot {
             species: cells.species_fractions(&grid),
             owed: cells.owed_density(&grid),
             maps: cells.kept_maps(&grid),
+            dust: if cells.dust.is_empty() { Vec::new() } else { grid.unpadded(&cells.dust) },
             particles: rows.samples(&grid),
         }
     }
@@ -376,21 +353,6 @@ impl ParticleRows {
             material: affine[3 * p + 2][3].to_bits() & 0xffff,
         }
     }
-}
-
-/// Of the particles that have left the domain: number, velocity, and the mean square of the velocity around them.
-pub(crate) fn gone(gpu: &Gpu, state: &State) -> Result<Vec<(usize, [f64; 4])>> {
-    let particles = &state.particles;
-    let velocity = readback::read(gpu, &particles.velocity)?;
-    let affine = readback::read(gpu, &particles.affine)?;
-    let deformation = readback::read(gpu, &particles.deformation)?;
-    let of = |p: usize| {
-        let [x, y, z] = [0, 1, 2].map(|axis| f64::from(velocity[p][axis]));
-        let turning = turning(&affine[3 * p..3 * p + state.grid.dimension as usize]);
-        let square = x * x + y * y + z * z + 0.25 * f64::from(state.grid.spacing).powi(2) * f64::from(turning);
-        (p, [x, y, z, square])
-    };
-    Ok((0..velocity.len()).filter(|&p| deformation[3 * p + 1][3] == 0.0).map(of).collect())
 }
 
 fn turning(affine: &[[f32; 4]]) -> f32 {

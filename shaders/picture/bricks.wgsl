@@ -44,6 +44,7 @@ fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
                 bounds = widened(bounds, corners[cube]);
                 if view.heat_opacity > 0.0 { hot = widened(hot, glow[glow_place(cube)]); }
                 if view.soot > 0.0 { soot = max(soot, widened(vec2f(1.0, 0.0), glow[glow_place(cube) + 1u]).y); }
+                if view.dust > 0.0 { soot = max(soot, widened(vec2f(1.0, 0.0), glow[dust_place(cube)]).y); }
             }
         }
     }

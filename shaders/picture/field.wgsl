@@ -7,6 +7,7 @@
 
 #include "shared/reduce.wgsl"
 #include "picture/view.wgsl"
+#include "picture/packing.wgsl"
 
 @group(0) @binding(1) var<storage, read> conserved: array<vec4f>;
 @group(0) @binding(2) var<storage, read> energy: array<f32>;
@@ -168,6 +169,7 @@ fn value(cell: vec3i, slot: u32) -> f32 {
         case FIELD_ENTROPY: { return pressure(slot) * pow(state.x, -gamma(slot)); }
         case FIELD_MASS_FRACTION: { return mass_fraction(slot); }
         case FIELD_OWED: { return owed_gas(slot); }
+        case FIELD_DUST: { return 0.0; }
         default: { return state.x; }
     }
 }
@@ -216,41 +218,6 @@ fn nearest_cell(cell: vec3i) -> u32 {
     return inside.x + view.cells.x * (inside.y + view.cells.y * inside.z);
 }
 
-// The fractions of a cube's eight corners in 8 bits each. Corners without gas are negative; they take the mean of the others,
-// so that bodies have no halo of false values.
-fn packed_corners(given: array<f32, 8>) -> vec2u {
-    var fractions = given;
-    var sum = 0.0;
-    var count = 0.0;
-    for (var corner = 0u; corner < 8u; corner++) {
-        if fractions[corner] >= 0.0 {
-            sum += fractions[corner];
-            count += 1.0;
-        }
-    }
-    for (var corner = 0u; corner < 8u; corner++) {
-        if fractions[corner] < 0.0 { fractions[corner] = sum / max(count, 1.0); }
-    }
-    let near = vec4f(fractions[0], fractions[1], fractions[2], fractions[3]);
-    let far = vec4f(fractions[4], fractions[5], fractions[6], fractions[7]);
-    return vec2u(pack4x8unorm(near), pack4x8unorm(far));
-}
-
-// Cube (i, j, k) lies between the centres of cells i-1 and i, and so on: one more than cells per axis.
-fn cube_of(i: u32) -> vec3i {
-    let cubes = view.cells + 1u;
-    return vec3i(vec3u(i % cubes.x, (i / cubes.x) % cubes.y, i / (cubes.x * cubes.y)));
-}
-
-fn cube_count() -> u32 {
-    let cubes = view.cells + 1u;
-    return cubes.x * cubes.y * cubes.z;
-}
-
-fn corner_cell(cube: vec3i, corner: u32) -> vec3i {
-    return cube - 1 + vec3i(vec3u(corner & 1u, (corner >> 1u) & 1u, corner >> 2u));
-}
-
 @compute @workgroup_size(WORKGROUP)
 fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
@@ -287,7 +254,7 @@ fn pack_soot(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
     for (var corner = 0u; corner < 8u; corner++) {
         let slot = slot_of(clamp(corner_cell(cube, corner), vec3i(0), vec3i(view.cells) - 1));
         let depth = view.soot * max(species[view.species_start + slot], 0.0) * view.spacing;
-        fractions[corner] = select(-1.0, sqrt(min(depth / SOOT_DEPTH, 1.0)), has_gas(slot));
+        fractions[corner] = select(-1.0, depth_fraction(depth), has_gas(slot));
     }
     glow[glow_place(i) + 1u] = packed_corners(fractions);
 }

@@ -1,13 +1,15 @@
 // The gas as the ray march and the light see it: reads corners, glow and colors.
 
-// Whether hot gas shines, and whether the second gas absorbs light.
+// Whether hot gas shines, whether the second gas absorbs light, and whether dust does.
 override EMISSION: bool = true;
 override SOOT: bool = true;
+override DUST: bool = true;
 
 // Share of the light that soot scatters, by colour.
 const SOOT_COLOR: vec3f = vec3f(0.11, 0.10, 0.09);
 
 fn has_soot() -> bool { return SOOT && view.soot > 0.0; }
+fn has_dust() -> bool { return DUST && view.dust > 0.0; }
 
 // The packed values of the cube of eight cell centres around a place, and the place inside of it.
 struct Cube {
@@ -59,6 +61,16 @@ fn with_soot(clear: Optics, cube: Cube) -> Optics {
     return gas;
 }
 
+// Dust scatters light in its colour; it does not shine.
+fn with_dust(clear: Optics, cube: Cube) -> Optics {
+    let packed = interpolated(glow[dust_place(cube.index)], cube.inside);
+    let dust = SOOT_DEPTH * packed * packed / view.spacing;
+    var gas = clear;
+    gas.extinction = clear.extinction + dust;
+    gas.color = (clear.extinction * clear.color + dust * view.dust_color.rgb) / max(gas.extinction, 1e-20);
+    return gas;
+}
+
 fn optics_at(place: vec3f) -> Optics {
     let cube = cube_at(place);
     let look = table_color(interpolated(corners[cube.index], cube.inside));
@@ -68,6 +80,7 @@ fn optics_at(place: vec3f) -> Optics {
         gas.glow = hot.rgb;
         gas.shining = view.heat_opacity * hot.a;
     }
-    if has_soot() { return with_soot(gas, cube); }
+    if has_soot() { gas = with_soot(gas, cube); }
+    if has_dust() { gas = with_dust(gas, cube); }
     return gas;
 }

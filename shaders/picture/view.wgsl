@@ -67,6 +67,8 @@ struct View {
     bend_near: f32,             // Distance along rays from which they may be bent [m]
     bend_far: f32,              // The same up to which [m]
     fuel: f32,                  // What its products give where they burn on in the first gas, over that energy [1]
+    dust: f32,                  // Extinction of dust in the ray march [m^2 kg^-1]; 0 without any
+    dust_color: vec4f,          // Share of the light that dust scatters, by colour
     background: array<vec4f, 2>, // Light behind everything in 3D, at the top and the bottom of the picture
     slices: array<vec4f, 4>,    // Slices: the points x with dot(xyz, x) = w
     contours: array<vec4f, 8>,  // Values of the contour lines, as fractions of the range
@@ -139,5 +141,6 @@ fn domain_span(ray: Ray) -> vec2f {
     return vec2f(max(max(low.x, max(low.y, low.z)), 0.0), min(high.x, min(high.y, high.z)));
 }
 
-// Where glow has a cube. With soot it has two entries of each: the second is the root of the optical depth of a cell over SOOT_DEPTH.
-fn glow_place(cube: u32) -> u32 { return select(cube, 2u * cube, view.soot > 0.0); }
+// Where glow has a cube. With soot, and with dust, it has a further entry of each: the root of the optical depth of a cell over SOOT_DEPTH.
+fn glow_place(cube: u32) -> u32 { return cube * (1u + u32(view.soot > 0.0) + u32(view.dust > 0.0)); }
+fn dust_place(cube: u32) -> u32 { return glow_place(cube) + 1u + u32(view.soot > 0.0); }

@@ -99,7 +99,7 @@ const CLEARANCE: f32 = 1.2;
 // A ray in cells of the light grid, which is read at its nearest cell, half a cell off at random: steps add up to the mean.
 fn light_along(ray: Ray, jitter: f32) -> Ray {
     let start = in_light(ray.start);
-    return Ray(start + select(0.8 * (jitter - 0.5), 0.0, has_soot()), in_light(ray.start + ray.direction) - start);
+    return Ray(start + select(0.8 * (jitter - 0.5), 0.0, has_soot() || has_dust()), in_light(ray.start + ray.direction) - start);
 }
 
 // Gathers light from the gas between two distances.
@@ -128,7 +128,7 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Ga
             var lit = 1.0;
             if view.shadows == 1u {
                 let at = lights.start + s * lights.direction;
-                if has_soot() { lit = light_between(at); } else { lit = light_inside(at).y; }
+                if has_soot() || has_dust() { lit = light_between(at); } else { lit = light_inside(at).y; }
             }
             gathered = gas_light(gathered, place, lit);
         } else {

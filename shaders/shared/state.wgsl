@@ -198,6 +198,7 @@ const START_VELOCITY = 1u; // elastic: velocity and mass of nodes at the start o
 const PASSED_ON = 1u; // elastic: velocity that nodes which have grown lighter pass on [m s^-1]
 const OWED_SPECIES_MASS = 1u; // owed_energy: the same of the second gas [kg]
 const OWED_SPECIES_ENERGY = 2u; // owed_energy: its share of the energy [J]
+const LOOSE_DUST = 1u; // dust: what still lies on the ground beside the slot [kg m^-3]
 const LISTED_SLOTS = 1u; // extra: slots that are not deep inside the gas; from the end the frontier, the slots whose nodes they need
 const LENGTHS = 2u; // extra: lengths of both lists: LENGTH_LISTED, LENGTH_FRONTIER
 const APART = 1u; // vectors: h, then Q of vertices that carry them apart; then what each vertex asks of the gas around it [Pa]

@@ -230,7 +230,7 @@ pub const FORMATS: &[Format] = &[
     },
     Format {
         name: "vdb",
-        description: "vdb/NNNN.vdb: density, pressure, temperature, velocity, schlieren, soot, flames as sparse volumes for Blender and Houdini",
+        description: "vdb/NNNN.vdb: density, pressure, temperature, velocity, schlieren, soot, flames, dust as sparse volumes for Blender and Houdini",
         open: |folder| Box::new(vdb::VdbExporter::new(folder)),
     },
     Format {

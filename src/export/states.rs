@@ -16,7 +16,7 @@ use crate::state::{Grid, arrays};
 use crate::{Error, Result};
 
 /// Bytes of a slot of the grid, and of a particle.
-const SLOT: u64 = 52;
+const SLOT: u64 = 56;
 const PARTICLE: u64 = 160;
 
 /// Writes `states/NNNN.npz`.
@@ -87,7 +87,12 @@ pub(super) fn numbered(folder: &Path) -> Result<Vec<(u64, PathBuf)>> {
 pub fn write(path: &Path, source: &Source, state: &Stored) -> Result<()> {
     let mut arrays: Vec<(&str, usize, &[f32])> =
         vec![("conserved", 4, cast_slice(&state.conserved)), ("energy", 1, &state.energy)];
-    let further = [("species", 1, &state.species[..]), ("owed", 1, &state.owed), ("maps", 4, cast_slice(&state.maps))];
+    let further = [
+        ("species", 1, &state.species[..]),
+        ("owed", 1, &state.owed),
+        ("maps", 4, cast_slice(&state.maps)),
+        ("dust", 1, &state.dust),
+    ];
     arrays.extend(further.into_iter().filter(|(_, _, values)| !values.is_empty()));
     let affine = state.particles.as_ref().map_or(Vec::new(), |own| turning_alone(&own.affine));
     if let Some(particles) = &state.particles {
@@ -117,7 +122,7 @@ pub fn most_bytes(slots: u64, particles: u64) -> u64 {
 }
 
 /// Arrays of cells.
-const OF_CELLS: [&str; 6] = ["conserved", "energy", "species", "kind", "owed", "maps"];
+const OF_CELLS: [&str; 7] = ["conserved", "energy", "species", "kind", "owed", "maps", "dust"];
 
 /// Reads one state and the hash of its scene; its arrays may have `most` bytes in all. Without `cells` theirs stay
 /// unread.
@@ -147,6 +152,7 @@ pub fn snapshot(stored: Stored, grid: Grid, gases: EquationOfState) -> Snapshot 
         species: stored.species,
         owed: stored.owed,
         maps: stored.maps,
+        dust: stored.dust,
         kind: stored.kind,
     };
     Snapshot::of(grid, gases, moment, &cells, &rows)
@@ -163,6 +169,7 @@ fn stored(mut contents: Contents, cells: bool) -> std::result::Result<Stored, St
         species: Vec::new(),
         owed: Vec::new(),
         maps: Vec::new(),
+        dust: Vec::new(),
         kind: Vec::new(),
         particles: None,
     };
@@ -187,7 +194,9 @@ fn with_cells(contents: &mut Contents, state: Stored) -> std::result::Result<Sto
     };
     let owed = if has(contents, "owed") { take(contents, "owed")? } else { owed_of(contents, conserved.len())? };
     let maps = if has(contents, "maps") { take(contents, "maps")? } else { Vec::new() };
-    Ok(Stored { conserved, energy, species, owed, maps, kind, ..state })
+    let mut dust: Vec<f32> = if has(contents, "dust") { take(contents, "dust")? } else { Vec::new() };
+    dust.truncate(conserved.len()); // a full state has what lies on the ground behind it
+    Ok(Stored { conserved, energy, species, owed, maps, dust, kind, ..state })
 }
 
 /// The particles that a file has, if there are any.
@@ -241,6 +250,7 @@ mod tests {
             species: vec![0.25; 54],
             owed: vec![0.5; 27],
             maps: rows(27),
+            dust: vec![0.125; 27],
             kind,
             particles: Some(particles),
         }

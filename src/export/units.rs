@@ -2,12 +2,13 @@
 
 /// Arrays that have a meaning outside of the step: name, columns and units.
 #[rustfmt::skip]
-const KNOWN: [(&str, &str); 17] = [
+const KNOWN: [(&str, &str); 18] = [
     ("conserved", "gas density [kg m^-3], momentum per volume x, y, z [kg m^-2 s^-1]; cells with the ring"),
     ("energy", "total gas energy per volume [J m^-3]; cells with the ring"),
     ("species", "density of the second gas [kg m^-3] of all cells with the ring, then its volume fraction; with an explosive then the density of what has not burned"),
     ("owed", "mass that cells owe [kg]; cells with the ring"),
     ("maps", "since the start: largest pressure [Pa], impulse above ambient [Pa s], what that sum lost to rounding, largest plastic strain"),
+    ("dust", "dust [kg m^-3]; cells with the ring; in a full state then what lies on the ground beside them"),
     ("kind", "0 gas, 1 solid, 2 wall, 3 beyond an open side; cells with the ring"),
     ("cells", "words of the cells; bits 0 and 1 are the kind: 0 gas, 1 solid, 2 wall, 3 beyond an open side"),
     ("position", "x, y, z of each particle [m], mass [kg]"),

@@ -25,8 +25,8 @@ const MOST_HALF: f32 = 65504.0;
 /// What is in kelvin where the scene says what its gas has.
 const TEMPERATURE: &str = "temperature";
 /// Quantities that are written.
-const GRIDS: [&str; 9] =
-    ["density", "pressure", TEMPERATURE, "velocity", "schlieren", "soot", "flames", "peak_pressure", "impulse"];
+const GRIDS: [&str; 10] =
+    ["density", "pressure", TEMPERATURE, "velocity", "schlieren", "soot", "flames", "dust", "peak_pressure", "impulse"];
 
 /// Writes `vdb/NNNN.vdb`.
 #[derive(Debug)]
@@ -152,7 +152,7 @@ impl Volume {
     }
 
     fn write_meta(&self, out: &mut Bytes, snapshot: &Snapshot, half: bool) {
-        let fog = if ["density", "soot"].contains(&self.name) { "fog volume" } else { "unknown" };
+        let fog = if ["density", "soot", "dust"].contains(&self.name) { "fog volume" } else { "unknown" };
         out.words(&[if self.components == 3 { 9 } else { 8 }]);
         out.text_entry("class", fog);
         out.text_entry("name", self.name);

@@ -21,6 +21,8 @@ pub struct SceneBuffers<'a> {
     pub owed: Option<&'a wgpu::Buffer>,
     /// Largest values so far, one vec4 per slot, see [`State::maps`]; nothing where no maps are kept.
     pub maps: Option<&'a wgpu::Buffer>,
+    /// Dust, one f32 per slot; nothing without any.
+    pub dust: Option<&'a wgpu::Buffer>,
     /// Cell words, one u32 per slot; bits 0 and 1 are the kind.
     pub cells: &'a wgpu::Buffer,
     /// The particles, if there are any.
@@ -59,6 +61,7 @@ impl<'a> SceneBuffers<'a> {
             },
             owed: (state.gas.owed_flow.len() == state.grid.slots()).then(|| state.gas.owed_flow.raw()),
             maps: (!state.maps.is_empty()).then(|| state.maps.raw()),
+            dust: (!state.dust.is_empty()).then(|| state.dust.raw()),
             cells: state.interface.cells.raw(),
             particles: state.has_solids().then(|| ParticleBuffers {
                 count: particles.count,
@@ -81,6 +84,7 @@ pub(super) struct Sources {
     pub(super) species: Option<(wgpu::Buffer, u32, usize)>,
     pub(super) owed: Option<wgpu::Buffer>,
     pub(super) maps: Option<wgpu::Buffer>,
+    pub(super) dust: Option<wgpu::Buffer>,
     pub(super) cells: wgpu::Buffer,
     pub(super) particles: Option<ParticleSources>,
 }
@@ -113,6 +117,7 @@ impl From<&SceneBuffers<'_>> for Sources {
             species: buffers.species.map(|(buffer, start, parts)| (buffer.clone(), start, parts)),
             owed: buffers.owed.cloned(),
             maps: buffers.maps.cloned(),
+            dust: buffers.dust.cloned(),
             cells: buffers.cells.clone(),
             particles,
         }

@@ -5,10 +5,12 @@ use glam::Vec4;
 use super::buffers::Sources;
 use super::colormap::TABLE_LENGTH;
 use super::kernels::{BRICK, bind};
+use super::quantity;
 use super::transfer::Tables;
 use super::view::View;
 use crate::Result;
 use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
+use crate::scene::Field;
 
 /// Workgroups that search a range; each leaves one pair of values.
 pub(super) const RANGE_GROUPS: u32 = 64;
@@ -28,7 +30,7 @@ pub(super) struct Gas {
     ranges: Buffer<[f32; 2]>,
     /// Per cube between eight cell centres, their fractions of the range; empty in 2D.
     pub(super) corners: Buffer<[u32; 2]>,
-    /// The same cubes' places in the black-body ramp; with soot, how much of it is there behind each.
+    /// The same cubes' places in the black-body ramp; behind each with soot, and with dust, how much of it is there.
     pub(super) glow: Buffer<[u32; 2]>,
     /// One word per brick of cubes: whether the ray march must enter it.
     pub(super) bricks: Buffer<u32>,
@@ -37,6 +39,8 @@ pub(super) struct Gas {
     pack_corners: Bound,
     pack_glow: Bound,
     pack_soot: Bound,
+    /// Of dust: the field, and what the ray march needs.
+    dust: Option<[Bound; 2]>,
     mark_bricks: Bound,
 }
 
@@ -53,7 +57,7 @@ impl Gas {
         let heat: Buffer<f32> = Buffer::new(gpu, "heat", grid.cell_count())?;
         let ranges: Buffer<[f32; 2]> = Buffer::new(gpu, "ranges", RANGE_GROUPS as usize)?;
         let corners: Buffer<[u32; 2]> = Buffer::new(gpu, "field corners", cube_count as usize)?;
-        let words = if sources.species.is_some() { 2 } else { 1 };
+        let words = 1 + usize::from(sources.species.is_some()) + usize::from(sources.dust.is_some());
         let glow: Buffer<[u32; 2]> = Buffer::new(gpu, "heat corners", words * cube_count as usize)?;
         let bricks: Buffer<u32> = Buffer::new(gpu, "bricks", brick_count)?;
 
@@ -79,6 +83,7 @@ impl Gas {
             pack_corners: bind("pack_corners", &[shared, of_field, of_corners])?,
             pack_glow: bind("pack_glow", &[shared, of_heat, of_glow])?,
             pack_soot: bind("pack_soot", &[shared, species, ("cells", &sources.cells), of_glow])?,
+            dust: dust_kernels(gpu, sources, shared, [of_field, of_glow])?,
             mark_bricks: self::bind(
                 gpu,
                 "picture/bricks.wgsl",
@@ -100,8 +105,11 @@ impl Gas {
     }
 
     /// Records the view's field and its range.
-    pub(super) fn record_field(&self, pass: &mut Pass) {
+    pub(super) fn record_field(&self, pass: &mut Pass, view: &View) {
         pass.dispatch(&self.evaluate_field, &Extent::Threads(self.cell_count));
+        if let Some([evaluate, _]) = self.dust.as_ref().filter(|_| view.field == quantity::code(Field::Dust)) {
+            pass.dispatch(evaluate, &Extent::Threads(self.cell_count));
+        }
         pass.dispatch(&self.find_range, &Extent::Groups([RANGE_GROUPS, 1, 1]));
     }
 
@@ -126,9 +134,25 @@ impl Gas {
             if view.soot > 0.0 {
                 pass.dispatch(&self.pack_soot, &Extent::Threads(self.cube_count));
             }
+            if let Some([_, pack]) = self.dust.as_ref().filter(|_| view.dust > 0.0) {
+                pass.dispatch(pack, &Extent::Threads(self.cube_count));
+            }
             pass.dispatch(&self.mark_bricks, &Extent::Threads(self.bricks.len() as u64));
         }
     }
+}
+
+/// The kernels of dust, in scenes with some.
+fn dust_kernels(
+    gpu: &Gpu,
+    sources: &Sources,
+    view: (&str, &wgpu::Buffer),
+    [field, glow]: [(&str, &wgpu::Buffer); 2],
+) -> Result<Option<[Bound; 2]>> {
+    let Some(dust) = &sources.dust else { return Ok(None) };
+    let own = [view, ("dust", dust), ("cells", &sources.cells)];
+    let bind = |entry: &str, into| bind(gpu, "picture/dust.wgsl", entry, &[&own[..], &[into]].concat());
+    Ok(Some([bind("evaluate_dust", field)?, bind("pack_dust", glow)?]))
 }
 
 /// What the workgroups of a search saw together.

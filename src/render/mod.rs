@@ -262,6 +262,10 @@ impl Renderer {
         if self.sources.species.is_some() && grid.dimension == 3 && look.volume {
             view.soot = look.soot.map_or(0.0, |soot| soot.extinction as f32);
         }
+        if let Some(dust) = look.dust.filter(|_| self.sources.dust.is_some() && grid.dimension == 3 && look.volume) {
+            let [red, green, blue] = dust.color.0.map(|value| colormap::linear_from_srgb(f32::from(value) / 255.0));
+            (view.dust, view.dust_color) = (dust.extinction as f32, [red, green, blue, 1.0]);
+        }
         view
     }
 
@@ -340,7 +344,7 @@ impl Renderer {
             Field::Pressure | Field::PeakPressure => ambient.pressure,
             Field::Temperature => ambient.pressure / ambient.density,
             Field::Entropy => quantity::entropy(ambient, self.scene.gas.gamma),
-            Field::Owed | Field::Impulse | Field::PeakPlasticStrain | Field::MassFraction => 0.0,
+            Field::Owed | Field::Impulse | Field::PeakPlasticStrain | Field::MassFraction | Field::Dust => 0.0,
             Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => range[0],
         };
         let neutral = ((neutral - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) as f32;

@@ -82,7 +82,7 @@ impl Drawing {
     pub(super) fn evaluate(&self, gpu: &Gpu, view: &View) -> Result<[[f64; 2]; 2]> {
         self.gas.view.write(gpu, 0, &[*view]);
         let mut pass = Pass::new(gpu, "picture field");
-        self.gas.record_field(&mut pass);
+        self.gas.record_field(&mut pass, view);
         let particles = self.particles.as_ref().filter(|_| view.particles > 0 && view.particle_color > 0);
         if let Some(particles) = particles {
             particles.record_quantity(&mut pass);

@@ -4,7 +4,7 @@ use crate::quantity::{self, Place};
 use crate::scene::{Field, GasState, ParticleColor};
 
 /// All fields with the constants that shaders switch on.
-const CODES: [(&str, Field); 13] = [
+const CODES: [(&str, Field); 14] = [
     ("FIELD_DENSITY", Field::Density),
     ("FIELD_PRESSURE", Field::Pressure),
     ("FIELD_VELOCITY", Field::Velocity),
@@ -14,6 +14,7 @@ const CODES: [(&str, Field); 13] = [
     ("FIELD_VORTICITY", Field::Vorticity),
     ("FIELD_ENTROPY", Field::Entropy),
     ("FIELD_MASS_FRACTION", Field::MassFraction),
+    ("FIELD_DUST", Field::Dust),
     ("FIELD_OWED", Field::Owed),
     ("FIELD_PEAK_PRESSURE", Field::PeakPressure),
     ("FIELD_IMPULSE", Field::Impulse),
@@ -103,7 +104,7 @@ pub(super) fn entropy(state: &GasState, gamma: f64) -> f64 {
 fn starts_at_zero(field: Field) -> bool {
     match field {
         Field::Velocity | Field::Schlieren | Field::Mach | Field::Vorticity => true,
-        Field::Impulse | Field::PeakPlasticStrain => true,
+        Field::Impulse | Field::PeakPlasticStrain | Field::Dust => true,
         Field::Density
         | Field::Pressure
         | Field::Temperature
@@ -118,7 +119,7 @@ fn starts_at_zero(field: Field) -> bool {
 pub(super) fn shown_range(field: Field, seen: [f64; 2], ambient: &GasState, gamma: f64, spacing: f64) -> [f64; 2] {
     let sound_speed = (gamma * ambient.pressure / ambient.density).sqrt();
     let scale = match field {
-        Field::Density | Field::Owed => ambient.density,
+        Field::Density | Field::Owed | Field::Dust => ambient.density,
         Field::Entropy => entropy(ambient, gamma),
         Field::Pressure | Field::PeakPressure => ambient.pressure,
         Field::Impulse => ambient.pressure * spacing / sound_speed,

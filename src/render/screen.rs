@@ -99,6 +99,7 @@ struct Key {
     samples: [u32; 2],
     emission: bool,
     soot: bool,
+    dust: bool,
     slices: bool,
     smooth: bool,
     refraction: bool,
@@ -112,6 +113,7 @@ impl Key {
             samples: [view.samples, view.supersampling],
             emission: view.heat_opacity > 0.0,
             soot: view.soot > 0.0,
+            dust: view.dust > 0.0,
             slices: view.slice_count > 0,
             smooth: view.smooth_skin == 1,
             refraction: view.refraction > 0.0,
@@ -119,10 +121,11 @@ impl Key {
         }
     }
 
-    fn switches(&self) -> [(&'static str, bool); 5] {
+    fn switches(&self) -> [(&'static str, bool); 6] {
         [
             ("EMISSION", self.emission),
             ("SOOT", self.soot),
+            ("DUST", self.dust),
             ("SLICES", self.slices),
             ("SMOOTH", self.smooth),
             ("REFRACTION", self.refraction),

@@ -26,6 +26,8 @@ pub struct Stored {
     pub owed: Vec<f32>,
     /// Largest values so far, see [`crate::state::State::maps`]; empty where no maps are kept.
     pub maps: Vec<[f32; 4]>,
+    /// Dust of all slots; empty without any.
+    pub dust: Vec<f32>,
     /// Kind of each cell, see [`kind`].
     pub kind: Vec<u8>,
     /// The particles, if there are any.
@@ -97,6 +99,7 @@ impl Stored {
                 None => Vec::new(),
             },
             maps: buffers.maps.map_or(Ok(Vec::new()), |maps| elements(gpu, maps, slots))?,
+            dust: buffers.dust.map_or(Ok(Vec::new()), |dust| elements(gpu, dust, slots))?,
             kind: words.iter().map(|word| *word as u8 & kind::MASK).collect(),
             particles: particles.transpose()?,
         })
@@ -109,6 +112,7 @@ impl Stored {
         let count = self.particles.as_ref().map_or(0, |own| own.position.len() as u32);
         let other = buffers.particles.map_or(0, |own| own.count) != count
             || (buffers.maps.is_some() && self.maps.is_empty())
+            || (buffers.dust.is_some() && self.dust.is_empty())
             || (buffers.owed.is_some() && self.owed.is_empty())
             || (buffers.species.is_some() && self.species.is_empty());
         if other || !self.fits(&buffers.grid) {
@@ -124,6 +128,7 @@ impl Stored {
         }
         buffers.owed.iter().for_each(|buffer| put(buffer, cast_slice(&self.owed_flow())));
         buffers.maps.iter().for_each(|buffer| put(buffer, cast_slice(&self.maps)));
+        buffers.dust.iter().for_each(|buffer| put(buffer, cast_slice(&self.dust)));
         if let (Some(own), Some(stored)) = (buffers.particles, &self.particles) {
             let into = [own.position, own.velocity, own.affine, own.deformation, own.stress];
             into.iter().zip(stored.arrays()).for_each(|(buffer, (_, array))| put(buffer, cast_slice(array)));
@@ -152,7 +157,7 @@ impl Stored {
     fn wrong_cells(&self, grid: &Grid) -> Option<&'static str> {
         let slots = grid.slots();
         let cells = [("conserved", self.conserved.len()), ("energy", self.energy.len()), ("kind", self.kind.len())];
-        let optional = [("owed", self.owed.len()), ("maps", self.maps.len())];
+        let optional = [("owed", self.owed.len()), ("maps", self.maps.len()), ("dust", self.dust.len())];
         let species = [0, 2 * slots, 3 * slots].contains(&self.species.len());
         let cells = cells.iter().find(|(_, len)| *len != slots);
         let optional = optional.iter().find(|(_, len)| ![0, slots].contains(len));
@@ -208,6 +213,7 @@ pub struct Loaded {
     species: Option<Buffer<f32>>,
     owed: Option<Buffer<[f32; 4]>>,
     maps: Option<Buffer<[f32; 4]>>,
+    dust: Option<Buffer<f32>>,
     cells: Buffer<u32>,
     count: u32,
     particles: Option<[Buffer<[f32; 4]>; 5]>,
@@ -240,6 +246,10 @@ impl Loaded {
                 true => None,
                 false => Some(Buffer::from_slice(gpu, "maps", &stored.maps)?),
             },
+            dust: match stored.dust.is_empty() {
+                true => None,
+                false => Some(Buffer::from_slice(gpu, "dust", &stored.dust)?),
+            },
             cells: Buffer::from_slice(gpu, "cells", &words)?,
             count: stored.particles.as_ref().map_or(0, |own| own.position.len() as u32),
             particles: particles.transpose()?,
@@ -262,7 +272,8 @@ impl Loaded {
         let [owed, maps] = [&self.owed, &self.maps].map(|buffer| buffer.as_ref().map(Buffer::raw));
         let slots = self.grid.slots();
         let species = self.species.as_ref().map(|buffer| (buffer.raw(), 0, buffer.len() / slots));
-        SceneBuffers { grid: self.grid, conserved, energy, species, owed, maps, cells, particles }
+        let dust = self.dust.as_ref().map(Buffer::raw);
+        SceneBuffers { grid: self.grid, conserved, energy, species, owed, maps, dust, cells, particles }
     }
 
     /// Puts another state of the same scene into the same buffers; false, and nothing done, if its sizes differ.
@@ -271,6 +282,7 @@ impl Loaded {
         let count = stored.particles.as_ref().map_or(0, |own| own.position.len() as u32);
         let other = stored.owed.is_empty() != self.owed.is_none()
             || stored.maps.is_empty() != self.maps.is_none()
+            || stored.dust.is_empty() != self.dust.is_none()
             || stored.species.is_empty() != self.species.is_none();
         if !stored.fits(&self.grid) || count != self.count || other {
             return false;
@@ -287,6 +299,9 @@ impl Loaded {
         }
         if let Some(maps) = &self.maps {
             maps.write(gpu, 0, &stored.maps);
+        }
+        if let Some(dust) = &self.dust {
+            dust.write(gpu, 0, &stored.dust);
         }
         if let (Some(buffers), Some(own)) = (&self.particles, &stored.particles) {
             for (buffer, (_, array)) in buffers.iter().zip(own.arrays()) {
@@ -319,6 +334,7 @@ mod tests {
             species: Vec::new(),
             owed: Vec::new(),
             maps: Vec::new(),
+            dust: Vec::new(),
             kind: vec![kind::GAS],
             particles: Some(particles),
         }

@@ -161,8 +161,12 @@ structure! {
         bend_far: f32,
         /// What its products give where they burn on in the first gas, over that energy \[1\].
         fuel: f32,
+        /// Extinction of dust in the ray march \[m^2 kg^-1\]; 0 without any.
+        dust: f32,
         /// Fills the space before vectors.
-        unused: [f32; 3],
+        unused: [f32; 2],
+        /// Share of the light that dust scatters, by colour.
+        dust_color: vec4f,
         /// Light behind everything in 3D, at the top and the bottom of the picture.
         background: [vec4f; 2],
         /// Slices: the points x with dot(xyz, x) = w.

@@ -203,6 +203,7 @@ impl Gas {
             vortices: Vec::new(),
             radial_flows: Vec::new(),
             noise: 0.0,
+            dust: None,
         }
     }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Scene;
+use super::{Color, Scene};
 
 /// Light of hot gas: a black body whose temperature is that of the gas, p / rho, in units of the ambient one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -40,6 +40,24 @@ impl Default for Soot {
     /// Nearly a fifth of the products of TNT is soot, of 8700 m^2 kg^-1. \[Mulholland and Croarkin 2000\]
     fn default() -> Self {
         Soot { extinction: 1600.0 }
+    }
+}
+
+/// Dust that absorbs light, scatters the rest in its colour, and casts shadows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct DustLook {
+    /// Extinction per mass `[m^2 kg^-1]`: 3 over the width and the density of the grains. The default is that of quartz 50 um wide.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub extinction: f64,
+    /// Share of the light that it scatters, as a colour.
+    pub color: Color,
+}
+
+impl Default for DustLook {
+    /// Grains wide beside the wave of light stop twice what meets them. \[van de Hulst 1957\]
+    fn default() -> Self {
+        DustLook { extinction: 22.6, color: Color([0xb4, 0x9b, 0x78]) }
     }
 }
 

@@ -16,6 +16,7 @@ mod charge;
 mod check;
 mod color;
 mod coupling;
+mod dust;
 mod expectation;
 mod file;
 mod finding;
@@ -74,6 +75,7 @@ pub use check::estimate::{Estimate, IMPLICIT_COURANT};
 pub use check::limits::allowed;
 pub use color::Color;
 pub use coupling::{Coupling, Elasticity, Ghost, InterfacePressure, SolidUpdate};
+pub use dust::Dust;
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
 pub use file::earlier::FORM;
 pub use file::shipped::{STANDARD_INPUT, Shipped, scene_file, shipped, shipped_named, stem};
@@ -89,7 +91,7 @@ pub use geometry::polyhedron::Part;
 pub(crate) use geometry::sample::random;
 pub use geometry::sample::{Overlap, Seed, ThinBody, ThinObstacle};
 pub use integrator::{FaceVelocity, Integrator, OddEvenFilter};
-pub use light::{Backdrop, Emission, Fire, Light, RAMP_KELVIN, Refraction, Soot, brightness, shining};
+pub use light::{Backdrop, DustLook, Emission, Fire, Light, RAMP_KELVIN, Refraction, Soot, brightness, shining};
 pub use look::Look;
 pub use numerics::{Expert, Numerics, Obstacles, Pair, Paper, Preconditioner, Transfer};
 pub use radial_flow::RadialFlow;
@@ -217,6 +219,9 @@ pub struct Gas {
     #[serde(default)]
     #[schemars(extend("minimum" = 0, "maximum" = 0.5))]
     pub noise: f64,
+    /// Dust that the gas takes along from the ground.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dust: Option<Dust>,
 }
 
 fn default_gamma() -> f64 {

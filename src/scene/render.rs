@@ -1,6 +1,6 @@
 //! What pictures show and how: fields, camera, colours.
 
-use super::light::{Backdrop, Emission, Light, Refraction, Soot};
+use super::light::{Backdrop, DustLook, Emission, Light, Refraction, Soot};
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
@@ -36,6 +36,8 @@ pub enum Field {
     Owed,
     /// Mass fraction of the second gas.
     MassFraction,
+    /// Dust that the gas has taken along `[kg m^-3]`.
+    Dust,
     /// Largest pressure since the start `[Pa]`.
     PeakPressure,
     /// Integral over time of the pressure above that of the ambient gas `[Pa s]`.
@@ -46,7 +48,7 @@ pub enum Field {
 
 impl Field {
     /// All fields, in the order of menus.
-    pub const ALL: [Field; 13] = [
+    pub const ALL: [Field; 14] = [
         Field::Density,
         Field::Pressure,
         Field::Velocity,
@@ -57,6 +59,7 @@ impl Field {
         Field::Entropy,
         Field::Owed,
         Field::MassFraction,
+        Field::Dust,
         Field::PeakPressure,
         Field::Impulse,
         Field::PeakPlasticStrain,
@@ -112,6 +115,8 @@ pub struct RenderSettings {
     pub emission: Option<Emission>,
     /// A second gas that absorbs light, in 3D.
     pub soot: Option<Soot>,
+    /// Dust that scatters light, in 3D.
+    pub dust: Option<DustLook>,
     /// Shock fronts and hot gas bend the view, in 3D.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refraction: Option<Refraction>,
@@ -180,6 +185,7 @@ impl Default for RenderSettings {
             optical_depth: None,
             emission: None,
             soot: None,
+            dust: None,
             refraction: None,
             light: Light::default(),
             tone: ToneMap::default(),

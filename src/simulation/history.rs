@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::diagnostics::{Load, PointRecord, StepRecord};
 use crate::error::Result;
-use crate::gpu::{Buffer, readback};
+use crate::gpu::{Buffer, Pass, readback};
 use crate::state::constants::HISTORY_WIDTH;
 use crate::state::gauges::GAUGE_WIDTH;
 use crate::state::loads::LOAD_WIDTH;
@@ -34,6 +34,23 @@ impl Rings {
 }
 
 impl Simulation {
+    /// Sums, loads, gauges and maps of the step.
+    pub(super) fn record_totals(&self, pass: &mut Pass) {
+        self.totals.record(pass, &self.state);
+        if let Some(dust) = &self.dust {
+            dust.record_totals(pass, &self.state);
+        }
+        if let Some(loads) = &self.loads {
+            loads.record(pass, &self.state);
+        }
+        if let Some(gauges) = &self.gauges {
+            gauges.record(pass, &self.state);
+        }
+        if let Some(maps) = &self.maps {
+            maps.record(pass, &self.state);
+        }
+    }
+
     /// Records of the steps since the last reading.
     pub(super) fn read_history(&mut self, step: u64, records: &mut Vec<StepRecord>) -> Result<()> {
         if step == self.step {

@@ -145,6 +145,9 @@ impl Simulation {
         }
         for (name, buffer) in &wanted {
             let Some(array) = saved.arrays.iter().find(|array| array.name == *name) else {
+                if buffer.bytes == 0 {
+                    continue;
+                }
                 return Err(Error::Spoilt(format!("array `{name}` is missing")));
             };
             let (words, expected) = (array.words.len(), buffer.bytes as usize / 4);

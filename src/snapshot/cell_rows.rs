@@ -17,6 +17,8 @@ pub struct CellRows {
     pub owed: Vec<f32>,
     /// Maps, see [`crate::state::State::maps`]; empty where none are kept.
     pub maps: Vec<[f32; 4]>,
+    /// Dust; empty without any.
+    pub dust: Vec<f32>,
     /// Kinds.
     pub kind: Vec<u8>,
 }

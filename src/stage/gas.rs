@@ -2,6 +2,7 @@
 
 mod carrier;
 mod detonate;
+mod dust;
 mod fluid_update;
 mod gas_advection;
 mod intermediate_pressure;
@@ -11,6 +12,7 @@ mod still;
 pub use carrier::{Carried, CarrierVelocity};
 pub(super) use detonate::Ball;
 pub use detonate::Detonate;
+pub use dust::Dust;
 pub use fluid_update::FluidUpdate;
 pub use gas_advection::GasAdvection;
 pub use intermediate_pressure::IntermediatePressure;

@@ -14,7 +14,9 @@ pub mod structures;
 mod sweep;
 pub mod traffic;
 
-pub use gas::{Carried, CarrierVelocity, Detonate, FluidUpdate, GasAdvection, IntermediatePressure, OddEven, Still};
+pub use gas::{
+    Carried, CarrierVelocity, Detonate, Dust, FluidUpdate, GasAdvection, IntermediatePressure, OddEven, Still,
+};
 pub use interface::InterfaceStage;
 pub use solid::{
     ElasticFirst, ElasticReaction, ElasticSolve, G2p, MAX_ELASTIC_ITERATIONS, MpmGridUpdate, P2g, ParticleSort,

@@ -3,16 +3,19 @@
 //! lends, and a test that no two uses of a part meet (`tests/suite/arrays.rs`).
 
 use Stage::{
-    Carrier, CoupledSolve, ElasticForce, ElasticReaction, ElasticSolve, FluidUpdate, G2p, GasAdvection, Interface,
-    IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, SolidKick, SolidPredictor, Still, TimeStep,
+    Carrier, CoupledSolve, Dust, ElasticForce, ElasticReaction, ElasticSolve, FluidUpdate, G2p, GasAdvection,
+    Interface, IntermediatePressure, MpmGridUpdate, OddEven, P2g, ParticleSort, SolidKick, SolidPredictor, Still,
+    TimeStep,
 };
 use When::{At, Next, Second, Substep};
 
 use super::stages::Stage;
 use crate::scene::Scene;
 
+mod scenes;
 mod text;
 
+pub use scenes::Scenes;
 pub use text::{constants, table};
 
 /// A moment of a step.
@@ -67,49 +70,6 @@ pub enum Name {
     Place(&'static str),
     /// By a binding of its own, of a vector that the solve lends.
     Lent(&'static str),
-}
-
-/// Scenes that have a use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scenes {
-    /// All.
-    All,
-    /// Without bodies.
-    Gas,
-    /// With bodies.
-    Bodies,
-    /// Without bodies, with two solves per step.
-    TwoSolves,
-    /// With bodies whose elastic step comes after the solve.
-    SolveFirst,
-    /// The same, in explicit sub-steps.
-    Explicit,
-    /// The same, with `numerics.elasticity = "implicit"`.
-    Implicit,
-    /// With bodies and `numerics.paper.coupling = "last"`.
-    ElasticFirst,
-    /// With a second gas.
-    TwoGases,
-    /// With products of an explosive for a second gas.
-    Products,
-}
-
-impl Scenes {
-    /// Whether some scene has both.
-    pub fn meet(self, other: Scenes) -> bool {
-        use Scenes::{All, Bodies, ElasticFirst, Explicit, Gas, Implicit, Products, SolveFirst, TwoGases, TwoSolves};
-        let bodies = |scenes| matches!(scenes, Bodies | SolveFirst | Explicit | Implicit | ElasticFirst);
-        match (self, other) {
-            (TwoGases | Products, _) | (_, TwoGases | Products) => true,
-            (Explicit, Implicit | ElasticFirst)
-            | (Implicit, Explicit | ElasticFirst)
-            | (SolveFirst, ElasticFirst)
-            | (ElasticFirst, SolveFirst | Explicit | Implicit) => false,
-            (Gas | TwoSolves, other) => !bodies(other),
-            (own, Gas | TwoSolves) => !bodies(own),
-            (All | Bodies | SolveFirst | Explicit | Implicit | ElasticFirst, _) => true,
-        }
-    }
 }
 
 /// Slots that a use takes.
@@ -340,6 +300,10 @@ pub const USES: &[Use] = &[
         "the same of the second gas").of(Scenes::TwoGases),
     Use::new("owed_energy", Name::Part(2, "OWED_SPECIES_ENERGY"), (At(Interface), Next(Interface)), "J",
         "its share of the energy").of(Scenes::TwoGases),
+    Use::new("dust", Name::First, (At(Dust), Next(Dust)), "kg m^-3",
+        "dust in gas, and in bodies that cover it; in the ring what has crossed since the start").of(Scenes::Dust),
+    Use::new("dust", Name::Part(1, "LOOSE_DUST"), (At(Dust), Next(Dust)), "kg m^-3",
+        "what still lies on the ground beside the slot").of(Scenes::Dust),
     Use::new("cells", Name::Array, (At(Interface), Next(Interface)), "", "kind, flags and blocked share of a slot"),
     Use::new("extra", Name::First, (At(Interface), Next(Interface)), "",
         "place among the vertices with P, h and Q apart").of(Scenes::Bodies),
@@ -359,12 +323,16 @@ pub const USES: &[Use] = &[
     Use::new("residual", Name::Lent("count"), (At(ParticleSort), At(ParticleSort)), "", "particles of a cell").of(Scenes::Bodies),
     Use::new("residual", Name::Lent("wanted"), (At(Interface), At(Interface)), "",
         "volume of a thin wall; 1 where a vertex wants P, h and Q apart; then where a slot is mixed"),
+    Use::new("residual", Name::Lent("passing"), (At(Dust), At(Dust)), "",
+        "share of its dust that a slot can give; of bodies who takes it, as bits").of(Scenes::Dust),
     Use::new("residual", Name::First, (At(CoupledSolve), At(CoupledSolve)), "m^3",
         "what open faces let through; right-hand side, residual"),
     Use::new("residual", Name::Lent("count"), (Substep(ParticleSort), Substep(ParticleSort)), "", "particles of a cell")
         .of(Scenes::Explicit),
     Use::new("residual", Name::Part(1, "APART"), (At(IntermediatePressure), At(CoupledSolve)), "m^3", "of h, then of Q"),
     Use::new("direction", Name::Lent("edge"), (At(Interface), At(Interface)), "", "1 where a slot is not deep inside the gas"),
+    Use::new("direction", Name::Lent("taken"), (At(Dust), At(Dust)), "kg m^-3", "dust that the gas takes along from the ground")
+        .of(Scenes::Dust),
     Use::new("direction", Name::First, (At(CoupledSolve), At(CoupledSolve)), "Pa", "of the search"),
     Use::new("product", Name::Lent("wanted_place"), (At(Interface), At(Interface)), "", "prefix sum of `wanted`"),
     Use::new("product", Name::Lent("busy"), (At(Still), At(Still)), "", "rows in which something moves"),
@@ -372,6 +340,7 @@ pub const USES: &[Use] = &[
         "share of the high-order flux that a cell allows"),
     Use::new("product", Name::First, (At(CoupledSolve), At(CoupledSolve)), "m^3", "operator times direction"),
     Use::new("solution", Name::Lent("edge_place"), (At(Interface), At(Interface)), "", "prefix sum of `edge`"),
+    Use::new("solution", Name::Lent("settled"), (At(Dust), At(Dust)), "kg m^-3", "dust at the end of the step").of(Scenes::Dust),
     Use::new("solution", Name::First, (At(CoupledSolve), At(CoupledSolve)), "Pa",
         "increment of the pressure; before the first iteration row sums for the coarse levels"),
     Use::new("inverse_diagonal", Name::First, (At(CoupledSolve), At(CoupledSolve)), "Pa m^-3", "of the operator"),
@@ -387,6 +356,7 @@ pub fn parts(array: &str, scene: &Scene) -> usize {
         Scenes::TwoSolves => two_solves,
         Scenes::TwoGases => two_gases,
         Scenes::Products => products,
+        Scenes::Dust => scene.gas.dust.is_some(),
         _ => true,
     };
     let own = USES.iter().filter(|own| own.array == array && has(own.scenes));

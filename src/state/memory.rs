@@ -95,7 +95,7 @@ impl MemoryPlan {
         plan.add("fixed", &[("supports", MAX_BODIES as u64, size_of::<Support>() as u64)]);
         let motions = super::Supports::new(scene).motions.len() as u64;
         plan.add("fixed", &[("motions", motions, size_of::<super::MotionAt>() as u64)]);
-        plan.add("gas", &[("maps", if scene.keeps_maps() { slots } else { 0 }, 16)]);
+        plan.add("gas", &[("maps", if scene.keeps_maps() { slots } else { 0 }, 16), ("dust", parts("dust"), 4)]);
         plan.add_recorded(scene, slots as usize);
         plan.add_fixed(scene.probes.len() as u64);
         plan

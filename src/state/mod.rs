@@ -5,6 +5,7 @@ pub(crate) mod coarse;
 pub mod constants;
 pub mod control;
 pub mod cut;
+mod dust;
 mod elastic_solve;
 pub mod gas;
 pub mod gauges;
@@ -12,6 +13,7 @@ pub mod grid;
 pub mod interface;
 pub mod loads;
 pub mod memory;
+mod names;
 pub mod openings;
 pub mod params;
 pub mod particles;
@@ -104,6 +106,8 @@ pub struct State {
     /// Largest pressure so far \[Pa\], impulse of the pressure above ambient \[Pa s\] and what that sum lost to rounding, largest plastic
     /// strain, per slot; empty where the scene asks for no maps.
     pub maps: Buffer<[f32; 4]>,
+    /// Dust in each slot and beside it on the ground, see [`arrays`]; empty without any.
+    pub dust: Buffer<f32>,
     /// Points of bodies that have gauges.
     pub gauges: GaugeBuffers,
     /// Whether the gas element pair is B2B1.
@@ -141,9 +145,8 @@ impl State {
         let (grid, start) = (Grid::of(&scene.domain), ParticleStart::new(scene));
         let (slots, limits) =
             (grid.slots(), SolidLimits { particles: start.len() as u32, max_density: start.max_density });
-        let capacity = extra_capacity(slots, start.len(), grid.dimension);
+        let (capacity, geometry) = (extra_capacity(slots, start.len(), grid.dimension), scene.cut_geometry());
         let (unknowns, openings, supports) = (slots + 2 * capacity, Openings::new(scene), Supports::new(scene));
-        let geometry = scene.cut_geometry();
         let start_gas = cut::initial_gas(scene, &geometry);
         let start_entropy = gas::start_entropy(scene, &start_gas, &openings);
         let [least_entropy, species_least_entropy] = gas::least_entropies(scene, start_entropy);
@@ -185,6 +188,7 @@ impl State {
             probe_history: Buffer::new(gpu, "probe_history", 2 * HISTORY as usize * scene.probes.len())?,
             gauges: GaugeBuffers::new(gpu, scene, &start)?,
             maps: Buffer::new(gpu, "maps", if scene.keeps_maps() { slots } else { 0 })?,
+            dust: dust::new(gpu, scene, &grid, &geometry)?,
             quadratic: scene.numerics.pair == Pair::B2b1,
             breaks: scene.breaks(),
             overrides,
@@ -303,76 +307,6 @@ impl State {
             .filter_map(|binding| buffer_of(&binding.name).map(|buffer| (binding.name.as_str(), buffer)))
             .collect();
         kernel.bind(&self.gpu, &buffers)
-    }
-
-    /// A vector of the solve that another stage borrows, by the name of its binding there.
-    ///
-    /// # Panics
-    /// If [`arrays::USES`] has no such name: a bug of the caller.
-    pub(crate) fn lent(&self, name: &str) -> &wgpu::Buffer {
-        let named = self.names();
-        named.iter().find(|(known, _)| *known == name).expect("names of lent vectors are literals of this crate").1
-    }
-
-    /// The one list of names under which shaders know the state: arrays, and vectors that the solve lends.
-    fn names(&self) -> Vec<(&'static str, &wgpu::Buffer)> {
-        let mut named = self.arrays();
-        let own = |array: &str| named.iter().find(|(known, _)| *known == array).map(|(_, buffer)| *buffer);
-        let lent = |used: &arrays::Use| match used.name {
-            arrays::Name::Lent(name) => own(used.array).map(|buffer| (name, buffer)),
-            _ => None,
-        };
-        let lent: Vec<_> = arrays::USES.iter().filter_map(lent).collect();
-        named.extend(lent);
-        named
-    }
-
-    fn arrays(&self) -> Vec<(&'static str, &wgpu::Buffer)> {
-        vec![
-            ("params", self.params_buffer.raw()),
-            ("control", self.control.raw()),
-            ("extents", self.extents.raw()),
-            ("materials", self.materials.raw()),
-            ("openings", self.openings.raw()),
-            ("knots", self.knots.raw()),
-            ("supports", self.supports.raw()),
-            ("motions", self.motions.raw()),
-            ("conserved", self.gas.conserved.raw()),
-            ("energy", self.gas.energy.raw()),
-            ("work", self.gas.work.raw()),
-            ("owed_flow", self.gas.owed_flow.raw()),
-            ("owed_energy", self.gas.owed_energy.raw()),
-            ("cells", self.interface.cells.raw()),
-            ("fill", self.interface.fill.raw()),
-            ("ghost", self.interface.ghost.raw()),
-            ("extra", self.interface.extra.raw()),
-            ("position", self.particles.position.raw()),
-            ("velocity", self.particles.velocity.raw()),
-            ("affine", self.particles.affine.raw()),
-            ("deformation", self.particles.deformation.raw()),
-            ("stress", self.particles.stress.raw()),
-            ("order", self.particles.order.raw()),
-            ("cell_start", self.particles.cell_start.raw()),
-            ("node", self.particles.node.raw()),
-            ("inertia", self.particles.inertia.raw()),
-            ("elastic", self.particles.elastic.raw()),
-            ("pressure", self.pressure.raw()),
-            ("stiffness", self.stiffness.raw()),
-            ("solution", self.pcg.solution.raw()),
-            ("residual", self.pcg.residual.raw()),
-            ("direction", self.pcg.direction.raw()),
-            ("product", self.pcg.product.raw()),
-            ("inverse_diagonal", self.pcg.inverse_diagonal.raw()),
-            ("partials", self.partials.raw()),
-            ("history", self.history.raw()),
-            ("probe_cells", self.probe_cells.raw()),
-            ("probe_history", self.probe_history.raw()),
-            ("maps", self.maps.raw()),
-            ("gauge_particles", self.gauges.particles.raw()),
-            ("gauge_history", self.gauges.history.raw()),
-            ("loads", self.loads.raw()),
-            ("load_history", self.load_history.raw()),
-        ]
     }
 }
 

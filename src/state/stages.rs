@@ -43,6 +43,7 @@ stages! {
     Interface "interface" "where do gas and solid meet?" ["interface.md" "Interface", "ledger.md" "Ledger"]
     ElasticForce "elastic_force" "which elastic force does the present stress give?" ["elastic_reaction.md" "Elastic reaction"]
     Still "still" "where does nothing move?" ["../inside/kernels.md" "Kernels"]
+    Dust "dust" "where does the gas carry dust?" ["dust.md" "Dust"]
     Carrier "carrier" "which velocity carries the gas through its faces?" ["face_velocity.md" "Face velocity"]
     GasAdvection "gas_advection" "where does the gas carry itself?" ["gas_advection.md" "Gas advection"]
     IntermediatePressure "intermediate_pressure" "which pressure does the advected gas have?"

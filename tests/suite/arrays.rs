@@ -113,11 +113,13 @@ fn recorded() -> Option<BTreeSet<(Stage, String)>> {
     let gpu = gpu_or_skip()?;
     let gas = ["domain.cells=[16]"];
     let slab = ["domain.cells=[16]", "materials.stiff.neo_hookean.young_modulus=100.0"];
-    let scenes: [(&str, &[&str], &str); 7] = [
+    let dust = "gas.dust={ sides = [\"x_min\"], amount = 1.0, threshold = 0.0, rate = 1.0 }";
+    let scenes: [(&str, &[&str], &str); 8] = [
         ("gas/sod.toml", &gas, "numerics.integrator=auto"),
         ("gas/sod.toml", &gas, "numerics.integrator=predictor"),
         ("gas/sod.toml", &gas, "numerics.pair=b2b1"),
         ("gas/sod.toml", &gas, "numerics.filter=0.2"),
+        ("gas/sod.toml", &gas, dust),
         ("coupled/slab_at_rest.toml", &slab, "numerics.filter=0.2"),
         ("coupled/slab_at_rest.toml", &slab, "numerics.elasticity=implicit"),
         ("coupled/slab_at_rest.toml", &slab, "numerics.paper.coupling=last"),

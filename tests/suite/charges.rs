@@ -109,10 +109,12 @@ fn what_is_no_charge_is_refused() {
         ("charges[0].center=[5.0, 1.0]", "lies outside the domain"),
         ("charges[0].center=[2.3, 1.2]", "nearer to an open or periodic side"),
         ("charges[0].center=[0.4, 0.4]", "lies inside obstacle `box`"),
+        ("charges[0].center=[0.9, 0.4]", "lies inside body `block`"),
     ] {
         let scene = toml::to_string(&scene(
             2,
-            "[[obstacles]]\nname = \"box\"\nshape = { box = { center = [0.4, 0.4], size = [0.3, 0.3] } }\n[boundary]\nx_max = \"outlet\"\n",
+            "[[obstacles]]\nname = \"box\"\nshape = { box = { center = [0.4, 0.4], size = [0.3, 0.3] } }\n\
+             [[bodies]]\nname = \"block\"\nmaterial = \"steel\"\nshape = { box = { center = [0.9, 0.4], size = [0.3, 0.3] } }\n[boundary]\nx_max = \"outlet\"\n",
         ));
         let error = Scene::parse(&scene.unwrap(), "charge.toml", &[set.to_owned()][..]).unwrap_err().to_string();
         assert!(error.contains(told) && error.contains("charges[0]"), "{set}: {error}");

@@ -44,6 +44,7 @@ fn snapshot(dimension: u32) -> Snapshot {
         species: Vec::new(),
         owed: (0..count).map(|index| 0.5 * number(index)).collect(),
         maps: Vec::new(),
+        dust: Vec::new(),
         particles: (0..5).map(particle).collect(),
     }
 }

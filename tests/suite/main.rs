@@ -17,6 +17,7 @@ mod common;
 mod contacts;
 mod cut;
 mod determinism;
+mod dust;
 mod earlier;
 mod export;
 mod far_field;

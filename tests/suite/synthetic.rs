@@ -100,6 +100,7 @@ impl State {
             species: self.species.as_ref().map(|own| (own.raw(), 0, 2)),
             owed: None,
             maps: None,
+            dust: None,
             cells: self.cells.raw(),
             particles: Some(ParticleBuffers {
                 count: self.particles,

@@ -6,6 +6,7 @@ pub(crate) mod boundary;
 pub(crate) mod budget;
 pub(crate) mod charge;
 pub(crate) mod disk;
+mod dust;
 pub(crate) mod estimate;
 pub(crate) mod gauge;
 pub(crate) mod limits;
@@ -152,6 +153,7 @@ impl Check<'_> {
     fn gas(&mut self) {
         let gas = &self.scene.gas;
         self.species();
+        self.dust();
         self.atmosphere();
         self.findings.extend(crate::scene::wave::finding(gas));
         self.findings.extend(crate::scene::vortex::findings(gas));

@@ -62,6 +62,9 @@ impl Check<'_> {
         if render.soot.is_some() && self.scene.gas.species.is_empty() {
             self.add(key("soot"), "there is no second gas", "add a table such as [gas.species.products] with gamma");
         }
+        if render.dust.is_some() && self.scene.gas.dust.is_none() {
+            self.add(key("dust"), "there is no dust", "add a table [gas.dust] with sides, amount, threshold and rate");
+        }
         self.direction(key("light.direction"), render.light.direction);
         self.planes(path, render);
         if let Some(camera) = &render.camera {

@@ -49,6 +49,7 @@ pub fn table() -> String {
             Scenes::TwoSolves => " (two solves)",
             Scenes::TwoGases => " (two gases)",
             Scenes::Products => " (products of an explosive)",
+            Scenes::Dust => " (dust)",
             Scenes::SolveFirst => " (bodies, solve first)",
             Scenes::Explicit => " (sub-steps)",
             Scenes::Implicit => " (implicit elasticity)",

@@ -65,9 +65,42 @@ fn bubble(session: &mut Session<'_>) -> Result<()> {
             let ours = (climbs[1] - 2.0 * climbs[0]) / (half * half * gravity);
             let name = format!("acceleration over gravity, density ratio {ratio}");
             session.check(&run, &name, ours).reference(acceleration, "added mass").within(0.1);
+            // inside it moves at one speed, outside on the axis as over the square of the distance
+            let sheet = 4.0 * RADIUS * acceleration * gravity * until;
+            let name = format!("circulation of the right half, density ratio {ratio}");
+            session.check(&run, &name, circulation(&run) / sheet).reference(1.0, "potential flow").within(0.1);
         }
     }
+    if session.suite == Suite::Full { rolls_up(session, standard) } else { Ok(()) }
+}
+
+/// Of the bubble.
+const RADIUS: f64 = 1.0;
+
+/// Ten times the gravity: gas from below pierces the bubble, which becomes two vortices, in space a ring.
+fn rolls_up(session: &mut Session<'_>, setting: Setting) -> Result<()> {
+    let changes = ["gravity=[0.0, -1e-3]", "gas.waves[0].vector=[0.0, 2e-3]", "time.until=190.0"];
+    let run = session.run("validation/hot_bubble.toml", setting, &changes.map(str::to_owned))?;
+    let outside = run.scene.gas.ambient.density;
+    let [nx, ny, _] = run.scene.domain.cells.map(|n| n as usize);
+    let missing = |x: usize, y: usize| (1.0 - f64::from(run.snapshot.density[x + nx * y]) / outside).max(0.0);
+    let columns: Vec<f64> = (0..nx).map(|x| (0..ny).map(|y| missing(x, y)).sum()).collect();
+    let widest = columns.iter().copied().fold(0.0, f64::max);
+    let row = session.check(&run, "lighter gas on the axis, over that of the fullest column", columns[0] / widest);
+    row.source("a bubble that keeps its shape has 1").pass(Limit::AtMost(0.6));
+    let risen = centroid(&run) / RADIUS;
+    session.check(&run, "rise of the middle of the lighter gas, in radii", risen).pass(Limit::Between(1.0, 4.0));
     Ok(())
+}
+
+/// Line integral of the velocity around the domain: up along the axis, and back along the other sides.
+fn circulation(run: &Run) -> f64 {
+    let domain = &run.scene.domain;
+    let [nx, ny, _] = domain.cells.map(|n| n as usize);
+    let velocity = |x: usize, y: usize, axis: usize| f64::from(run.snapshot.velocity[x + nx * y][axis]);
+    let across: f64 = (0..nx).map(|x| velocity(x, ny - 1, 0) - velocity(x, 0, 0)).sum();
+    let up: f64 = (0..ny).map(|y| velocity(0, y, 1) - velocity(nx - 1, y, 1)).sum();
+    domain.spacing() * (across + up)
 }
 
 /// Height of the middle of the lighter gas.
