@@ -112,10 +112,10 @@ impl Moment<'_> {
             ("Scene", self.origin.hash.clone()),
             ("Time", format!("{:?}", self.time)),
             ("Step", self.step.to_string()),
-            ("Field", picture.name.clone()),
+            ("Field", if picture.shown.is_empty() { &picture.name } else { &picture.shown }.clone()),
             ("Range", format!("{:?} {:?}", picture.range[0], picture.range[1])),
         ];
-        if let Some(shown) = quantity::find(Place::Cell, &picture.name) {
+        if let Some(shown) = quantity::find(Place::Cell, &picture.shown) {
             text.extend([("Symbol", shown.symbol.to_owned()), ("Unit", shown.unit.to_owned())]);
         }
         if !picture.view.is_empty() {

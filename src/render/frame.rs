@@ -33,7 +33,9 @@ pub struct Picture {
     pub view: String,
     /// Name of the field.
     pub name: String,
-    /// Values at the two ends of the colour bar, in the field's unit.
+    /// Name of the quantity that it shows of the gas: the field, or what the mode of the picture makes of it; empty in 1D.
+    pub shown: String,
+    /// Values at the two ends of the colour bar, in that quantity's unit.
     pub range: [f64; 2],
     /// The pixels.
     pub frame: Frame,

@@ -183,7 +183,8 @@ impl Renderer {
             camera: layers::camera(&self.eye(look, time), layout.plot.width as f32 / layout.plot.height as f32),
         };
         let picture = plane::compose(look, &layout, &drawn, &labels, self.sources.grid.dimension < 3);
-        Ok(Picture { name: field.keyword().to_owned(), range, ..picture })
+        let [name, shown] = [field, shown].map(|field| field.keyword().to_owned());
+        Ok(Picture { name, shown, range, ..picture })
     }
 
     /// The camera of a look at a time \[s\]: its own, or the one that shows the whole domain, where its path leads it.

@@ -258,7 +258,7 @@ fn frames_drawn_again_have_another_look() {
     assert!(fails(3, &["render", run, "--field", "heat"]).contains("unknown variant `heat`"));
     assert!(fails(2, &["render", folder.path().to_str().unwrap()]).contains("no report.json"));
     std::fs::write(out.join("states/0002.npz"), "short").unwrap();
-    assert!(fails(9, &["render", run]).contains("0002.npz"));
+    assert!(fails(6, &["render", run]).contains("0002.npz"));
     std::fs::remove_dir_all(out.join("states")).unwrap();
     assert!(fails(2, &["render", run]).contains("--export fields"));
 }

@@ -302,6 +302,11 @@ fn png_tells_where_it_comes_from() {
     assert_eq!(text("Field").as_deref(), Some("pressure"));
     assert!(text("Range").is_some());
     assert_eq!([text("Symbol"), text("Unit")], ["p", "Pa"].map(|own| Some(own.to_owned())));
+    let picture = &render(3, 8, [64, 48], "render.mode = \"schlieren\"")[0];
+    let said = Moment { pictures: &[], ..moment }.provenance(picture);
+    let of = |key: &str| said.iter().find(|(own, _)| *own == key).map(|(_, text)| text.as_str());
+    assert_eq!([of("Field"), of("Unit")], [Some("schlieren"), Some("kg m^-4")]);
+    assert_eq!(picture.name, "density");
     assert_eq!(info.utf8_text[0].get_text().unwrap(), "Sod \u{2192} shell");
     assert!(folder.path().join("frames/density/0007.png").exists());
 }
