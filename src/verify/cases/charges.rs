@@ -75,7 +75,7 @@ const COARSE: &str = "a peak of few cells is cut off";
 /// Mass in free air over that of the charge on the ground, of the same blast: as both sets of curves say of each other.
 const REFLECTED_MASS: f64 = 1.8;
 /// A distance \[m\], and the widest zone \[m\] with which the wave of a kilogram is carried there.
-const DISTANCES: [(f64, f64); 6] = [(1.0, 0.005), (2.0, 0.005), (4.0, 0.01), (8.0, 0.02), (15.0, 0.01), (30.0, 0.015)];
+const DISTANCES: [(f64, f64); 6] = [(1.0, 0.005), (2.0, 0.005), (4.0, 0.01), (8.0, 0.02), (15.0, 0.01), (30.0, 0.006)];
 
 fn radial(session: &mut Session<'_>) -> Result<()> {
     over_distances(session, Burst::Air)
