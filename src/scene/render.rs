@@ -116,6 +116,7 @@ pub struct RenderSettings {
     /// A second gas that absorbs light, in 3D.
     pub soot: Option<Soot>,
     /// Dust that scatters light, in 3D.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub dust: Option<DustLook>,
     /// Shock fronts and hot gas bend the view, in 3D.
     #[serde(skip_serializing_if = "Option::is_none")]
