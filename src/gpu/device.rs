@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::adapters::{choose, enough, new_instance, ranked_adapters};
 use super::cache::Cache;
 use super::kernel::Kernel;
-use super::pipeline::Pipeline;
+use super::pipeline::{Pipeline, PipelineCache};
 use super::reflect::Compiled;
 use super::shader::Folder;
 use crate::error::{Error, Result};
@@ -94,12 +94,17 @@ pub struct Gpu {
     pub(super) shaders: ShaderCache,
     /// Their entry points with the overrides they were specialised for.
     pub(super) kernels: KernelCache,
+    /// The pipelines that they share.
+    pub(super) pipelines: PipelineCache,
     faults: Arc<Mutex<Faults>>,
     allocated: Arc<AtomicU64>,
 }
 
 /// Shaders, and kernels, that a device knows at most. A scene has up to 150; a driver in software takes some megabytes for each.
 const MOST_KNOWN: usize = 256;
+
+/// Pipelines that a device keeps at most for kernels that share them.
+const MOST_SHARED: usize = 512;
 
 /// Compiled shaders by file name and constants text.
 type ShaderCache = Arc<Mutex<Cache<(String, String), Arc<Compiled>>>>;
@@ -169,8 +174,6 @@ impl Gpu {
         let settings = options.settings.or(Settings::from_environment()?).unwrap_or(of_device);
         let written = options.kernels.clone().or_else(|| environment("BRISANCE_KERNELS").map(PathBuf::from));
         let patience = patience(software)?;
-        let (shaders, kernels) =
-            (Arc::new(Mutex::new(Cache::new(MOST_KNOWN))), Arc::new(Mutex::new(Cache::new(MOST_KNOWN))));
         Ok(Gpu {
             instance,
             adapter,
@@ -187,8 +190,9 @@ impl Gpu {
             queued: Arc::default(),
             patience,
             at_work: Arc::default(),
-            shaders,
-            kernels,
+            shaders: Arc::new(Mutex::new(Cache::new(MOST_KNOWN))),
+            kernels: Arc::new(Mutex::new(Cache::new(MOST_KNOWN))),
+            pipelines: Arc::new(Mutex::new(Cache::new(MOST_SHARED))),
             faults,
             allocated: Arc::default(),
         })

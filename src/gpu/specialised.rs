@@ -26,6 +26,8 @@ pub(super) fn specialised(compiled: &Compiled, entry: &str, overrides: &[(String
     for function in functions.chain(module.entry_points.iter_mut().map(|point| &mut point.function)) {
         prune(&known, function);
     }
+    // a constant with a name is kept, whether it is used or not
+    module.constants.iter_mut().for_each(|(_, constant)| constant.name = None);
     compact(&mut module, KeepUnused::No);
     Ok(module)
 }
