@@ -41,9 +41,8 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
     let (lost, charges, on_grid) = (scene.thin_obstacles(), scene.charge_estimates(), scene.charges_on_grid());
     let texts = estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning));
-    for warning in texts.chain(lost.iter().map(lost_text)).chain(on_grid.iter().filter_map(GridCharge::warning)) {
-        tell!("warning: {warning}");
-    }
+    let texts = texts.chain(lost.iter().map(lost_text)).chain(on_grid.iter().filter_map(GridCharge::warning));
+    tell_warnings(texts.chain(stale_texts(&scene)));
     let duration = Duration::of(&scene, &plan, &estimate, cli);
     if let Some(reason) = duration.as_ref().and_then(|duration| duration.refused.as_ref()) {
         tell!("warning: a run on this device will be refused: {reason}");
@@ -175,6 +174,21 @@ pub(super) fn lost_text(lost: &ThinObstacle) -> String {
          has no holes; more cells help (--resolution), or a thicker obstacle",
         100.0 * share
     )
+}
+
+fn tell_warnings(texts: impl Iterator<Item = String>) {
+    texts.for_each(|text| tell!("warning: {text}"));
+}
+
+/// Outlets that keep what the stream along them no longer is, for people.
+pub(super) fn stale_texts(scene: &Scene) -> impl Iterator<Item = String> {
+    let pairs = scene.boundary.outlets_along_changing_streams(scene.domain.dimension);
+    pairs.into_iter().map(|[outlet, inlet]| {
+        format!(
+            "boundary.{outlet} = \"outlet\" keeps the gas of the start beyond it, and the stream of boundary.{inlet} along it changes: \
+             gas leaves or enters all along the side; use a far_field of the later stream, or an attenuated_outlet with attenuation 0"
+        )
+    })
 }
 
 /// How a body breaks, for people.

@@ -9,7 +9,7 @@ mod reporting;
 use std::time::{Duration, Instant};
 
 use super::args::{Cli, RunOptions};
-use super::check::{lost_text, overlap_text, size};
+use super::check::{lost_text, overlap_text, size, stale_texts};
 use super::folder::Folder;
 use super::init::not_an_input;
 use super::interrupt;
@@ -123,6 +123,9 @@ fn announce(scene: &Scene, plan: &MemoryPlan, gpu: &Gpu, formats: &[String]) {
     }
     for lost in scene.thin_obstacles() {
         tell!("warning: {}", lost_text(&lost));
+    }
+    for stale in stale_texts(scene) {
+        tell!("warning: {stale}");
     }
     tell!("{}: {cells} cells, {} particles, on {}", scene.title, plan.particles, gpu.info.name);
     let formats: Vec<&str> = formats.iter().map(String::as_str).collect();

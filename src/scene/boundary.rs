@@ -251,6 +251,9 @@ pub struct Boundaries {
     pub z_max: Boundary,
 }
 
+/// Share by which pressure or density of a stream change that outlets along it are told of.
+const CHANGED: f64 = 0.1;
+
 impl Boundaries {
     /// Keys of the sides in the order of [`Boundaries::sides`].
     pub const NAMES: [&str; 6] = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"];
@@ -270,6 +273,24 @@ impl Boundaries {
     #[must_use]
     pub fn closed(&self, dimension: u32) -> bool {
         self.sides().iter().take(2 * dimension as usize).all(|side| side.is_closed())
+    }
+
+    /// Sides of which each pair has one thing to tell: an `outlet`, beyond which the gas stays as it is at the start, and a `timed_inlet`
+    /// whose stream goes along it, but becomes another one by more than a tenth.
+    #[must_use]
+    pub fn outlets_along_changing_streams(&self, dimension: u32) -> Vec<[&'static str; 2]> {
+        let sides = || self.sides().into_iter().zip(Self::NAMES).enumerate().take(2 * dimension as usize);
+        let changes = |side: &Boundary| match side {
+            Boundary::TimedInlet(TimedInlet { table, .. }) => table.iter().any(|state| {
+                let other = |now: f64, first: f64| (now - first).abs() > CHANGED * first;
+                other(state.pressure, table[0].pressure) || other(state.density, table[0].density)
+            }),
+            _ => false,
+        };
+        let streams = sides().filter(|(_, (side, _))| changes(side));
+        let beside = |stream: usize| sides().filter(move |(index, _)| index / 2 != stream / 2);
+        let outlets = |stream: usize| beside(stream).filter(|(_, (side, _))| **side == Boundary::Outlet);
+        streams.flat_map(|(at, (_, inlet))| outlets(at).map(move |(_, (_, outlet))| [outlet, inlet])).collect()
     }
 
     /// Whether what leaves along an axis enters at its other end.

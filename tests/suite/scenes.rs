@@ -10,9 +10,7 @@ use crate::common::{files_below, gpu_or_skip, is_kind, slashed};
 
 /// Scenes that were not looked through for warnings: what is told of them may be right, or a fault.
 const UNJUDGED: &[&str] = &[
-    "demos/meteor_3d.toml",
     "paper/fig01_car_landmine.toml",
-    "paper/fig02_tribunny.toml",
     "paper/fig03_elastic_shell_2d.toml",
     "paper/fig04_trucks.toml",
     "paper/fig05_bullets_2d.toml",
@@ -23,9 +21,7 @@ const UNJUDGED: &[&str] = &[
     "paper/fig12_cactus_forest.toml",
     "paper/fig13_ghost_update.toml",
     "paper/fig14_ordering.toml",
-    "paper/fig15_stair_flow.toml",
     "paper/fig18_mach_diamond_2d.toml",
-    "paper/fig19_koalas.toml",
     "validation/line_explosion.toml",
 ];
 

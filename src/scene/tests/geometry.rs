@@ -358,3 +358,17 @@ fn obstacles_thinner_than_a_cell_are_told() {
     let thick = "polygon = { points = [[0.4, 0.2], [1.6, 0.7], [1.6, 0.9], [0.4, 0.4]] }";
     assert_eq!(lost(thick, "cells"), None);
 }
+
+/// An outlet keeps the gas of the start beyond it, while a stream along it may become another one.
+#[test]
+fn outlets_along_changing_streams_are_told() {
+    let told = |pressure: f64, side: &str| {
+        let table = format!("[{{time=0.0,density=1.0,pressure=1.0}},{{time=0.1,density=1.0,pressure={pressure}}}]");
+        let inlet = format!("boundary.x_min={{timed_inlet={{table={table}}}}}");
+        let scene = parse(BASE, &[&inlet, "boundary.x_max=\"outlet\"", &format!("boundary.y_max={side}")]);
+        scene.boundary.outlets_along_changing_streams(scene.domain.dimension)
+    };
+    assert_eq!(told(3.0, "\"outlet\""), [["y_max", "x_min"]]);
+    assert_eq!(told(1.05, "\"outlet\""), [[""; 2]; 0], "a stream that hardly changes");
+    assert_eq!(told(3.0, "\"wall\""), [[""; 2]; 0], "the other end of the stream is no matter");
+}
