@@ -67,7 +67,7 @@ impl Recipe {
             Ok(module) => module,
             Err(reason) => return Arc::new(OnceLock::from(Err(format!("{}: {reason}", self.label)))),
         };
-        let key = digest(&self.label, &module);
+        let key = digest(&self.label, &self.compiled.shader.text, &module);
         let made = {
             let mut known = lock(known);
             known.get(&key).unwrap_or_else(|| {
@@ -101,11 +101,11 @@ impl Recipe {
     }
 }
 
-/// 128 bits of what a pipeline is made of: where the label is the same, so are the bindings.
-fn digest(label: &str, module: &Module) -> [u64; 2] {
+/// 128 bits of what a pipeline is made of; label and text of the shader stand for its bindings, of which some may be left out.
+fn digest(label: &str, text: &str, module: &Module) -> [u64; 2] {
     let mut digest = Digest([0_u8, 1].map(|seed| {
         let mut hasher = DefaultHasher::new();
-        (seed, label).hash(&mut hasher);
+        (seed, label, text).hash(&mut hasher);
         hasher
     }));
     write!(digest, "{module:?}").expect("nothing is stored");
@@ -162,7 +162,7 @@ fn main() {
         let folder = Folder::Given(vec![("text.wgsl".to_owned(), TEXT.to_owned())]);
         let compiled = Shader::load("text.wgsl", "", &folder).unwrap().compile().unwrap();
         let overrides = [("CUT".to_owned(), cut), ("MIRRORED".to_owned(), mirrored)];
-        digest(label, &specialised(&compiled, "main", &overrides).unwrap())
+        digest(label, &compiled.shader.text, &specialised(&compiled, "main", &overrides).unwrap())
     }
 
     #[test]
