@@ -4,7 +4,7 @@ use brisance::scene::Scene;
 use brisance::simulation::Simulation;
 
 use crate::common::gpu_or_skip;
-use crate::reference::interface::ledger::settled_part;
+use reference::interface::ledger::settled_part;
 
 /// Internal energy over that of entropy 1 at a density.
 fn entropy(u: [f64; 5]) -> f64 {

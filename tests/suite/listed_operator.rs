@@ -9,10 +9,10 @@ use brisance::simulation::Simulation;
 use brisance::state::{Over, State};
 
 use crate::common::{Random, gpu_or_skip};
-use crate::reference::grid::add;
-use crate::reference::solve::coupled_solve::block_with_images;
-use crate::reference::{GAS, Problem, SOLID, interface};
 use crate::twins::problem_of;
+use reference::grid::add;
+use reference::solve::coupled_solve::block_with_images;
+use reference::{GAS, Problem, SOLID, interface};
 
 /// Bodies in gas, at a wall, at an open side and at a corner, with a gap of one cell between two of them; and an obstacle.
 const SCENE: &str = r#"

@@ -48,7 +48,6 @@ mod pieces;
 mod preconditioner;
 mod prose;
 mod quiet;
-mod reference;
 mod reference_exact;
 mod reference_operator;
 mod reference_solids;

@@ -5,7 +5,7 @@ use brisance::material::{KINDS, Material, VolumeShare, wgsl_includes, wgsl_switc
 use glam::{DMat3, DVec3};
 
 use crate::common::{Random, with_shaders};
-use crate::reference::solid::material::eigen;
+use reference::solid::material::eigen;
 
 /// Asks a law for everything it knows of given displacement gradients F - I.
 const ASK: &str = r#"

@@ -6,20 +6,20 @@ use brisance::simulation::Simulation;
 use brisance::state::MemoryPlan;
 
 use crate::common::gpu_or_skip;
-use crate::reference::gas::gas_advection;
-use crate::reference::gas::intermediate_pressure;
-use crate::reference::grid::Grid;
-use crate::reference::interface;
-use crate::reference::interface::Interface;
-use crate::reference::solid::material::Material;
-use crate::reference::solid::p2g;
-use crate::reference::solid::particle_sort;
-use crate::reference::solve::coupled_solve::{Inputs, Q, System, assemble};
-use crate::reference::step::two_spaces::{Diagonals, TwoSpaces, iterations};
-use crate::reference::{GAS, Pair, Problem, Side, State};
 use crate::reference_solids::lattice;
 use crate::reference_tables::Noise;
 use crate::twins::problem_of;
+use reference::gas::gas_advection;
+use reference::gas::intermediate_pressure;
+use reference::grid::Grid;
+use reference::interface;
+use reference::interface::Interface;
+use reference::solid::material::Material;
+use reference::solid::p2g;
+use reference::solid::particle_sort;
+use reference::solve::coupled_solve::{Inputs, Q, System, assemble};
+use reference::step::two_spaces::{Diagonals, TwoSpaces, iterations};
+use reference::{GAS, Pair, Problem, Side, State};
 
 /// The pressure system of a step of `dt` whose advection leaves the state as it is.
 fn assembled(problem: Problem, mut state: State, dt: f64) -> (Problem, Interface, System) {

@@ -1,20 +1,20 @@
 //! The CPU reference piece by piece: pressure operator, element stencils, stress, plasticity, elastic waves.
 
 use crate::common::Random;
-use crate::reference::gas::gas_advection;
-use crate::reference::gas::intermediate_pressure;
-use crate::reference::grid::Grid;
-use crate::reference::interface;
-use crate::reference::solid::g2p;
-use crate::reference::solid::material::Material;
-use crate::reference::solid::mpm_grid_update;
-use crate::reference::solid::p2g;
-use crate::reference::solid::particle_sort;
-use crate::reference::solve::coupled_solve::{Inputs, System, assemble, dot};
-use crate::reference::{Gas, Pair, Particle, Problem, SOLID, Shared, Side, State, internal_energy};
 use crate::reference_solids::lattice;
 use crate::reference_tables::Noise;
 use glam::DMat3;
+use reference::gas::gas_advection;
+use reference::gas::intermediate_pressure;
+use reference::grid::Grid;
+use reference::interface;
+use reference::solid::g2p;
+use reference::solid::material::Material;
+use reference::solid::mpm_grid_update;
+use reference::solid::p2g;
+use reference::solid::particle_sort;
+use reference::solve::coupled_solve::{Inputs, System, assemble, dot};
+use reference::{Gas, Pair, Particle, Problem, SOLID, Shared, Side, State, internal_energy};
 
 /// A random admissible scene in `dimension` axes: gas everywhere, a few bodies and fragments, an obstacle, open sides.
 fn random_system(dimension: usize, pair: Pair, shared: Shared, seed: u64) -> System {

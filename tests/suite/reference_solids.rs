@@ -1,12 +1,12 @@
 //! The CPU reference with solids: motion of a slab, rest states, conservation, the operator.
 
-use crate::reference::grid::Grid;
-use crate::reference::solid::material::Material;
-use crate::reference::step::{Report, advance_to, step};
-use crate::reference::{GAS, Particle, Problem, Shared, Side, State};
 use crate::reference_exact::slab_path;
 use crate::reference_tables::Noise;
 use glam::{DMat3, DVec3};
+use reference::grid::Grid;
+use reference::solid::material::Material;
+use reference::step::{Report, advance_to, step};
+use reference::{GAS, Particle, Problem, Shared, Side, State};
 
 /// Particles on a lattice of `per_axis` per cell and axis wherever `inside` says so.
 pub(crate) fn lattice(

@@ -1,12 +1,12 @@
 //! The CPU reference against exact solutions and known error tables.
 
 use crate::analytic::TUBES;
-use crate::reference::gas::gas_advection::fill_ghosts;
-use crate::reference::grid::Grid;
-use crate::reference::step::{Report, advance_to, step};
-use crate::reference::{Numerics, Pair, Problem, Side, State, Weno};
 use crate::reference_exact::{self as exact, Primitive};
 use brisance::scene::Scene;
+use reference::gas::gas_advection::fill_ghosts;
+use reference::grid::Grid;
+use reference::step::{Report, advance_to, step};
+use reference::{Numerics, Pair, Problem, Side, State, Weno};
 use std::sync::OnceLock;
 
 /// A shock-tube case: name, left, right, time.
@@ -255,9 +255,7 @@ fn rest_noise(pair: Pair, s: f64, predictor: bool) -> f64 {
     let sound = 1.4_f64.sqrt();
     for c in problem.grid.interior() {
         let (density, u, p) = (1.0 + 1e-3 * noise.next(), 1e-3 * sound * noise.next(), 1.0 + 1e-3 * noise.next());
-        state
-            .gas
-            .set(problem.grid.slot(c), crate::reference::Gas::conserved_from_primitive(density, [u, 0.0, 0.0], p, 1.4));
+        state.gas.set(problem.grid.slot(c), reference::Gas::conserved_from_primitive(density, [u, 0.0, 0.0], p, 1.4));
     }
     fill_ghosts(&problem, &state.cells, &mut state.gas);
     for _ in 0..400 {

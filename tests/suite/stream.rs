@@ -4,9 +4,9 @@ use brisance::gpu::Gpu;
 
 use crate::common::{Random, gpu_or_skip};
 use crate::quiet::{disturbed, noise};
-use crate::reference::grid::Grid;
-use crate::reference::step::step;
-use crate::reference::{Numerics, Pair, Problem, Side, State};
+use reference::grid::Grid;
+use reference::step::step;
+use reference::{Numerics, Pair, Problem, Side, State};
 
 /// Velocity of the stream, over the speed of sound, along each axis.
 const STREAM: [f32; 3] = [0.85, 0.3, -0.6];

@@ -11,11 +11,11 @@ use glam::{DMat3, DVec3};
 type Components = fn(&Particle) -> Vec<f64>;
 
 use crate::common::{Borrowed, Random};
-use crate::reference::grid::Grid;
-use crate::reference::solid::material::Material;
-use crate::reference::step::time_step::time_step;
-use crate::reference::step::{Report, Trace, traced_step};
-use crate::reference::{self as twin, GAS, Particle, Problem, SOLID, Shared, Side, State};
+use reference::grid::Grid;
+use reference::solid::material::Material;
+use reference::step::time_step::time_step;
+use reference::step::{Report, Trace, traced_step};
+use reference::{self as twin, GAS, Particle, Problem, SOLID, Shared, Side, State};
 
 /// The fixed parts of a scene for the twin.
 pub(crate) fn problem_of(scene: &Scene) -> Problem {

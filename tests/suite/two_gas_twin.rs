@@ -5,11 +5,11 @@ use brisance::scene::{Gas as SceneGas, Scene};
 use brisance::simulation::Simulation;
 
 use crate::common::{Random, gpu_or_skip};
-use crate::reference::gas::carrier::Carrier;
-use crate::reference::gas::gas_advection::{allowed_share, reconstruct};
-use crate::reference::grid::shift;
-use crate::reference::{Gas, Problem, Weno, kinetic_energy};
 use crate::twins::problem_of;
+use reference::gas::carrier::Carrier;
+use reference::gas::gas_advection::{allowed_share, reconstruct};
+use reference::grid::shift;
+use reference::{Gas, Problem, Weno, kinetic_energy};
 
 /// Parts of the array `energy`: pressure that the solve starts from, density and volume fraction of the second gas.
 const PARTS: [usize; 3] = [1, 7, 8];
@@ -347,7 +347,7 @@ fn two_gases_are_advected_as_in_double_precision() {
                 simulation.advance_timed(&mut records, Detail::Stages).unwrap();
             }
             let dt = f64::from(records[0].dt);
-            let kinds = vec![crate::reference::GAS; grid.slots()];
+            let kinds = vec![reference::GAS; grid.slots()];
             let (end, pressures, limited) = Twin { law, problem, kinds, dt }.step(&start);
             let flow = fetch(&gpu, &simulation.state.gas.conserved);
             let energy = fetch(&gpu, &simulation.state.gas.energy);
