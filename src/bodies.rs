@@ -66,7 +66,7 @@ impl Snapshot {
         let cell = f64::from(self.grid.spacing).powi(self.grid.dimension as i32);
         for (body, (pieces, cells)) in bodies.iter_mut().zip(self.pieces(count)) {
             body.pieces = pieces;
-            body.finish(cell * f64::from(cells));
+            body.finish(cell * f64::from(cells), self.grid.frame);
         }
         bodies
     }
@@ -179,8 +179,9 @@ impl BodyState {
         }
     }
 
-    /// Sums to means; a body that has left the domain is nowhere. `cells` is the volume of the cells that hold particles \[m^3\].
-    fn finish(&mut self, cells: f64) {
+    /// Sums to means, in the coordinates of the scene, in which those of the device have their zero at `frame`; a body that has left the
+    /// domain is nowhere. `cells` is the volume of the cells that hold particles \[m^3\].
+    fn finish(&mut self, cells: f64, frame: [f64; 3]) {
         self.room = self.room.min(cells) / self.volume0;
         self.centroid = self.centroid.map(|sum| sum / self.mass);
         self.velocity = self.velocity.map(|sum| sum / self.mass);
@@ -188,6 +189,10 @@ impl BodyState {
         let whole = cross(self.centroid, self.velocity);
         for (sum, orbit) in self.angular_momentum.iter_mut().zip(whole) {
             *sum -= self.mass * orbit;
+        }
+        for axis in 0..3 {
+            self.centroid[axis] += frame[axis];
+            self.extent.iter_mut().for_each(|corner| corner[axis] += frame[axis]);
         }
         if self.particles == 0 {
             self.extent = [[f64::NAN; 3]; 2];
@@ -239,7 +244,7 @@ mod tests {
             body,
             ..ParticleSample::default()
         };
-        let grid = Grid { dimension: 3, cells: [8; 3], origin: [0.0; 3], spacing: 1.0 };
+        let grid = Grid { dimension: 3, cells: [8; 3], frame: [0.0; 3], origin: [0.0; 3], spacing: 1.0 };
         Snapshot::of_particles((0.0, 0), grid, particles.iter().map(sample).collect())
     }
 
@@ -255,7 +260,7 @@ mod tests {
             stress: [5.0 * k as f32, 0.0, 0.0, 0.0, 0.0, 0.0],
             ..ParticleSample::default()
         };
-        let grid = Grid { dimension: 3, cells: [8; 3], origin: [0.0; 3], spacing: 1.0 };
+        let grid = Grid { dimension: 3, cells: [8; 3], frame: [0.0; 3], origin: [0.0; 3], spacing: 1.0 };
         let state = Snapshot::of_particles((0.0, 0), grid, (0..3).map(particle).collect());
         let [body] = &state.bodies(1)[..] else { panic!("one body") };
         let near = |ours: f64, right: f64| assert!((ours - right).abs() < 1e-6, "{ours}, not {right}");

@@ -26,7 +26,7 @@ pub struct Load {
     pub force: [f32; 3],
     /// Its power \[W\].
     pub power: f32,
-    /// Its moment about the origin of coordinates \[N m\].
+    /// Its moment about the zero of the device's coordinates \[N m\].
     pub moment: [f32; 3],
     /// Mean pressure over the faces that gas touches \[Pa\]; no number where it touches none.
     pub pressure: f32,
@@ -50,7 +50,7 @@ pub struct Borne {
 }
 
 impl Load {
-    /// The load of a step, its moment about a point \[m\], with the impulse since the start.
+    /// The load of a step, its moment about a point of the device's coordinates \[m\], with the impulse since the start.
     #[must_use]
     pub fn borne(&self, about: [f64; 3], impulse: [f64; 3]) -> Borne {
         let force = glam::DVec3::from(self.force.map(f64::from));

@@ -229,7 +229,7 @@ mod tests {
 
     /// Gas that turns as a rigid body about z, with a density that rises along x; the middle cell is solid.
     fn turning() -> Snapshot {
-        let grid = Grid { dimension: 2, cells: [5, 5, 1], origin: [0.0; 3], spacing: 0.5 };
+        let grid = Grid { dimension: 2, cells: [5, 5, 1], frame: [0.0; 3], origin: [0.0; 3], spacing: 0.5 };
         let at = |i: usize| grid.centre([(i % 5) as i32, (i / 5) as i32, 0]);
         let mut kinds = vec![kind::GAS; 25];
         kinds[12] = kind::SOLID;

@@ -71,7 +71,7 @@ pub struct Snapshot {
 pub struct ParticleSample {
     /// Number among the particles of the start, [`crate::scene::Scene::seed_particles`].
     pub index: u32,
-    /// Position \[m\].
+    /// Position in the device's coordinates \[m\]; [`Snapshot::place_of`] has it in those of the scene.
     pub position: [f32; 3],
     /// Velocity \[m s^-1\].
     pub velocity: [f32; 3],
@@ -161,13 +161,19 @@ pub struct GasSample {
 }
 
 impl Snapshot {
+    /// Position of a particle in the coordinates of the scene \[m\].
+    #[must_use]
+    pub fn place_of(&self, particle: &ParticleSample) -> [f64; 3] {
+        self.grid.in_scene(particle.position)
+    }
+
     /// The cell that holds a point \[m\]: its place in the cell arrays, or nothing outside of the domain. Axes that are left out are 0.
     #[must_use]
     pub fn cell_at<const N: usize>(&self, position: [f64; N]) -> Option<usize> {
         let grid = &self.grid;
-        let mut place = 0;
+        let (mut place, low) = (0, grid.low());
         for axis in (0..grid.dimension as usize).rev() {
-            let offset = position.get(axis).copied().unwrap_or(0.0) - f64::from(grid.origin[axis]);
+            let offset = position.get(axis).copied().unwrap_or(0.0) - low[axis];
             let cell = (offset / f64::from(grid.spacing)).floor();
             if !(cell >= 0.0 && cell < f64::from(grid.cells[axis])) {
                 return None;

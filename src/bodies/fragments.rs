@@ -62,11 +62,11 @@ impl Snapshot {
         let mean = |value: &dyn Fn(&ParticleSample) -> DVec3| {
             particles().map(|particle| value(particle) * f64::from(particle.mass)).sum::<DVec3>() / mass
         };
-        let (centre, velocity) = (mean(&|one| vector(one.position)), mean(&|one| vector(one.velocity)));
+        let (centre, velocity) = (mean(&|one| self.place_of(one).into()), mean(&|one| vector(one.velocity)));
         let (mut moments, mut turning) = (DMat3::ZERO, DVec3::ZERO);
         let mut speeds = [0.0; SPEEDS];
         for particle in particles() {
-            let (arm, own) = (vector(particle.position) - centre, f64::from(particle.mass));
+            let (arm, own) = (DVec3::from(self.place_of(particle)) - centre, f64::from(particle.mass));
             // a particle is a cube itself: its share of the box, and of what turns
             let side =
                 f64::from(particle.volume0 * particle.volume_ratio()).abs().powf(1.0 / f64::from(self.grid.dimension));
@@ -121,7 +121,7 @@ mod tests {
                 ..ParticleSample::default()
             });
         }
-        let grid = Grid { dimension: 3, cells: [32; 3], origin: [0.0; 3], spacing: 1.0 };
+        let grid = Grid { dimension: 3, cells: [32; 3], frame: [0.0; 3], origin: [0.0; 3], spacing: 1.0 };
         let snapshot = Snapshot::of_particles((0.0, 0), grid, particles);
         let fragments = snapshot.fragments(&snapshot.piece_of_each());
         assert_eq!(fragments.iter().map(|one| (one.piece, one.body)).collect::<Vec<_>>(), [(77, 1), (89, 0)]);

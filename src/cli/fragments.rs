@@ -108,7 +108,7 @@ mod tests {
             mass: 2.0,
             ..ParticleSample::default()
         };
-        let grid = Grid { dimension: 1, cells: [16, 1, 1], origin: [0.0; 3], spacing: 1.0 };
+        let grid = Grid { dimension: 1, cells: [16, 1, 1], frame: [0.0; 3], origin: [0.0; 3], spacing: 1.0 };
         Snapshot::of_particles((0.0, 0), grid, (0..4).map(particle).collect())
     }
 

@@ -19,7 +19,7 @@ fn of_loads() -> &'static [Columns<Borne>] {
 /// Where a gauge's numbers stand in a record.
 #[derive(Clone, Copy, Debug)]
 enum Source {
-    /// A load, and what its moment is about \[m\].
+    /// A load, and what its moment is about, in the device's coordinates \[m\].
     Load(usize, DVec3),
     /// A point.
     Point(usize),
@@ -45,7 +45,10 @@ impl Gauges {
                 columns.extend(own(quantity::names(POINT)));
                 points += 1;
             } else {
-                sources.push(Source::Load(loads::of_gauge(scene, place)?, gauge.about.into()));
+                sources.push(Source::Load(
+                    loads::of_gauge(scene, place)?,
+                    DVec3::from(gauge.about) - DVec3::from(scene.domain.frame()),
+                ));
                 columns.extend(own(quantity::names(of_loads())));
             }
         }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::diagnostics::{Borne, Load, StepRecord};
@@ -58,6 +59,8 @@ pub(super) struct Loads {
     obstacles: Vec<(String, Sum)>,
     sides: Vec<Sum>,
     table: Option<Table>,
+    /// The zero that moments in a record are about, in the coordinates of the scene \[m\].
+    frame: DVec3,
 }
 
 impl Loads {
@@ -69,6 +72,7 @@ impl Loads {
             bodies: vec![Sum::default(); bodies],
             obstacles: named.collect(),
             sides: vec![Sum::default(); sides],
+            frame: scene.domain.frame().into(),
             table: (obstacles > 0).then(|| Table::named(&folder.join("obstacles.csv"), obstacle_columns())),
         }
     }
@@ -111,7 +115,7 @@ impl Loads {
         for ((name, sum), load) in self.obstacles.iter().zip(record.loads.iter().skip(self.bodies.len())) {
             let head: [Value; 3] = [record.step.into(), record.time.into(), name.as_str().into()];
             let [x, y, z, _] = sum.borne;
-            let borne = load.borne([0.0; 3], [x, y, z]);
+            let borne = load.borne((-self.frame).into(), [x, y, z]);
             table.push(head.into_iter().chain(quantity::row(of_obstacles(), &borne).map(Value::from)));
         }
     }
@@ -122,7 +126,8 @@ impl Loads {
         let time = std::mem::take(&mut sum.time);
         let [x, y, z, a, b, c] = std::mem::take(&mut sum.since).map(|part| part / time);
         let [along, up, aside, work] = sum.borne;
-        let (force, moment, impulse) = ([x, y, z], [a, b, c], [along, up, aside]);
+        let (force, impulse) = ([x, y, z], [along, up, aside]);
+        let moment = (DVec3::new(a, b, c) + self.frame.cross(force.into())).into();
         let borne = Borne { force, moment, pressure: sum.pressure, impulse, work };
         quantity::row(LOAD, &borne).map(Value::from).collect()
     }

@@ -69,7 +69,7 @@ mod tests {
     /// A body turned by 90 degrees about z and then stretched by a hundredth along y: its material is longer along x.
     #[test]
     fn strain_knows_no_rotation() {
-        let grid = Grid { dimension: 3, cells: [4; 3], origin: [0.0; 3], spacing: 1.0 };
+        let grid = Grid { dimension: 3, cells: [4; 3], frame: [0.0; 3], origin: [0.0; 3], spacing: 1.0 };
         let mut raw = vec![[0.0; 4]; 10];
         (raw[0], raw[1]) = ([1.5, 2.0, 0.5, 3.0], [4.0, 5.0, 6.0, 0.25]);
         // F = [[0, -1, 0], [1.01, 0, 0], [0, 0, 1]], less the identity

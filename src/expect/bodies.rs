@@ -76,7 +76,7 @@ fn changes<'a>(scene: &Scene, snapshot: &Snapshot, bodies: &'a [BodyState]) -> V
         let sum: DVec3 = own.iter().map(|seed| seed.volume * DVec3::from(seed.position)).sum();
         let start = sum / own.iter().map(|seed| seed.volume).sum::<f64>();
         let pairs = snapshot.particles.iter().filter(|particle| particle.body as usize == index).map(|particle| {
-            let now = particle.position.map(f64::from);
+            let now = snapshot.place_of(particle);
             [seeds[particle.index as usize].position.into(), now.into()]
         });
         let distortion = distortion(&pairs.collect::<Vec<_>>());
@@ -186,7 +186,7 @@ order = [{ quantity = "moved_x", bodies = ["near", "far"] }, { quantity = "moved
             ..ParticleSample::default()
         };
         let particles = scene.seed_particles().into_iter().enumerate().map(sample);
-        let grid = Grid { dimension: 2, cells: [20, 10, 1], origin: [0.0; 3], spacing: 0.1 };
+        let grid = Grid { dimension: 2, cells: [20, 10, 1], frame: [0.0; 3], origin: [0.0; 3], spacing: 0.1 };
         Snapshot::of_particles((1.0, 1), grid, particles.filter(|particle| particle.position[0] < 1.3).collect())
     }
 

@@ -43,16 +43,19 @@ impl Exporter for ArrayExporter {
 /// All quantities of a state, and where its cells and particles are.
 fn arrays(snapshot: &Snapshot) -> impl IndexedParallelIterator<Item = Array> {
     let (grid, particles) = (&snapshot.grid, &snapshot.particles);
-    let position: Vec<f32> = particles.iter().flat_map(|particle| particle.position).collect();
-    let real = |name: &str, shape: &[usize], values: Vec<f32>, about: &str| Array {
+    let far = grid.is_far();
+    let places = particles.iter().flat_map(|particle| snapshot.place_of(particle));
+    let position = if far { Numbers::F64(places.collect()) } else { Numbers::F32(places.map(|x| x as f32).collect()) };
+    let low = if far { Numbers::F64(grid.low().to_vec()) } else { Numbers::F32(grid.origin.to_vec()) };
+    let real = |name: &str, shape: &[usize], numbers: Numbers, about: &str| Array {
         name: name.to_owned(),
         shape: shape.to_vec(),
-        numbers: Numbers::F32(values),
+        numbers,
         about: about.to_owned(),
     };
     let places = vec![
-        real("origin", &[3], grid.origin.to_vec(), "low corner of the cells [m]"),
-        real("spacing", &[1], vec![grid.spacing], "edge of a cell [m]"),
+        real("origin", &[3], low, "low corner of the cells [m]"),
+        real("spacing", &[1], Numbers::F32(vec![grid.spacing]), "edge of a cell [m]"),
         real("particle_position", &[particles.len(), 3], position, "position [m]"),
     ];
     let mut quantities: Vec<&Quantity> = all(snapshot, Place::Cell).chain(all(snapshot, Place::Particle)).collect();

@@ -57,12 +57,13 @@ impl MeshExporter {
             sides.fold(f64::NEG_INFINITY, f64::max)
         };
         let distance = |point: [f64; 3]| {
-            let shapes = obstacles.iter().map(|obstacle| obstacle.shape.distance(point));
+            let place = std::array::from_fn(|axis| grid.frame[axis] + point[axis]);
+            let shapes = obstacles.iter().map(|obstacle| obstacle.shape.distance(place));
             shapes.fold(f64::INFINITY, f64::min).max(inside(point))
         };
         let surface = Surface::of_distance([low, high], 0.5 * cell, distance);
         let path = self.folder.join("obstacles.ply");
-        ply::write(&path, &about(moment), &[Part { surface, ..Part::default() }])
+        ply::write(&path, &about(moment), grid.frame, &[Part { surface, ..Part::default() }])
     }
 
     /// The pieces that fragments come from: where the particle that gives each its number was in the last frame. `now` has the piece of
@@ -119,7 +120,7 @@ impl Exporter for MeshExporter {
         let name = format!("{:04}", moment.index);
         let parents = self.parents(&fragments, &now, &self.folder.join(&name).with_extension("npy"))?;
         let parts: Vec<Part> = fragments.par_iter().map(|one| part(one, snapshot)).collect();
-        ply::write(&self.folder.join(&name).with_extension("ply"), &about(moment), &parts)?;
+        ply::write(&self.folder.join(&name).with_extension("ply"), &about(moment), snapshot.grid.frame, &parts)?;
         let volumes: Vec<f64> = parts.par_iter().map(|part| part.surface.volume()).collect();
         let inside = fragments.into_iter().zip(volumes).map(|(one, volume)| Fragment { volume, ..one });
         let rows: Vec<_> = inside.zip(parents).collect();

@@ -23,22 +23,23 @@ pub(super) struct Part {
     pub(super) body: u32,
 }
 
-/// Bytes of a corner and of a triangle.
-const CORNER_BYTES: usize = 4 * (3 + CORNER.len() + 2);
+/// Bytes of what a corner has beside its place, and of a triangle.
+const BESIDE_BYTES: usize = 4 * (CORNER.len() + 2);
 const TRIANGLE_BYTES: usize = 1 + 4 * 3;
 
 impl Part {
-    /// The corners as bytes, in the order of the head.
-    fn corner_bytes(&self) -> Vec<u8> {
-        let mut bytes = vec![0; CORNER_BYTES * self.surface.points.len()];
+    /// The corners as bytes, in the order of the head: their places by `place_bytes` from those of the surface.
+    fn corner_bytes<const N: usize>(&self, place_bytes: impl Fn([f32; 3]) -> [u8; N] + Sync) -> Vec<u8> {
+        let size = N + BESIDE_BYTES;
+        let mut bytes = vec![0; size * self.surface.points.len()];
         let own = [self.piece.to_le_bytes(), self.body.to_le_bytes()];
-        bytes.par_chunks_exact_mut(CORNER_BYTES).zip(&self.surface.points).enumerate().for_each(
-            |(k, (into, place))| {
-                let numbers = self.corners.get(k).copied().unwrap_or_default();
-                let words = place.iter().chain(&numbers).map(|number| number.to_le_bytes()).chain(own);
-                into.chunks_exact_mut(4).zip(words).for_each(|(into, word)| into.copy_from_slice(&word));
-            },
-        );
+        bytes.par_chunks_exact_mut(size).zip(&self.surface.points).enumerate().for_each(|(k, (into, place))| {
+            let (front, beside) = into.split_at_mut(N);
+            front.copy_from_slice(&place_bytes(*place));
+            let numbers = self.corners.get(k).copied().unwrap_or_default();
+            let words = numbers.iter().map(|number| number.to_le_bytes()).chain(own);
+            beside.chunks_exact_mut(4).zip(words).for_each(|(into, word)| into.copy_from_slice(&word));
+        });
         bytes
     }
 
@@ -54,11 +55,12 @@ impl Part {
     }
 }
 
-/// Writes parts one after another.
+/// Writes parts one after another, whose coordinates have their zero at `frame`: as doubles where that is not the zero of the scene.
 ///
 /// # Errors
 /// [`crate::Error::Io`].
-pub(super) fn write(path: &Path, comments: &[String], parts: &[Part]) -> Result<()> {
+pub(super) fn write(path: &Path, comments: &[String], frame: [f64; 3], parts: &[Part]) -> Result<()> {
+    let far = frame != [0.0; 3];
     let count = |of: fn(&Part) -> usize| parts.iter().map(of).sum::<usize>();
     let (corners, triangles) = (count(|part| part.surface.points.len()), count(|part| part.surface.triangles.len()));
     let mut header = Header::new();
@@ -67,8 +69,10 @@ pub(super) fn write(path: &Path, comments: &[String], parts: &[Part]) -> Result<
     let whole = |name: &str| PropertyDef::new(name.to_owned(), PropertyType::Scalar(ScalarType::UInt));
     let real = |name: &str| PropertyDef::new(name.to_owned(), PropertyType::Scalar(ScalarType::Float));
     let list = PropertyType::List(ScalarType::UChar, ScalarType::UInt);
-    let names = ["x", "y", "z"].into_iter().chain(CORNER);
-    let of_corners: Vec<PropertyDef> = names.map(real).chain([whole("piece"), whole("body")]).collect();
+    let scalar = if far { ScalarType::Double } else { ScalarType::Float };
+    let places = ["x", "y", "z"].map(|name| PropertyDef::new(name.to_owned(), PropertyType::Scalar(scalar.clone())));
+    let of_corners: Vec<PropertyDef> =
+        places.into_iter().chain(CORNER.map(real)).chain([whole("piece"), whole("body")]).collect();
     let of_triangles = vec![PropertyDef::new("vertex_indices".to_owned(), list)];
     for (name, properties, count) in [("vertex", of_corners, corners), ("face", of_triangles, triangles)] {
         let mut definition = ElementDef::new(name.to_owned());
@@ -78,7 +82,15 @@ pub(super) fn write(path: &Path, comments: &[String], parts: &[Part]) -> Result<
     }
     atomic::write(path, |mut out| {
         Writer::<DefaultElement>::new().write_header(&mut out, &header)?;
-        parts.iter().try_for_each(|part| out.write_all(&part.corner_bytes()))?;
+        let single = |place: [f32; 3]| -> [u8; 12] { bytemuck::cast(place.map(f32::to_le_bytes)) };
+        let double = |place: [f32; 3]| -> [u8; 24] {
+            let sum: [f64; 3] = std::array::from_fn(|axis| frame[axis] + f64::from(place[axis]));
+            bytemuck::cast(sum.map(f64::to_le_bytes))
+        };
+        parts.iter().try_for_each(|part| match far {
+            true => out.write_all(&part.corner_bytes(double)),
+            false => out.write_all(&part.corner_bytes(single)),
+        })?;
         let mut first = 0;
         parts.iter().try_for_each(|part| {
             let bytes = part.triangle_bytes(first);

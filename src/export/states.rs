@@ -305,7 +305,7 @@ mod tests {
             deformation: vec![[0.0, 0.0, 0.0, 1.0]; 9],
             stress: vec![[0.0; 4]; 6],
         };
-        let grid = Grid { dimension: 3, cells: [1; 3], origin: [0.0; 3], spacing: 1.0 };
+        let grid = Grid { dimension: 3, cells: [1; 3], frame: [0.0; 3], origin: [0.0; 3], spacing: 1.0 };
         let [whole, kept] = [affine.clone(), turning_alone(&affine)].map(|affine| {
             let sample = |p| rows(affine.clone()).sample(&grid, p);
             [0, 1, 2].map(sample).map(|own| (own.vorticity, own.ghost_pressure, own.plastic_strain, own.material))

@@ -13,6 +13,7 @@ use crate::export::{Exporter, Moment, Needs, atomic};
 use crate::quantity::{self, Place, Values};
 use crate::scene::{Camera, CameraKey};
 use crate::snapshot::Snapshot;
+use crate::state::Grid;
 
 /// Frames a second of the stage.
 const RATE: u32 = 25;
@@ -83,8 +84,9 @@ impl UsdExporter {
     fn stage(&self, moment: &Moment, snapshot: &Snapshot) -> String {
         let (first, last) = (self.frames.first().map_or(0, |f| f.0), self.frames.last().map_or(0, |f| f.0));
         let grid = &snapshot.grid;
-        let high: [f32; 3] = std::array::from_fn(|axis| grid.origin[axis] + grid.extent()[axis]);
-        let extent = format!("[{}, {}]", vector(grid.origin), vector(high));
+        let low = grid.in_scene(grid.origin).map(|x| x as f32);
+        let high: [f32; 3] = std::array::from_fn(|axis| low[axis] + grid.extent()[axis]);
+        let extent = format!("[{}, {}]", vector(low), vector(high));
         let mut text = format!(
             "#usda 1.0\n(\n    defaultPrim = \"run\"\n    doc = \"{}\"\n    metersPerUnit = 1\n    upAxis = \"Z\"\n    startTimeCode = {first}\n    \
              endTimeCode = {last}\n    timeCodesPerSecond = {RATE}\n    framesPerSecond = {RATE}\n)\n\ndef Xform \"run\"\n{{\n",
@@ -97,7 +99,7 @@ impl UsdExporter {
         );
         self.volume(&mut text, &extent, &names(snapshot), moment.origin.kelvin.is_some());
         if self.points {
-            self.clips(&mut text, &extent, (first, last), moment);
+            self.clips(&mut text, grid, (first, last), moment);
         }
         self.camera(&mut text, moment);
         text.push_str("}\n");
@@ -125,8 +127,11 @@ impl UsdExporter {
         text.push_str("    }\n");
     }
 
-    fn clips(&self, text: &mut String, extent: &str, (first, last): (u32, u32), moment: &Moment) {
+    /// The points of bodies, in the device's coordinates and moved as a whole to those of the scene.
+    fn clips(&self, text: &mut String, grid: &Grid, (first, last): (u32, u32), moment: &Moment) {
         let source = &moment.origin.source;
+        let high: [f32; 3] = std::array::from_fn(|axis| grid.origin[axis] + grid.extent()[axis]);
+        let extent = format!("[{}, {}]", vector(grid.origin), vector(high));
         let list =
             |names: &[String]| names.iter().map(|name| format!("\"{}\"", quoted(name))).collect::<Vec<_>>().join(", ");
         let _ = writeln!(
@@ -140,6 +145,13 @@ impl UsdExporter {
             list(&source.bodies),
             list(&source.materials)
         );
+        if grid.is_far() {
+            let [x, y, z] = grid.frame;
+            let _ = writeln!(
+                text,
+                "        double3 xformOp:translate = ({x:?}, {y:?}, {z:?})\n        uniform token[] xformOpOrder = [\"xformOp:translate\"]"
+            );
+        }
         // what no schema declares, clips alone do not bring into being
         for (name, kind) in PRIMVARS {
             let _ = writeln!(

@@ -171,7 +171,7 @@ impl Volume {
 /// Voxels lie where the cells do, in metres; the place of a voxel is its middle.
 fn write_transform(out: &mut Bytes, snapshot: &Snapshot) {
     let edge = f64::from(snapshot.grid.spacing);
-    let middle = snapshot.grid.origin.map(|low| f64::from(low) + 0.5 * edge);
+    let middle = snapshot.grid.low().map(|low| low + 0.5 * edge);
     out.text("UniformScaleTranslateMap");
     out.reals(&middle);
     for value in [edge, edge, 1.0 / edge, 1.0 / (edge * edge), 0.5 / edge] {
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn temperatures_are_in_kelvin_where_the_scene_says_what_its_gas_has() {
-        let grid = Grid { dimension: 2, cells: [2, 1, 1], origin: [0.0; 3], spacing: 0.5 };
+        let grid = Grid { dimension: 2, cells: [2, 1, 1], frame: [0.0; 3], origin: [0.0; 3], spacing: 0.5 };
         let mut gas = Snapshot::of_particles((0.0, 0), grid, Vec::new());
         (gas.kind, gas.density, gas.pressure) = (vec![kind::GAS; 2], vec![0.5, 1.0], vec![2.0, 1.0]);
         let of = |kelvin| Volume::of(TEMPERATURE, &gas, kelvin).unwrap();

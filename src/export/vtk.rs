@@ -86,7 +86,10 @@ pub fn write_fields(path: &Path, snapshot: &Snapshot) -> Result<()> {
     let active = |axis: usize| (axis as u32) < grid.dimension;
     let extent: Vec<_> = (0..3).map(|axis| format!("0 {}", if active(axis) { grid.cells[axis] } else { 0 })).collect();
     let extent = extent.join(" ");
-    let origin = grid.origin.map(|coordinate| format!("{coordinate:?}"));
+    let origin = match grid.is_far() {
+        true => grid.low().map(|coordinate| format!("{coordinate:?}")),
+        false => grid.origin.map(|coordinate| format!("{coordinate:?}")),
+    };
     let spacing = grid.spacing;
 
     let mut file = Appended::new("ImageData");
@@ -118,8 +121,13 @@ pub fn write_particles(path: &Path, snapshot: &Snapshot, names: [&[String]; 2]) 
     file.head.push_str("<PointData Scalars=\"plastic_strain\" Vectors=\"velocity\">\n");
     file.quantities(snapshot, Place::Particle);
     file.head.push_str("</PointData>\n<Points>\n");
-    let position: Vec<f32> = particles.iter().flat_map(|particle| particle.position).collect();
-    file.array("Points", 3, &position);
+    if snapshot.grid.is_far() {
+        let places: Vec<f64> = particles.iter().flat_map(|particle| snapshot.place_of(particle)).collect();
+        file.array("Points", 3, &places);
+    } else {
+        let places: Vec<f32> = particles.iter().flat_map(|particle| particle.position).collect();
+        file.array("Points", 3, &places);
+    }
     file.head.push_str("</Points>\n<Verts>\n");
     file.array("connectivity", 1, &(0..count as i32).collect::<Vec<_>>());
     file.array("offsets", 1, &(1..=count as i32).collect::<Vec<_>>());
@@ -169,6 +177,10 @@ trait Element: Pod {
 
 impl Element for f32 {
     const TYPE: &'static str = "Float32";
+}
+
+impl Element for f64 {
+    const TYPE: &'static str = "Float64";
 }
 
 impl Element for i32 {

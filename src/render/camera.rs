@@ -8,7 +8,10 @@ use crate::state::Grid;
 /// Position and orientation of the eye.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Eye {
+    /// In the device's coordinates \[m\].
     pub(super) position: Vec3,
+    /// Zero of those in the coordinates of the scene \[m\].
+    pub(super) frame: DVec3,
     pub(super) forward: Vec3,
     pub(super) up: Vec3,
     pub(super) parallel: bool,
@@ -26,18 +29,20 @@ pub struct Ray {
 }
 
 impl Eye {
-    /// A camera in space.
-    pub(super) fn of_camera(camera: &Camera) -> Self {
+    /// A camera in space, whose places are those of the scene.
+    pub(super) fn of_camera(camera: &Camera, frame: [f64; 3]) -> Self {
         let vector = |v: [f64; 3]| Vec3::from_array(v.map(|coordinate| coordinate as f32));
-        let position = vector(camera.eye);
-        let forward = (vector(camera.target) - position).normalize_or(Vec3::Y);
+        let frame = DVec3::from(frame);
+        let place = |point: [f64; 3]| (DVec3::from(point) - frame).as_vec3();
+        let position = place(camera.eye);
+        let forward = (place(camera.target) - position).normalize_or(Vec3::Y);
         // A camera that looks along its own `up` still needs some picture: any direction across will do.
         let right = forward.cross(vector(camera.up)).normalize_or(forward.any_orthonormal_vector());
         let half_height = match camera.height {
             Some(height) => 0.5 * height as f32,
             None => (0.5 * camera.fov_degrees as f32).to_radians().tan(),
         };
-        Self { position, forward, up: right.cross(forward), parallel: camera.height.is_some(), half_height }
+        Self { position, frame, forward, up: right.cross(forward), parallel: camera.height.is_some(), half_height }
     }
 
     /// Straight onto a plane domain: all of it in the picture, or what a camera shows of it around its target.
@@ -48,10 +53,11 @@ impl Eye {
             let distance = DVec3::from(camera.eye).distance(camera.target.into());
             let seen = distance * (0.5 * camera.fov_degrees).to_radians().tan();
             half_height = camera.height.map_or(seen, |height| 0.5 * height) as f32;
-            (middle.x, middle.y) = (camera.target[0] as f32, camera.target[1] as f32);
+            (middle.x, middle.y) =
+                ((camera.target[0] - grid.frame[0]) as f32, (camera.target[1] - grid.frame[1]) as f32);
         }
         let position = middle - extent.max_element() * Vec3::NEG_Z;
-        Self { position, forward: Vec3::NEG_Z, up: Vec3::Y, parallel: true, half_height }
+        Self { position, frame: grid.frame.into(), forward: Vec3::NEG_Z, up: Vec3::Y, parallel: true, half_height }
     }
 
     /// The ray through a place of a picture of `size` pixels, in pixels from the top left corner.
@@ -63,17 +69,18 @@ impl Eye {
         } else {
             (self.position, (self.forward + across).normalize())
         };
-        Ray { origin: origin.as_dvec3().into(), direction: direction.as_dvec3().into() }
+        Ray { origin: (self.frame + origin.as_dvec3()).into(), direction: direction.as_dvec3().into() }
     }
 }
 
+/// Middle of the domain in the device's coordinates \[m\].
 pub(super) fn middle_of(grid: &Grid) -> Vec3 {
     Vec3::from(grid.origin) + 0.5 * Vec3::from(grid.extent())
 }
 
 /// The camera onto a plane domain that shows all of it.
 pub(super) fn above(grid: &Grid) -> Camera {
-    let target = middle_of(grid).with_z(0.0).as_dvec3();
+    let target = DVec3::from(grid.in_scene(middle_of(grid).with_z(0.0).into()));
     let height = f64::from(grid.extent()[1]);
     let (eye, up) = ((target + height * DVec3::Z).into(), [0.0, 1.0, 0.0]);
     Camera { eye, target: target.into(), up, fov_degrees: 40.0, height: Some(height) }
@@ -106,8 +113,8 @@ pub(super) fn fitting_camera(grid: &Grid, size: [u32; 2]) -> Camera {
         distance *= (0.5 * (high - low) / half_size).max_element();
     }
     Camera {
-        eye: (target - distance * forward).to_array().map(f64::from),
-        target: target.to_array().map(f64::from),
+        eye: grid.in_scene((target - distance * forward).into()),
+        target: grid.in_scene(target.into()),
         up: [0.0, 0.0, 1.0],
         fov_degrees: FIELD_OF_VIEW.into(),
         height: None,
@@ -122,7 +129,7 @@ mod tests {
     fn rays_pass_through_the_pixels_where_points_appear() {
         let mut camera =
             Camera { eye: [2.0, -3.0, 1.5], target: [0.5; 3], up: [0.0, 0.0, 1.0], fov_degrees: 30.0, height: None };
-        let (eye, size) = (Eye::of_camera(&camera), Vec2::new(640.0, 360.0));
+        let (eye, size) = (Eye::of_camera(&camera, [0.0; 3]), Vec2::new(640.0, 360.0));
         let middle = eye.ray(size, 0.5 * size);
         let towards = DVec3::from(camera.target) - DVec3::from(camera.eye);
         assert!(DVec3::from(middle.direction).distance(towards.normalize()) < 1e-6, "{middle:?}");
@@ -132,7 +139,7 @@ mod tests {
         assert!((angle - 15.0).abs() < 1e-4 && top.direction[2] > middle.direction[2], "{angle} {top:?}");
         // parallel rays: one direction, and the edge is half the height away
         camera.height = Some(2.0);
-        let eye = Eye::of_camera(&camera);
+        let eye = Eye::of_camera(&camera, [0.0; 3]);
         let (middle, top) = (eye.ray(size, 0.5 * size), eye.ray(size, Vec2::new(320.0, 0.0)));
         assert_eq!(middle.direction, top.direction);
         let apart = DVec3::from(middle.origin).distance(top.origin.into());
@@ -141,7 +148,7 @@ mod tests {
 
     #[test]
     fn the_plane_fills_its_picture() {
-        let grid = Grid { dimension: 2, cells: [8, 4, 1], origin: [1.0, 2.0, 0.0], spacing: 0.5 };
+        let grid = Grid { dimension: 2, cells: [8, 4, 1], frame: [0.0; 3], origin: [1.0, 2.0, 0.0], spacing: 0.5 };
         let corner = Eye::onto_plane(&grid, None).ray(Vec2::new(80.0, 40.0), Vec2::ZERO);
         assert_eq!(corner.origin[..2], [1.0, 4.0]);
         assert_eq!(corner.direction, [0.0, 0.0, -1.0]);

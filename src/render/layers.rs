@@ -46,7 +46,8 @@ pub struct Layers {
 /// The matrices of an eye for a picture of a width over its height.
 pub(super) fn camera(eye: &Eye, aspect: f32) -> [[f32; 16]; 2] {
     let right = eye.forward.cross(eye.up);
-    let row = |axis: Vec3| axis.extend(-axis.dot(eye.position));
+    let place = eye.frame + eye.position.as_dvec3();
+    let row = |axis: Vec3| axis.extend(-axis.as_dvec3().dot(place) as f32);
     let to_camera = Mat4::from_cols(row(right), row(eye.up), row(-eye.forward), Vec4::W).transpose();
     let (x, y) = (1.0 / (aspect * eye.half_height), 1.0 / eye.half_height);
     // depths from a thousandth of a metre to a thousand kilometres
@@ -142,7 +143,7 @@ mod tests {
             Camera { eye: [2.0, -3.0, 1.5], target: [0.5; 3], up: [0.0, 0.0, 1.0], fov_degrees: 30.0, height: None };
         for height in [None, Some(2.0)] {
             seen.height = height;
-            let (eye, size) = (Eye::of_camera(&seen), glam::Vec2::new(640.0, 360.0));
+            let (eye, size) = (Eye::of_camera(&seen, [0.0; 3]), glam::Vec2::new(640.0, 360.0));
             let [to_camera, to_picture] = camera(&eye, size.x / size.y).map(|all| Mat4::from_cols_array(&all));
             for pixel in [[320.0, 180.0], [0.0, 0.0], [640.0, 270.0]] {
                 let ray = eye.ray(size, pixel.into());

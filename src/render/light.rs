@@ -158,7 +158,7 @@ impl Distance {
         let [nx, ny, nz] = along(fineness);
         let step = f64::from(grid.spacing) / f64::from(fineness);
         let place = |d: usize, k: u32| {
-            if d < grid.dimension as usize { f64::from(grid.origin[d]) + f64::from(k) * step } else { 0.0 }
+            if d < grid.dimension as usize { grid.low()[d] + f64::from(k) * step } else { 0.0 }
         };
         let nearest = |point: [f64; 3]| scene.obstacle_distance(point) as f32;
         let values: Vec<f32> = (0..ny * nz)

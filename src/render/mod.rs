@@ -227,7 +227,7 @@ impl Renderer {
     fn eye(&self, look: &RenderSettings, time: f64) -> Eye {
         let grid = &self.sources.grid;
         if grid.dimension == 3 {
-            return Eye::of_camera(&self.camera(look, time));
+            return Eye::of_camera(&self.camera(look, time), self.sources.grid.frame);
         }
         let moved = look.path.as_ref().map(|path| path.at(time, &look.camera.unwrap_or(camera::above(grid))));
         Eye::onto_plane(grid, moved.or(look.camera).as_ref())

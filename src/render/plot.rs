@@ -83,7 +83,7 @@ struct Panel<'a> {
 
 impl Panel<'_> {
     fn x_range(&self) -> [f64; 2] {
-        let low = f64::from(self.line.grid.origin[0]);
+        let low = self.line.grid.low()[0];
         [low, low + f64::from(self.line.grid.extent()[0])]
     }
 
@@ -115,7 +115,7 @@ impl Panel<'_> {
     fn shade_covered_cells(&self, canvas: &mut Canvas) {
         let grid = &self.line.grid;
         for (index, &cell) in self.line.kind.iter().enumerate().filter(|(_, cell)| **cell != kind::GAS) {
-            let low = f64::from(grid.origin[0]) + index as f64 * f64::from(grid.spacing);
+            let low = grid.low()[0] + index as f64 * f64::from(grid.spacing);
             let (from, to) = (self.x_pixel(low), self.x_pixel(low + f64::from(grid.spacing)));
             let (x, y) = (from.round() as i32, self.area.y);
             let band = Rectangle { x, y, width: (to.round() as i32 - x).max(1), height: self.area.height };
@@ -153,7 +153,7 @@ impl Panel<'_> {
         let width = 1.8 * canvas.lettering.unit() as f32;
         let mut points = Vec::with_capacity(values.len());
         for (index, &value) in values.iter().enumerate() {
-            let x = self.x_pixel(self.line.grid.centre([index as i32, 0, 0])[0].into());
+            let x = self.x_pixel(self.line.grid.in_scene(self.line.grid.centre([index as i32, 0, 0]))[0]);
             let gas = self.line.kind[index] == kind::GAS && value.is_finite();
             // A break in the curve is a point without place.
             points.push(if gas { [x, self.y_pixel(value.into())] } else { [f32::NAN; 2] });
@@ -179,7 +179,8 @@ impl Panel<'_> {
     fn draw_particles(&self, canvas: &mut Canvas) {
         let width = 3.0 * canvas.lettering.unit() as f32;
         for &(x, velocity, color) in &self.line.particles {
-            let point = [self.x_pixel(x.into()), self.y_pixel(velocity.into())];
+            let x = self.line.grid.in_scene([x, 0.0, 0.0])[0];
+            let point = [self.x_pixel(x), self.y_pixel(velocity.into())];
             canvas.dot(point, self.area, color, width);
         }
     }

@@ -222,7 +222,7 @@ impl View {
         view.set_light(grid, look);
         for (plane, slice) in view.slices.iter_mut().zip(&look.slices) {
             let normal = single(slice.normal).normalize_or(Vec3::Z);
-            *plane = normal.extend(normal.dot(single(slice.point))).into();
+            *plane = normal.extend(normal.dot(scene.domain.in_frame(slice.point).into())).into();
         }
         view.slice_count = look.slices.len().min(view.slices.len()) as u32;
         view
@@ -305,7 +305,7 @@ fn single(vector: [f64; 3]) -> Vec3 {
 mod tests {
     use super::*;
 
-    const CUBE: Grid = Grid { dimension: 3, cells: [4; 3], origin: [0.0, 1.0, 2.0], spacing: 0.5 };
+    const CUBE: Grid = Grid { dimension: 3, cells: [4; 3], frame: [0.0; 3], origin: [0.0, 1.0, 2.0], spacing: 0.5 };
 
     #[test]
     fn the_floor_is_where_things_fall() {
@@ -325,7 +325,7 @@ mod tests {
             height,
         };
         for height in [None, Some(3.0)] {
-            let eye = Eye::of_camera(&camera(height));
+            let eye = Eye::of_camera(&camera(height), [0.0; 3]);
             let view = View {
                 eye: eye.position.into(),
                 parallel: eye.parallel.into(),

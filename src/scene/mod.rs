@@ -273,6 +273,22 @@ pub struct Probe {
 }
 
 impl Domain {
+    /// Zero of the device's coordinates in those of the scene \[m\]: the low corner of a domain that lies further from zero than twice its
+    /// longest edge. Single precision holds a place to 6e-8 of its distance from zero, which in map coordinates is metres.
+    #[must_use]
+    pub fn frame(&self) -> [f64; 3] {
+        let edge = self.size.iter().copied().fold(0.0, f64::max);
+        let far = self.origin.iter().any(|low| low.abs() > 2.0 * edge);
+        if far { self.origin } else { [0.0; 3] }
+    }
+
+    /// A point of the scene in the device's coordinates \[m\].
+    #[must_use]
+    pub fn in_frame(&self, point: [f64; 3]) -> [f32; 3] {
+        let frame = self.frame();
+        std::array::from_fn(|axis| (point[axis] - frame[axis]) as f32)
+    }
+
     /// Edge of a cell `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {

@@ -43,7 +43,7 @@ impl Simulation {
     /// The gas that the scene starts with in a cell.
     fn start_text_at(&self, slot: u32) -> String {
         let grid = &self.state.grid;
-        let gas = self.scene.gas_at(grid.centre(grid.cell(slot)).map(f64::from));
+        let gas = self.scene.gas_at(grid.in_scene(grid.centre(grid.cell(slot))));
         let speed = gas.velocity.iter().map(|u| u * u).sum::<f64>().sqrt();
         let [density, pressure, temperature, speed] =
             [gas.density, gas.pressure, gas.pressure / gas.density, speed].map(plain);
@@ -58,7 +58,7 @@ impl Simulation {
         for index in (0..grid.cell_count()).step_by(every) {
             let [nx, ny] = [grid.cells[0] as usize, grid.cells[1] as usize];
             let cell = [index % nx, index / nx % ny, index / (nx * ny)].map(|x| x as i32);
-            let gas = self.scene.gas_at(grid.centre(cell).map(f64::from));
+            let gas = self.scene.gas_at(grid.in_scene(grid.centre(cell)));
             for (range, value) in ranges.iter_mut().zip([gas.density, gas.pressure, gas.pressure / gas.density]) {
                 *range = [range[0].min(value), range[1].max(value)];
             }

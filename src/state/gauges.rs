@@ -1,5 +1,7 @@
 //! Points of bodies that gauges are fixed to: the particles there, and their latest states.
 
+use glam::DVec3;
+
 use super::{HISTORY, ParticleStart};
 use crate::error::Result;
 use crate::gpu::{Buffer, Gpu};
@@ -15,7 +17,7 @@ pub struct GaugeBuffers {
     pub particles: Buffer<u32>,
     /// States of the latest steps.
     pub history: Buffer<[f32; 4]>,
-    /// Where the particles were at the start \[m\].
+    /// Where the particles were at the start, in the device's coordinates \[m\].
     pub start: Vec<[f32; 3]>,
 }
 
@@ -37,15 +39,19 @@ impl GaugeBuffers {
     /// If the device has no room.
     pub fn new(gpu: &Gpu, scene: &Scene, start: &ParticleStart) -> Result<Self> {
         let ranges = start.ranges(scene.bodies.len());
-        let nearest = |(body, point): (usize, [f64; 3])| {
+        let nearest = |(body, point): (usize, [f32; 3])| {
             let distance = |particle: &u32| -> f64 {
-                let place = start.place(*particle as usize).map(f64::from);
-                place.iter().zip(point).map(|(a, b)| (a - b) * (a - b)).sum()
+                let arm =
+                    DVec3::from(start.place(*particle as usize).map(f64::from)) - DVec3::from(point.map(f64::from));
+                arm.length_squared()
             };
             ranges[body].clone().min_by(|a, b| distance(a).total_cmp(&distance(b)))
         };
         // a body without particles has no point
-        let particles: Vec<u32> = points(scene).into_iter().map(|point| nearest(point).unwrap_or(u32::MAX)).collect();
+        let particles: Vec<u32> = points(scene)
+            .into_iter()
+            .map(|(body, point)| nearest((body, scene.domain.in_frame(point))).unwrap_or(u32::MAX))
+            .collect();
         let place = |particle: &u32| if *particle == u32::MAX { [0.0; 3] } else { start.place(*particle as usize) };
         Ok(Self {
             start: particles.iter().map(place).collect(),

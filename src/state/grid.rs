@@ -16,7 +16,9 @@ pub struct Grid {
     pub dimension: u32,
     /// Cells per axis without the ring; 1 on inactive axes.
     pub cells: [u32; 3],
-    /// Low corner of cell (0, 0, 0) \[m\].
+    /// Zero of the device's coordinates in those of the scene \[m\], see [`Domain::frame`].
+    pub frame: [f64; 3],
+    /// Low corner of cell (0, 0, 0) in the device's coordinates \[m\].
     pub origin: [f32; 3],
     /// Edge of a cell \[m\].
     pub spacing: f32,
@@ -28,7 +30,8 @@ impl Grid {
         Self {
             dimension: domain.dimension,
             cells: domain.cells,
-            origin: domain.origin.map(|v| v as f32),
+            frame: domain.frame(),
+            origin: domain.in_frame(domain.origin),
             spacing: domain.spacing() as f32,
         }
     }
@@ -68,7 +71,22 @@ impl Grid {
         self.cells.iter().map(|&n| n as usize).product()
     }
 
-    /// Centre of a cell \[m\].
+    /// A point of the device's coordinates in those of the scene \[m\].
+    pub fn in_scene(&self, point: [f32; 3]) -> [f64; 3] {
+        std::array::from_fn(|axis| self.frame[axis] + f64::from(point[axis]))
+    }
+
+    /// Low corner of the domain in the coordinates of the scene \[m\].
+    pub fn low(&self) -> [f64; 3] {
+        self.in_scene(self.origin)
+    }
+
+    /// Whether the device's coordinates are not those of the scene.
+    pub fn is_far(&self) -> bool {
+        self.frame != [0.0; 3]
+    }
+
+    /// Centre of a cell in the device's coordinates \[m\].
     pub fn centre(&self, cell: [i32; 3]) -> [f32; 3] {
         std::array::from_fn(|axis| self.origin[axis] + (cell[axis] as f32 + 0.5) * self.spacing)
     }

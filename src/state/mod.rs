@@ -325,7 +325,7 @@ fn switches(supports: &Supports, openings: &Openings, whole: bool) -> [(&'static
 fn probe_slots(scene: &Scene, grid: &Grid) -> Vec<u32> {
     let slot = |probe: &crate::scene::Probe| {
         let cell = std::array::from_fn(|axis| {
-            let at = ((probe.position[axis] - f64::from(grid.origin[axis])) / f64::from(grid.spacing)).floor() as i32;
+            let at = ((probe.position[axis] - grid.low()[axis]) / f64::from(grid.spacing)).floor() as i32;
             at.clamp(0, grid.cells[axis] as i32 - 1)
         });
         grid.slot(cell) as u32

@@ -67,7 +67,7 @@ impl ParticleStart {
         let mut start = Self::default();
         let bits = f32::from_bits;
         for seed in scene.seed_particles() {
-            let [x, y, z] = seed.position.map(|v| v as f32);
+            let [x, y, z] = scene.domain.in_frame(seed.position);
             let [u, v, w] = seed.velocity.map(|v| v as f32);
             start.position.push([x, y, z, (seed.density * seed.volume) as f32]);
             start.velocity.push([u, v, w, seed.volume as f32]);
@@ -90,7 +90,7 @@ impl ParticleStart {
         start
     }
 
-    /// Where a particle is at the start \[m\].
+    /// Where a particle is at the start, in the device's coordinates \[m\].
     pub(super) fn place(&self, particle: usize) -> [f32; 3] {
         let [x, y, z, _] = self.position[particle];
         [x, y, z]

@@ -18,7 +18,7 @@ structure! {
         spin: vec3f,
         /// First entry of the motion over time.
         first: u32,
-        /// The point that the driven part turns about, at the start of the step \[m\].
+        /// The point that the driven part turns about, at the start of the step, in the device's coordinates \[m\].
         pivot: vec3f,
         /// Entries of the motion over time.
         entries: u32,
@@ -78,7 +78,7 @@ impl Supports {
                 first,
                 entries: supports.motions.len() as u32 - first,
                 clamped: u32::from(body.clamped.is_some()),
-                pivot: body.motion.as_ref().map_or([0.0; 3], |motion| single(motion.about)),
+                pivot: body.motion.as_ref().map_or([0.0; 3], |motion| scene.domain.in_frame(motion.about)),
                 ..Support::default()
             });
         }

@@ -10,13 +10,13 @@ use crate::state::Grid;
 /// its point in the domain next to the plane through the middle that faces the viewer. None if it misses the domain.
 pub fn point(ray: &Ray, grid: &Grid, particles: &[ParticleSample]) -> Option<[f64; 3]> {
     let (origin, direction) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
-    let low = DVec3::from(grid.origin.map(f64::from));
+    let low = DVec3::from(grid.low());
     let extent = DVec3::from(grid.extent().map(f64::from));
     if grid.dimension < 3 {
         let inside = (0..grid.dimension as usize).all(|a| (0.0..=extent[a]).contains(&(origin[a] - low[a])));
         return inside.then_some([origin.x, origin.y, 0.0]);
     }
-    let near = particles.iter().filter_map(|particle| depth_of(particle, origin, direction));
+    let near = particles.iter().filter_map(|particle| depth_of(particle, origin - DVec3::from(grid.frame), direction));
     if let Some(depth) = near.min_by(f64::total_cmp) {
         return Some((origin + depth * direction).into());
     }
@@ -46,7 +46,7 @@ fn crossing(origin: DVec3, direction: DVec3, low: DVec3, high: DVec3) -> Option<
 mod tests {
     use super::*;
 
-    const GRID: Grid = Grid { dimension: 3, cells: [10, 10, 10], origin: [0.0; 3], spacing: 0.1 };
+    const GRID: Grid = Grid { dimension: 3, cells: [10, 10, 10], frame: [0.0; 3], origin: [0.0; 3], spacing: 0.1 };
 
     fn particle(position: [f32; 3]) -> ParticleSample {
         ParticleSample { position, volume0: 1e-3, ..ParticleSample::default() }

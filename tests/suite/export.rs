@@ -11,7 +11,7 @@ use crate::cli::{fails, succeeds};
 
 fn snapshot(dimension: u32) -> Snapshot {
     let cells = std::array::from_fn(|axis| if (axis as u32) < dimension { 4 + axis as u32 } else { 1 });
-    let grid = Grid { dimension, cells, origin: [0.5, 1.0, 1.5], spacing: 0.25 };
+    let grid = Grid { dimension, cells, frame: [0.0; 3], origin: [0.5, 1.0, 1.5], spacing: 0.25 };
     let count = grid.cell_count();
     let number = |index: usize| index as f32;
     let mut kinds = vec![kind::GAS; count];
@@ -110,7 +110,7 @@ fn vtk_files_hold_the_snapshot() {
 /// A bar of particles, whose right half has gone `gap` cells away.
 fn bar(gap: f32) -> Snapshot {
     let mut state = snapshot(3);
-    state.grid = Grid { dimension: 3, cells: [16, 8, 8], origin: [0.0; 3], spacing: 0.5 };
+    state.grid = Grid { dimension: 3, cells: [16, 8, 8], frame: [0.0; 3], origin: [0.0; 3], spacing: 0.5 };
     let particle = |k: usize| {
         let [x, y, z] = [k % 8, k / 8 % 4, k / 32].map(|x| x as f32);
         let away = if k % 8 < 4 { 0.0 } else { 0.5 * gap };

@@ -39,6 +39,7 @@ mod least_step;
 mod listed_operator;
 mod live;
 mod loads;
+mod map_coordinates;
 mod maps;
 mod materials;
 mod numerics;

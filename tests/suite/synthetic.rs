@@ -44,7 +44,7 @@ impl State {
     pub(crate) fn new(gpu: &Gpu, scene: &Scene) -> Self {
         let dimension = scene.domain.dimension;
         let spacing = scene.domain.spacing() as f32;
-        let grid = Grid { dimension, cells: scene.domain.cells, origin: [0.0; 3], spacing };
+        let grid = Grid { dimension, cells: scene.domain.cells, frame: [0.0; 3], origin: [0.0; 3], spacing };
         let ring: [i32; 3] = grid.padding().map(|n| n as i32);
         let (mut conserved, mut energy, mut cells) =
             (vec![[1.0, 0.0, 0.0, 0.0]; grid.slots()], vec![2.5; grid.slots()], vec![2_u32; grid.slots()]);

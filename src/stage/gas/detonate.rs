@@ -50,7 +50,7 @@ impl Detonate {
         let (grid, params) = (&state.grid, &state.params);
         let spacing = f64::from(grid.spacing);
         let mut ball = Ball {
-            center: std::array::from_fn(|axis| ((center[axis] - f64::from(grid.origin[axis])) / spacing) as f32),
+            center: std::array::from_fn(|axis| ((center[axis] - grid.low()[axis]) / spacing) as f32),
             radius: (radius / spacing) as f32,
             ..Ball::default()
         };
