@@ -15,6 +15,9 @@ const FINER: f32 = 0.47;
 // Distance at which half of the ground is lost in haze, over the longest edge of the domain.
 const HAZE: f32 = 14.0;
 
+// Whether what is behind is daylight.
+override DAYLIGHT: bool = true;
+
 fn longest_edge() -> f32 {
     let extent = vec3f(view.cells) * view.spacing;
     return max(extent.x, max(extent.y, extent.z));
@@ -22,7 +25,7 @@ fn longest_edge() -> f32 {
 
 // Light behind everything along a ray of this direction through a place of the picture.
 fn behind(pixel: vec2f, direction: vec3f) -> vec3f {
-    if view.backdrop == BACKDROP_DAYLIGHT {
+    if DAYLIGHT && view.backdrop == BACKDROP_DAYLIGHT {
         let up = select(view.ground.xyz, vec3f(0.0, 0.0, 1.0), all(view.ground.xyz == vec3f(0.0)));
         let height = max(dot(up, normalize(direction)), 0.0);
         return view.sky_strength * mix(HORIZON, ZENITH, 1.0 - exp(-3.0 * height));
@@ -66,14 +69,14 @@ fn earth(point: vec3f, covered: f32) -> vec3f {
 
 // Colour of the floor at a distance along a ray.
 fn floor_color(point: vec3f, ray: Ray, s: f32) -> vec3f {
-    if view.backdrop != BACKDROP_DAYLIGHT { return STUDIO_FLOOR; }
+    if !DAYLIGHT || view.backdrop != BACKDROP_DAYLIGHT { return STUDIO_FLOOR; }
     let across = select(s, 1.0, view.parallel == 1u) * 2.0 * view.half_height / f32(view.size.y);
     return earth(point, across * inverseSqrt(max(abs(dot(ray.direction, view.ground.xyz)), 1e-4)));
 }
 
 // The floor fades into what is behind it far from the domain.
 fn floor_coverage(point: vec3f, s: f32) -> f32 {
-    if view.backdrop == BACKDROP_DAYLIGHT { return exp2(-s / (HAZE * longest_edge())); }
+    if DAYLIGHT && view.backdrop == BACKDROP_DAYLIGHT { return exp2(-s / (HAZE * longest_edge())); }
     let away = length(point - view.origin - 0.5 * vec3f(view.cells) * view.spacing) / longest_edge();
     return 1.0 - smoothstep(0.7, 2.2, away);
 }

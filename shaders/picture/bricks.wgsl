@@ -8,10 +8,13 @@
 // Per entry of the colour table, how many entries before it are not transparent; then the same of the black-body ramp.
 @group(0) @binding(4) var<storage, read> visible: array<u32>;
 
-// Whether something between two entries of a table is not transparent; the bounds are 8-bit fractions.
+// Places in a table that rounding in the march may be off by.
+const SLACK: f32 = 0.01;
+
+// Whether an entry of a table that the march may read between two fractions is not transparent.
 fn sees(low: f32, high: f32, table: u32) -> bool {
-    let first = u32(low * f32(COLOR_COUNT - 1u));
-    let last = min(u32(high * f32(COLOR_COUNT - 1u) + 1.0), COLOR_COUNT - 1u);
+    let first = u32(low * f32(COLOR_COUNT - 1u) + 0.5 - SLACK);
+    let last = min(u32(high * f32(COLOR_COUNT - 1u) + 0.5 + SLACK), COLOR_COUNT - 1u);
     let start = table * (COLOR_COUNT + 1u);
     return visible[start + last + 1u] > visible[start + first];
 }
@@ -49,5 +52,5 @@ fn mark_bricks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
         }
     }
     let shines = view.heat_opacity > 0.0 && sees(hot.x, hot.y, 1u);
-    bricks[i] = u32(sees(bounds.x, bounds.y, 0u) || shines || soot > 0.0);
+    bricks[i] = u32(sees(bounds.x, bounds.y, 0u)) | (u32(shines) << 1u) | (u32(soot > 0.0) << 2u);
 }

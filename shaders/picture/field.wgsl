@@ -26,6 +26,13 @@
 // Largest pressure, impulse, what rounding took, largest plastic strain so far; one entry alone where no maps are kept.
 @group(0) @binding(12) var<storage, read> maps: array<vec4f>;
 
+// What a kernel is made for, because software computes all branches: two quantities that read around a cell, else all others; whether there
+// is a second gas, and an explosive.
+override SCHLIEREN: bool = false;
+override VORTICITY: bool = false;
+override MIXED: bool = true;
+override EXPLOSIVE: bool = true;
+
 fn has_gas(slot: u32) -> bool { return kind_of(cells[slot]) == KIND_GAS; }
 
 // Density and velocity.
@@ -36,7 +43,7 @@ fn motion(slot: u32) -> vec4f {
 
 // Density of the second gas, and its volume fraction.
 fn species_of(slot: u32) -> vec2f {
-    if (view.species_gamma == 0.0) {
+    if !MIXED || view.species_gamma == 0.0 {
         return vec2f(0.0);
     }
     let slots = arrayLength(&conserved);
@@ -45,14 +52,15 @@ fn species_of(slot: u32) -> vec2f {
 
 // gamma - 1 of the mixture.
 fn grueneisen(slot: u32) -> f32 {
-    if (view.species_gamma == 0.0) {
+    if !MIXED || view.species_gamma == 0.0 {
         return view.gamma - 1.0;
     }
     return 1.0 / mix(1.0 / (view.gamma - 1.0), 1.0 / (view.species_gamma - 1.0), species_of(slot).y);
 }
 
 fn gamma(slot: u32) -> f32 {
-    return select(1.0 + grueneisen(slot), view.gamma, view.species_gamma == 0.0);
+    if !MIXED || view.species_gamma == 0.0 { return view.gamma; }
+    return 1.0 + grueneisen(slot);
 }
 
 // x of both terms of the products of an explosive [shared/state.wgsl].
@@ -70,7 +78,7 @@ fn products_volume(slot: u32) -> f32 {
 }
 
 fn reference_energy(slot: u32) -> f32 {
-    if (view.products.x == 0.0) {
+    if !EXPLOSIVE || view.products.x == 0.0 {
         return 0.0;
     }
     let x = expansions(slot);
@@ -81,7 +89,7 @@ fn reference_energy(slot: u32) -> f32 {
 
 // Pressure of products at no temperature.
 fn cold_pressure(slot: u32) -> f32 {
-    if (view.products.x == 0.0) {
+    if !EXPLOSIVE || view.products.x == 0.0 {
         return 0.0;
     }
     return products_volume(slot) * dot(view.products.xy, exp(-expansions(slot)));
@@ -100,7 +108,8 @@ fn mass_fraction(slot: u32) -> f32 {
 // p / rho, over the gas constant of a mixture times that of the first gas.
 fn temperature(slot: u32) -> f32 {
     let warm = (pressure(slot) - cold_pressure(slot)) / conserved[slot].x;
-    return select(warm / mix(1.0, view.species_constant, mass_fraction(slot)), warm, view.species_gamma == 0.0);
+    if !MIXED || view.species_gamma == 0.0 { return warm; }
+    return warm / mix(1.0, view.species_constant, mass_fraction(slot));
 }
 
 // Difference quotient of density and velocity along an active axis; one-sided next to cells without gas.
@@ -157,15 +166,15 @@ fn mapped(slot: u32) -> f32 {
 }
 
 fn value(cell: vec3i, slot: u32) -> f32 {
+    if SCHLIEREN { return density_gradient(cell); }
+    if VORTICITY { return vorticity(cell); }
     let state = motion(slot);
     let speed = length(state.yzw);
     switch (view.field) {
         case FIELD_PRESSURE: { return pressure(slot); }
         case FIELD_VELOCITY: { return speed; }
         case FIELD_TEMPERATURE: { return temperature(slot); }
-        case FIELD_SCHLIEREN: { return density_gradient(cell); }
         case FIELD_MACH: { return speed / sqrt(gamma(slot) * max(pressure(slot), 1e-30) / state.x); }
-        case FIELD_VORTICITY: { return vorticity(cell); }
         case FIELD_ENTROPY: { return pressure(slot) * pow(state.x, -gamma(slot)); }
         case FIELD_MASS_FRACTION: { return mass_fraction(slot); }
         case FIELD_OWED: { return owed_gas(slot); }

@@ -31,11 +31,11 @@ fn interpolated(packed: vec2u, w: vec3f) -> f32 {
     return mix(row.x, row.y, w.x);
 }
 
-// Colour and opacity of a fraction of the range.
-fn table_color(fraction: f32) -> vec4f { return colors[u32(fraction * f32(COLOR_COUNT - 1u) + 0.5)]; }
+// Entry of `colors` with colour and opacity of a fraction of the range.
+fn table_place(fraction: f32) -> u32 { return u32(fraction * f32(COLOR_COUNT - 1u) + 0.5); }
 
-// Light and opacity of hot gas.
-fn ramp_color(heat: f32) -> vec4f { return colors[COLOR_COUNT + u32(heat * f32(COLOR_COUNT - 1u) + 0.5)]; }
+// The same with light and opacity of hot gas.
+fn ramp_place(heat: f32) -> u32 { return COLOR_COUNT + u32(heat * f32(COLOR_COUNT - 1u) + 0.5); }
 
 // What a piece of the gas adds to a ray.
 struct Optics {
@@ -71,16 +71,30 @@ fn with_dust(clear: Optics, cube: Cube) -> Optics {
     return gas;
 }
 
-fn optics_at(place: vec3f) -> Optics {
+// What a brick of cubes may hold, as bits: gas with colours that are not transparent, hot gas, soot or dust.
+const COLORED: u32 = 1u;
+const SHINING: u32 = 2u;
+const SMOKY: u32 = 4u;
+const ANYTHING: u32 = 7u;
+
+// The gas at a place, of a brick that holds `what`. Colours are read where they count alone: in software a read costs as much as dozens of
+// products.
+fn optics_in(place: vec3f, what: u32) -> Optics {
     let cube = cube_at(place);
-    let look = table_color(interpolated(corners[cube.index], cube.inside));
-    var gas = Optics(look.rgb, view.opacity * look.a, vec3f(0.0), 0.0);
-    if EMISSION {
-        let hot = ramp_color(interpolated(glow[glow_place(cube.index)], cube.inside));
-        gas.glow = hot.rgb;
-        gas.shining = view.heat_opacity * hot.a;
+    var gas = Optics(vec3f(0.0), 0.0, vec3f(0.0), 0.0);
+    if (what & COLORED) != 0u {
+        let entry = table_place(interpolated(corners[cube.index], cube.inside));
+        gas.extinction = view.opacity * colors[entry].a;
+        if gas.extinction > 0.0 { gas.color = colors[entry].rgb; }
+    }
+    if EMISSION && (what & SHINING) != 0u {
+        let entry = ramp_place(interpolated(glow[glow_place(cube.index)], cube.inside));
+        gas.shining = view.heat_opacity * colors[entry].a;
+        if gas.shining > 0.0 { gas.glow = colors[entry].rgb; }
     }
     if has_soot() { gas = with_soot(gas, cube); }
     if has_dust() { gas = with_dust(gas, cube); }
     return gas;
 }
+
+fn optics_at(place: vec3f) -> Optics { return optics_in(place, ANYTHING); }

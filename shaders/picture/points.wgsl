@@ -30,6 +30,9 @@ override BODIES: u32 = 0u;
 // Two kernels may round the same depth differently; this many units in the last place count as equal.
 const DEPTH_SLACK: u32 = 64u;
 
+// Whether the scene is in the plane.
+override FLAT: bool = true;
+
 // Samples from the middle of a ball that are looked at, at most: a ball in front of the eye would fill the picture.
 const MAX_REACH: f32 = 400.0;
 
@@ -191,8 +194,8 @@ fn footprint(p: u32) -> Footprint {
     // Perspective stretches balls towards the corners of the picture.
     let near = select(place.z - mark.radius, 1.0, view.parallel == 1u);
     let stretched = min(1.2 * mark.radius * per_metre / near + 1.0, MAX_REACH);
-    var reach = select(mark.samples, stretched, mark.samples > 12.0);
-    if view.dimension < 3u {
+    var reach = select(mark.samples, stretched, mark.samples > LARGE);
+    if FLAT {
         mark = square_of(p, mark);
         let sides = abs(deformation[3u * p].xy) + abs(deformation[3u * p + 1u].xy) + 1.0;
         reach = min(mark.samples * max(1.0, HALF_EDGE * max(sides.x, sides.y)), MAX_REACH);
@@ -203,17 +206,49 @@ fn footprint(p: u32) -> Footprint {
     return mark;
 }
 
-// Depth of a ball in a sample, negative if it is missed [m]. The outline of a small one is round, and its depth that of a ball
-// seen along its own line of sight.
-fn depth_in(mark: Footprint, place: vec2u) -> f32 {
-    if view.dimension < 3u {
-        let share = share_of_square(mark, vec2f(place) + 0.5 - mark.middle);
+// Balls of more samples than this are seen along the line of sight of each sample.
+const LARGE: f32 = 12.0;
+
+// Depth of a large ball in a sample, negative if it is missed [m].
+fn depth_of_large(mark: Footprint, place: vec2u) -> f32 { return hit_sphere(sample_ray(place), mark.centre, mark.radius); }
+
+// The same of any other one. Its outline is round, and its depth that of a ball seen along its own line of sight.
+fn depth_of_small(mark: Footprint, place: vec2u) -> f32 {
+    let offset = vec2f(place) + 0.5 - mark.middle;
+    if FLAT {
+        let share = share_of_square(mark, offset);
         return select(-1.0, mark.distance + mark.radius * share, share < 1.0);
     }
-    if mark.samples > 12.0 { return hit_sphere(sample_ray(place), mark.centre, mark.radius); }
-    let offset = vec2f(place) + 0.5 - mark.middle;
     let inside = 1.0 - dot(offset, offset) / (mark.samples * mark.samples);
     return select(-1.0, mark.distance - mark.radius * sqrt(max(inside, 0.0)), inside >= 0.0);
+}
+
+fn is_large(mark: Footprint) -> bool { return !FLAT && mark.samples > LARGE; }
+
+// Positive floats order like their bits.
+fn raise_depth(place: vec2u, depth: f32) {
+    let i = place.x + sample_grid().x * place.y;
+    let bits = FARTHEST - bitcast<u32>(depth);
+    if depth > 0.0 && bits > atomicLoad(&depth_bits[i]) { atomicMax(&depth_bits[i], bits); }
+}
+
+fn raise_nearest(place: vec2u, depth: f32, p: u32) {
+    let i = place.x + sample_grid().x * place.y;
+    if depth > 0.0 && FARTHEST - bitcast<u32>(depth) + DEPTH_SLACK >= atomicLoad(&depth_bits[i]) {
+        atomicMax(&nearest[i], FARTHEST - p);
+    }
+}
+
+// Number of samples that a particle may cover, looked at row by row; large balls have a loop of their own, because software computes both
+// branches of a condition.
+fn count_of(mark: Footprint, large: bool) -> u32 {
+    let size = vec2u(max(mark.high - mark.low, vec2i(0)));
+    return select(0u, size.x * size.y, is_large(mark) == large);
+}
+
+fn next_sample(mark: Footprint, place: vec2u) -> vec2u {
+    let right = place.x + 1u;
+    return select(vec2u(right, place.y), vec2u(u32(mark.low.x), place.y + 1u), right >= u32(mark.high.x));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -221,15 +256,14 @@ fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     let p = thread_index(workgroup, local);
     if p >= view.particles { return; }
     let mark = footprint(p);
-    for (var y = mark.low.y; y < mark.high.y; y++) {
-        for (var x = mark.low.x; x < mark.high.x; x++) {
-            let place = vec2u(vec2i(x, y));
-            let depth = depth_in(mark, place);
-            if depth > 0.0 {
-                // Positive floats order like their bits.
-                atomicMax(&depth_bits[place.x + sample_grid().x * place.y], FARTHEST - bitcast<u32>(depth));
-            }
-        }
+    var place = vec2u(mark.low);
+    for (var left = count_of(mark, false); left > 0u; left--) {
+        raise_depth(place, depth_of_small(mark, place));
+        place = next_sample(mark, place);
+    }
+    for (var left = count_of(mark, true); left > 0u; left--) {
+        raise_depth(place, depth_of_large(mark, place));
+        place = next_sample(mark, place);
     }
 }
 
@@ -238,14 +272,13 @@ fn splat_nearest(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocat
     let p = thread_index(workgroup, local);
     if p >= view.particles { return; }
     let mark = footprint(p);
-    for (var y = mark.low.y; y < mark.high.y; y++) {
-        for (var x = mark.low.x; x < mark.high.x; x++) {
-            let place = vec2u(vec2i(x, y));
-            let depth = depth_in(mark, place);
-            let i = place.x + sample_grid().x * place.y;
-            if depth > 0.0 && FARTHEST - bitcast<u32>(depth) + DEPTH_SLACK >= atomicLoad(&depth_bits[i]) {
-                atomicMax(&nearest[i], FARTHEST - p);
-            }
-        }
+    var place = vec2u(mark.low);
+    for (var left = count_of(mark, false); left > 0u; left--) {
+        raise_nearest(place, depth_of_small(mark, place), p);
+        place = next_sample(mark, place);
+    }
+    for (var left = count_of(mark, true); left > 0u; left--) {
+        raise_nearest(place, depth_of_large(mark, place), p);
+        place = next_sample(mark, place);
     }
 }

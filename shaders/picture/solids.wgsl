@@ -16,6 +16,9 @@
 @group(0) @binding(5) var<storage, read> glow_grid: array<vec4f>;
 @group(0) @binding(6) var<storage, read> bends: array<vec2f>;
 
+// Whether there are obstacles.
+override WALLS: bool = true;
+
 const WALL_COLOR: vec3f = vec3f(0.30, 0.31, 0.33);
 
 // Direction out of an obstacle; where the domain's side cuts it, that of the side.
@@ -37,7 +40,7 @@ fn wall_normal(ray: Ray, s: f32, span: vec2f) -> vec3f {
 // The obstacle or the floor that a stretch of a ray meets between two distances.
 fn meet(ray: Ray, from_distance: f32, to_distance: f32) -> Surface {
     var found = Surface(0.0, 0.0, vec3f(0.0));
-    if view.fineness > 0u {
+    if WALLS && view.fineness > 0u {
         let whole = domain_span(ray);
         let span = vec2f(max(whole.x, from_distance), min(whole.y, to_distance));
         let hit = hit_obstacle(ray, span);

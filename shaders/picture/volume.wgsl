@@ -69,7 +69,8 @@ fn edge_coverage(pixel: vec2f, front: f32, middle: f32) -> vec2f {
 // The brick that a ray is in: where it leaves it, and whether there is anything to see.
 struct Brick {
     end: f32,
-    visible: bool,
+    // What it holds, as bits; 0 for nothing to see.
+    holds: u32,
 }
 
 fn brick_at(ray: Ray, place: vec3f, s: f32) -> Brick {
@@ -79,16 +80,24 @@ fn brick_at(ray: Ray, place: vec3f, s: f32) -> Brick {
     let ahead = vec3f(BRICK * (brick + vec3u(ray.direction > vec3f(0.0))));
     let speed = select(ray.direction, vec3f(1e-9), abs(ray.direction) < vec3f(1e-9)) / view.spacing;
     let exits = (ahead - from_cube) / speed;
-    return Brick(s + min(exits.x, min(exits.y, exits.z)), bricks[brick.x + grid.x * (brick.y + grid.y * brick.z)] == 1u);
+    return Brick(s + min(exits.x, min(exits.y, exits.z)), bricks[brick.x + grid.x * (brick.y + grid.y * brick.z)]);
 }
 
-// Light of the gas in one step; `lit` is the light from outside that arrives there.
-fn gas_light(before: Gathered, place: vec3f, lit: f32) -> Gathered {
-    let gas = optics_at(place);
+// Light from outside that arrives at a distance along a ray of the light grid.
+fn arriving(lights: Ray, s: f32) -> f32 {
+    if view.shadows == 0u { return 1.0; }
+    let at = lights.start + s * lights.direction;
+    if has_soot() || has_dust() { return light_between(at); }
+    return light_inside(at).y;
+}
+
+// Light of the gas in one step, at a place that is a distance `s` along the ray, in a brick that holds `what`.
+fn gas_light(before: Gathered, place: vec3f, what: u32, lights: Ray, s: f32) -> Gathered {
+    let gas = optics_in(place, what);
     let extinction = gas.extinction + gas.shining;
     if extinction * view.spacing < 1e-5 { return before; }
     // A fully lit gas has the colours of the colour bar.
-    let outside = view.sky_strength + (1.0 - view.sky_strength) * view.light_strength * lit;
+    let outside = view.sky_strength + (1.0 - view.sky_strength) * view.light_strength * arriving(lights, s);
     let source = (gas.extinction * outside * gas.color + gas.shining * gas.glow) / extinction;
     return over(before, source, 1.0 - exp(-extinction * view.step));
 }
@@ -102,7 +111,8 @@ fn light_along(ray: Ray, jitter: f32) -> Ray {
     return Ray(start + select(0.8 * (jitter - 0.5), 0.0, has_soot() || has_dust()), in_light(ray.start + ray.direction) - start);
 }
 
-// Gathers light from the gas between two distances.
+// Gathers light from the gas between two distances: leaps through empty bricks, then steps through one that is not. Both are loops of
+// their own, because software computes both branches of a condition.
 fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Gathered) -> Gathered {
     var gathered = before;
     if view.volume == 0u { return gathered; }
@@ -111,31 +121,31 @@ fn march(ray: Ray, from_distance: f32, to_distance: f32, jitter: f32, before: Ga
     var number = 0u;
     var part = stretch(ray, number);
     var lights = light_along(part.ray, jitter);
-    var brick = Brick(-1.0, false);
     while (s < to_distance && gathered.passing > DARK) {
-        if s >= part.end {
+        if REFRACTION && s >= part.end {
             while (s >= part.end) {
                 number++;
                 part = stretch(ray, number);
             }
             lights = light_along(part.ray, jitter);
-            brick.end = -1.0;
         }
-        let place = in_cells(part.ray.start + min(s, clear) * part.ray.direction);
-        if s >= brick.end { brick = brick_at(part.ray, place, s); }
-        var steps = 1.0;
-        if brick.visible {
-            var lit = 1.0;
-            if view.shadows == 1u {
-                let at = lights.start + s * lights.direction;
-                if has_soot() || has_dust() { lit = light_between(at); } else { lit = light_inside(at).y; }
-            }
-            gathered = gas_light(gathered, place, lit);
-        } else {
+        let stop = min(part.end, to_distance);
+        var brick = Brick(s, 0u);
+        while (s < stop && brick.holds == 0u) {
+            brick = brick_at(part.ray, in_cells(part.ray.start + min(s, clear) * part.ray.direction), s);
             // Steps are whole, so that leaping changes no sample.
-            steps = max(ceil((min(brick.end, part.end) - s) / view.step), 1.0);
+            let steps = max(ceil((min(brick.end, part.end) - s) / view.step), 1.0);
+            s += select(steps, 0.0, brick.holds != 0u) * view.step;
         }
-        s += steps * view.step;
+        let end = select(s, min(brick.end, stop), brick.holds != 0u);
+        // One step at least, where rounding puts the end of a brick before its beginning.
+        var inside = brick.holds != 0u;
+        while (inside && gathered.passing > DARK) {
+            let place = in_cells(part.ray.start + min(s, clear) * part.ray.direction);
+            gathered = gas_light(gathered, place, brick.holds, lights, s);
+            s += view.step;
+            inside = s < end;
+        }
     }
     return gathered;
 }
@@ -156,7 +166,7 @@ fn slice_color(pixel: vec2f, ray: Ray, s: f32, plane: vec4f) -> vec3f {
     let place = in_cells(ray.start + s * ray.direction);
     let cube = cube_at(place);
     let fraction = interpolated(corners[cube.index], cube.inside);
-    let color = table_color(fraction).rgb;
+    let color = colors[table_place(fraction)].rgb;
     if view.contour_count == 0u { return color; }
     var steepness = vec2f(0.0);
     for (var axis = 0u; axis < 2u; axis++) {

@@ -48,13 +48,14 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
     let frames = frames(options, &scene)?;
     let grid = Grid::of(&scene.domain);
     let light = states::most_bytes(grid.slots() as u64, particles.min(MOST_PARTICLES));
-    let most = light.max(MemoryPlan::new(&scene, particles.min(MOST_PARTICLES) as usize).bytes(None));
+    let plan = MemoryPlan::new(&scene, particles.min(MOST_PARTICLES) as usize);
+    let most = light.max(plan.bytes(None));
     let _heard = interrupt::listen_between_steps();
     for (index, path) in &frames {
         if interrupt::wish() {
             return Err(Error::Interrupted);
         }
-        let (hash, stored) = states::read(path, most, needs.cells)?;
+        let (hash, stored) = states::read_of(path, most, needs.cells, Some(&plan))?;
         belongs(path, (&hash, &scene_hash), &stored, needs.cells.then_some(&grid))?;
         let mut snapshot = states::snapshot(stored, grid, scene.gas.equation_of_state());
         snapshot.fire = Fire::of(&scene);

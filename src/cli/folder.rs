@@ -21,10 +21,13 @@ pub(super) struct Folder {
     /// Where.
     pub(super) path: PathBuf,
     lock: PathBuf,
+    /// What was made for it, itself and then folders above it; they go again where nothing is written there.
+    made: Vec<PathBuf>,
 }
 
 impl Folder {
-    /// Takes a folder that the user named: what an earlier run left there is replaced only by `force`.
+    /// Takes a folder that the user named: what an earlier run left there is replaced only by `force`, and stays until
+    /// [`Folder::clear`].
     ///
     /// # Errors
     /// [`Error::Usage`] if another process writes there, or a run is there; [`Error::Io`] if the folder cannot be written.
@@ -34,7 +37,6 @@ impl Folder {
             let message = "holds a run; --force replaces what that run wrote, another --out keeps it";
             return Err(Error::Usage(format!("{} {message}", path.display())));
         }
-        folder.clear()?;
         Ok(folder)
     }
 
@@ -49,7 +51,7 @@ impl Folder {
                 name.push(format!("_{number}"));
             }
             match Self::locked(&path.with_file_name(name)) {
-                Ok(folder) if !folder.holds_a_run() => return folder.clear().map(|()| folder),
+                Ok(folder) if !folder.holds_a_run() => return Ok(folder),
                 Ok(_) | Err(Error::Usage(_)) => {}
                 Err(error) => return Err(error),
             }
@@ -77,11 +79,13 @@ impl Folder {
     /// # Errors
     /// As those of [`Folder::take`] of a folder without a run.
     pub(super) fn locked(path: &Path) -> Result<Self> {
+        let new = path.ancestors().take_while(|above| !above.as_os_str().is_empty() && !above.exists());
+        let made: Vec<PathBuf> = new.map(Path::to_owned).collect();
         fs::create_dir_all(path).map_err(|source| Error::io(path, source))?;
         let lock = path.join(LOCK);
         for _ in 0..2 {
             match mark(&lock) {
-                Ok(()) => return Ok(Self { path: path.to_owned(), lock }),
+                Ok(()) => return Ok(Self { path: path.to_owned(), lock, made }),
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(Error::io(&lock, error)),
             }
@@ -110,7 +114,10 @@ impl Folder {
     }
 
     /// Removes what the list names, what was never finished, and folders that are empty then.
-    fn clear(&self) -> Result<()> {
+    ///
+    /// # Errors
+    /// [`Error::Io`] if something cannot be removed.
+    pub(super) fn clear(&self) -> Result<()> {
         self.remove_abandoned();
         let list = self.path.join(LIST);
         let text = match input::text(&list, input::MOST_REPORT) {
@@ -159,6 +166,8 @@ impl Folder {
 impl Drop for Folder {
     fn drop(&mut self) {
         let _ = fs::remove_file(&self.lock);
+        // a folder that holds something stays
+        let _ = self.made.iter().map(fs::remove_dir).take_while(std::result::Result::is_ok).count();
     }
 }
 
@@ -230,11 +239,19 @@ mod tests {
         assert!(Folder::take(&path, false).unwrap_err().to_string().contains("--force"));
         assert_eq!(Folder::next_free(&path).unwrap().path, place.path().join("run_2"));
         let folder = Folder::take(&path, true).unwrap();
+        assert!(
+            path.join("frames/0000.png").exists(),
+            "what a run left stays until it is certain that another one begins"
+        );
+        folder.clear().unwrap();
         assert!(Folder::take(&path, true).unwrap_err().to_string().contains("belongs to another run"));
         assert!(path.join("frames/mine.png").exists() && outside.exists());
         assert!(!path.join("frames/0000.png").exists() && !path.join("frames/deep").exists());
         drop(folder);
         assert!(!path.join(LOCK).exists());
+        let unused = place.path().join("a/b");
+        drop(Folder::take(&unused, false).unwrap());
+        assert!(!place.path().join("a").exists(), "folders that nothing was written to go again");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! `render`: the frames of a run again, with another camera or look, from its stored states.
 
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::sync_channel;
 use std::time::Instant;
 
 use serde::Deserialize;
@@ -79,18 +80,11 @@ fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli)
     let frames = frames(options)?;
     let folder = files.folder.clone();
     let gpu = open_device(cli)?;
-    let mut drawing = Drawing { gpu, scene, hash, shots, particles, depth: files.needs()?.depth, at_work: None };
+    let grid = Grid::of(&scene.domain);
+    let reading = Reading { hash, grid, most: states::most_bytes(grid.slots() as u64, particles) };
+    let mut drawing = Drawing { gpu, scene, grid, shots, depth: files.needs()?.depth, at_work: None };
     let writer = Writer::start(files, &drawing.scene);
-    let (mut drawn, mut heard) = (Ok(()), None);
-    for (index, path) in &frames {
-        let frame = if interrupt::wish() { Err(Error::Interrupted) } else { drawing.draw(*index, path) };
-        let accepted = frame.map(|frame| writer.send(Message { frame: Some(frame), ..Message::default() }));
-        if !matches!(accepted, Ok(true)) {
-            drawn = accepted.map(|_| ());
-            break;
-        }
-        heard.get_or_insert_with(interrupt::listen_between_steps);
-    }
+    let drawn = drawing.all(&reading, &frames, &writer);
     // What the writer has to say comes first: a disk that is full, for example.
     let (Written { frames, films, .. }, outcome) = writer.finish();
     outcome?;
@@ -245,22 +239,51 @@ fn files(options: &RenderOptions, folder: PathBuf) -> Result<Files> {
     Ok(Files { folder, formats, video: film, lost_film: lost, ..Files::default() })
 }
 
+/// What belongs into the states of a run: hash of their scene, its grid, bytes at most.
+struct Reading {
+    hash: String,
+    grid: Grid,
+    most: u64,
+}
+
+impl Reading {
+    fn read(&self, path: &Path) -> Result<Stored> {
+        let (hash, stored) = states::read(path, self.most, true)?;
+        belongs(path, (&hash, &self.hash), &stored, Some(&self.grid))?;
+        Ok(stored)
+    }
+}
+
 /// Device, scene and look, and the buffers and kernels of the frames so far.
 struct Drawing {
     gpu: Gpu,
     scene: Scene,
-    hash: String,
+    grid: Grid,
     shots: Vec<Shot>,
-    particles: u64,
     depth: crate::render::Depth,
     at_work: Option<(Loaded, Renderer)>,
 }
 
 impl Drawing {
-    fn draw(&mut self, index: u32, path: &Path) -> Result<FrameToWrite> {
-        let grid = Grid::of(&self.scene.domain);
-        let (hash, stored) = states::read(path, states::most_bytes(grid.slots() as u64, self.particles), true)?;
-        belongs(path, (&hash, &self.hash), &stored, Some(&grid))?;
+    /// Draws all frames: a state is read while the one before is drawn and the picture before that is written. None is read further ahead.
+    fn all(&mut self, reading: &Reading, frames: &[(u32, PathBuf)], writer: &Writer) -> Result<()> {
+        std::thread::scope(|scope| {
+            let (sender, states) = sync_channel(0);
+            scope.spawn(move || frames.iter().all(|(_, path)| sender.send(reading.read(path)).is_ok()));
+            let mut heard = None;
+            for ((index, path), stored) in frames.iter().zip(states) {
+                let frame = if interrupt::wish() { Err(Error::Interrupted) } else { stored };
+                let frame = frame.and_then(|stored| self.draw(*index, path, &stored))?;
+                if !writer.send(Message { frame: Some(frame), ..Message::default() }) {
+                    break;
+                }
+                heard.get_or_insert_with(interrupt::listen_between_steps);
+            }
+            Ok(())
+        })
+    }
+
+    fn draw(&mut self, index: u32, path: &Path, stored: &Stored) -> Result<FrameToWrite> {
         let map = self.shots.iter().flat_map(|shot| &shot.fields).find(|field| field.is_map());
         if let Some(map) = map.filter(|_| stored.maps.is_empty()) {
             let (path, name) = (path.display(), map.keyword());
@@ -268,18 +291,18 @@ impl Drawing {
                 "{path} has no map of {name}; run the scene again with --set output.maps=true"
             )));
         }
-        let renderer = self.renderer(grid, &stored)?;
+        let renderer = self.renderer(stored)?;
         let pictures = renderer.render(stored.time)?;
         let (time, step) = (stored.time, stored.step);
         Ok(FrameToWrite { index, time, step, pictures, snapshot: None, stored: None })
     }
 
     /// The renderer with a state in its buffers.
-    fn renderer(&mut self, grid: Grid, stored: &Stored) -> Result<&mut Renderer> {
+    fn renderer(&mut self, stored: &Stored) -> Result<&mut Renderer> {
         let filled = self.at_work.as_ref().is_some_and(|(loaded, _)| loaded.fill(&self.gpu, stored));
         if !filled {
             self.at_work = None;
-            let loaded = Loaded::new(&self.gpu, grid, stored)?;
+            let loaded = Loaded::new(&self.gpu, self.grid, stored)?;
             let renderer = Renderer::new(&self.gpu, &self.scene, &loaded.buffers())?;
             let renderer = renderer.with_depth(self.depth).with_shots(self.shots.clone()).with_stop(interrupt::wish);
             self.at_work = Some((loaded, renderer));

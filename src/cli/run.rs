@@ -63,10 +63,13 @@ fn begun(beginning: &Beginning, gpu: &Gpu, told: (Instant, bool)) -> Result<()> 
     let plan = MemoryPlan::fitting(&beginning.scene, gpu)?;
     asked_for(beginning)?;
     let folder = beginning.folder()?;
+    // a state that is refused leaves what was there, and nothing else
+    let taken = beginning.taken(gpu, &plan, &folder)?;
+    beginning.clear(&folder)?;
     let path = folder.path.clone();
     Setup { beginning, gpu, plan: &plan, start: told.0 }.write_report(&path, (Status::Running, "running"))?;
     interrupt::last_words(&path, Some(Box::new(last_words(&folder))));
-    let outcome = owning(beginning, (gpu, &plan), folder, told);
+    let outcome = owning(beginning, (gpu, &plan), (folder, taken), told);
     interrupt::last_words(&path, None);
     outcome
 }
@@ -75,11 +78,11 @@ fn begun(beginning: &Beginning, gpu: &Gpu, told: (Instant, bool)) -> Result<()> 
 fn owning(
     beginning: &Beginning,
     (gpu, plan): (&Gpu, &MemoryPlan),
-    folder: Folder,
+    owned: (Folder, Option<Simulation>),
     (start, json): (Instant, bool),
 ) -> Result<()> {
-    let path = folder.path.clone();
-    match Run::prepare(beginning, gpu, plan, folder, start) {
+    let path = owned.0.path.clone();
+    match Run::prepare(beginning, gpu, plan, owned, start) {
         Ok(mut run) => {
             let outcome = run.frames();
             run.finish(outcome, json)
@@ -195,7 +198,7 @@ impl<'a> Run<'a> {
         beginning: &'a Beginning,
         gpu: &Gpu,
         plan: &'a MemoryPlan,
-        folder: Folder,
+        (folder, taken): (Folder, Option<Simulation>),
         start: Instant,
     ) -> Result<Self> {
         let (options, scene) = (&beginning.options, beginning.scene.clone());
@@ -208,7 +211,7 @@ impl<'a> Run<'a> {
         if !options.quiet {
             announce(&scene, plan, gpu, &formats);
         }
-        let simulation = beginning.simulation(gpu, plan)?;
+        let simulation = taken.map_or_else(|| Simulation::new(gpu, &scene), Ok)?;
         let about = beginning.from.as_ref().map(|from| &from.about);
         let start_budget =
             about.map_or_else(|| Budget::read(&simulation, &scene, 0.0), |about| Ok(about.start_budget))?;

@@ -15,7 +15,8 @@ use super::{interrupt, open_device, page, run, scenes};
 use crate::export::atomic;
 use crate::gpu::Gpu;
 use crate::math::plain;
-use crate::scene::Scene;
+use crate::scene::{Changes, Scene};
+use crate::simulation::Simulation;
 use crate::{Error, Result, input};
 use points::{Axis, axis, points, shard};
 use table::{Rows, report};
@@ -43,6 +44,7 @@ struct Sweep<'a> {
 pub(super) fn sweep(options: &SweepOptions, cli: &Cli) -> Result<()> {
     let start = Instant::now();
     let sweep = Sweep::of(options)?;
+    sweep.own.iter().try_for_each(|number| sweep.can_run(*number))?;
     interrupt::listen();
     let gpu = open_device(cli)?;
     let mut rows = Rows::new(sweep.keys(), sweep.points.len());
@@ -73,6 +75,24 @@ impl<'a> Sweep<'a> {
             return Err(Error::Usage(format!("--branch-at {time}: a time between 0 and the end, {until} s")));
         }
         Ok(Self { options, scene, axes, points, own })
+    }
+
+    /// Reads the scene of a run, before any run begins.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if its values are wrong; [`Error::Usage`] if the common start cannot go on with them.
+    fn can_run(&self, number: usize) -> Result<()> {
+        let SweepOptions { scene: base, until, frames, branch_at, .. } = self.options;
+        let sets = self.sets(number);
+        let until = until.map(|until| format!("time.until={until:?}"));
+        let frames = frames.map(|frames| format!("time.frames={frames}"));
+        let all: Vec<String> = until.into_iter().chain(frames).chain(sets.iter().cloned()).collect();
+        let scene = scenes::load(base, &all)?;
+        if branch_at.is_none() {
+            return Ok(());
+        }
+        Changes { set: sets, ..Changes::default() }.of_a_state(None, "--branch-at")?;
+        Simulation::can_change(&scene.taking_over(&self.scene)?, &scene)
     }
 
     fn keys(&self) -> Vec<String> {

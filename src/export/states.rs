@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use bytemuck::{Pod, cast_slice};
 use rayon::prelude::*;
 
-use super::container::{self, Array, Contents, Form, Source};
+use super::container::{self, Array, Contents, Form, Source, VERSION};
 use super::npy::Numbers;
 use crate::export::{Exporter, Moment, Needs};
 use crate::render::{Stored, StoredParticles};
 use crate::scene::EquationOfState;
 use crate::snapshot::{CellRows, ParticleRows, Snapshot, kind};
-use crate::state::{Grid, arrays};
+use crate::state::{Grid, MemoryPlan, arrays};
 use crate::{Error, Result};
 
 /// Bytes of a slot of the grid, and of a particle.
@@ -128,9 +128,22 @@ const OF_CELLS: [&str; 7] = ["conserved", "energy", "species", "kind", "owed", "
 /// unread.
 ///
 /// # Errors
-/// [`Error::Io`] if the file cannot be read or is no whole state.
+/// [`Error::Spoilt`] if the file is no whole state, [`Error::Io`] if it cannot be read.
 pub fn read(path: &Path, most: u64, cells: bool) -> Result<(String, Stored)> {
+    read_of(path, most, cells, None)
+}
+
+/// The same of a scene whose buffers are known: a full state that this form of program wrote has no other arrays.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_of(path: &Path, most: u64, cells: bool, plan: Option<&MemoryPlan>) -> Result<(String, Stored)> {
     let contents = container::read_some(path, most, |name| cells || !OF_CELLS.contains(&name))?;
+    let full = contents.head.form == Form::Full && contents.head.version == VERSION;
+    let foreign = |array: &&Array| full && plan.is_some_and(|plan| !plan.has_array(&array.name));
+    if let Some(array) = contents.arrays.iter().find(foreign) {
+        return Err(Error::spoilt(path, format_args!("array `{}` is none of a state of this scene", array.name)));
+    }
     let scene = contents.head.source.scene_hash.clone();
     let stored = stored(contents, cells).map_err(|reason| Error::spoilt(path, &reason))?;
     Ok((scene, stored))

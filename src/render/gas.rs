@@ -4,7 +4,7 @@ use glam::Vec4;
 
 use super::buffers::Sources;
 use super::colormap::TABLE_LENGTH;
-use super::kernels::{BRICK, bind};
+use super::kernels::{BRICK, bind, bind_with};
 use super::quantity;
 use super::transfer::Tables;
 use super::view::View;
@@ -34,7 +34,8 @@ pub(super) struct Gas {
     pub(super) glow: Buffer<[u32; 2]>,
     /// One word per brick of cubes: whether the ray march must enter it.
     pub(super) bricks: Buffer<u32>,
-    evaluate_field: Bound,
+    /// Of the density gradient, of vorticity, and of all other quantities.
+    evaluate_field: [Bound; 3],
     find_range: Bound,
     pack_corners: Bound,
     pack_glow: Bound,
@@ -78,7 +79,7 @@ impl Gas {
         let bind = |entry: &str, buffers: &[(&str, &wgpu::Buffer)]| bind(gpu, "picture/field.wgsl", entry, buffers);
         let bricks_and_tables = [("bricks", bricks.raw()), ("visible", visible.raw())];
         Ok(Self {
-            evaluate_field: bind("evaluate_field", &[&state[..], &[shared, of_field, of_heat]].concat())?,
+            evaluate_field: evaluate(gpu, sources, &[&state[..], &[shared, of_field, of_heat]].concat())?,
             find_range: bind("find_range", &[shared, of_field, ("ranges", ranges.raw())])?,
             pack_corners: bind("pack_corners", &[shared, of_field, of_corners])?,
             pack_glow: bind("pack_glow", &[shared, of_heat, of_glow])?,
@@ -106,7 +107,16 @@ impl Gas {
 
     /// Records the view's field and its range.
     pub(super) fn record_field(&self, pass: &mut Pass, view: &View) {
-        pass.dispatch(&self.evaluate_field, &Extent::Threads(self.cell_count));
+        let [gradient, vorticity, others] = &self.evaluate_field;
+        let is = |field| view.field == quantity::code(field);
+        let evaluate = if is(Field::Schlieren) {
+            gradient
+        } else if is(Field::Vorticity) {
+            vorticity
+        } else {
+            others
+        };
+        pass.dispatch(evaluate, &Extent::Threads(self.cell_count));
         if let Some([evaluate, _]) = self.dust.as_ref().filter(|_| view.field == quantity::code(Field::Dust)) {
             pass.dispatch(evaluate, &Extent::Threads(self.cell_count));
         }
@@ -140,6 +150,17 @@ impl Gas {
             pass.dispatch(&self.mark_bricks, &Extent::Threads(self.bricks.len() as u64));
         }
     }
+}
+
+/// The kernels that evaluate fields, in the order of [`Gas::evaluate_field`].
+fn evaluate(gpu: &Gpu, sources: &Sources, buffers: &[(&str, &wgpu::Buffer)]) -> Result<[Bound; 3]> {
+    let parts = sources.species.as_ref().map_or(0, |(_, _, parts)| *parts);
+    let of = |schlieren: bool, vorticity: bool| {
+        let made_for =
+            [("SCHLIEREN", schlieren), ("VORTICITY", vorticity), ("MIXED", parts > 0), ("EXPLOSIVE", parts > 2)];
+        bind_with(gpu, "picture/field.wgsl", "evaluate_field", &made_for, buffers)
+    };
+    Ok([of(true, false)?, of(false, true)?, of(false, false)?])
 }
 
 /// The kernels of dust, in scenes with some.

@@ -6,7 +6,7 @@ use super::bend::Bend;
 use super::buffers::Sources;
 use super::frame::{Depth, Drawn};
 use super::gas::{Gas, RANGE_GROUPS};
-use super::kernels::{SAMPLE_MARGIN, bind, bind_with};
+use super::kernels::{BACKDROP_DAYLIGHT, SAMPLE_MARGIN, bind, bind_with};
 use super::layers::LayerKernel;
 use super::light::{Distance, Light};
 use super::particles::Particles;
@@ -18,7 +18,7 @@ use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
 /// Rays of a band at most: more need more memory and gain nothing.
 const BAND_RAYS: u32 = 1 << 21;
 /// The same where a processor plays the GPU: whoever wants to stop waits for a band.
-const BAND_RAYS_SOFTWARE: u32 = 1 << 17;
+const BAND_RAYS_SOFTWARE: u32 = 1 << 19;
 
 /// Root mean squares of a line-of-sight picture that reach half way to black or white.
 const OPTICS_CONTRAST: f64 = 1.5;
@@ -103,6 +103,8 @@ struct Key {
     slices: bool,
     smooth: bool,
     refraction: bool,
+    daylight: bool,
+    walls: bool,
     depth: Depth,
 }
 
@@ -117,11 +119,13 @@ impl Key {
             slices: view.slice_count > 0,
             smooth: view.smooth_skin == 1,
             refraction: view.refraction > 0.0,
+            daylight: view.backdrop == BACKDROP_DAYLIGHT,
+            walls: view.fineness > 0,
             depth,
         }
     }
 
-    fn switches(&self) -> [(&'static str, bool); 6] {
+    fn switches(&self) -> [(&'static str, bool); 8] {
         [
             ("EMISSION", self.emission),
             ("SOOT", self.soot),
@@ -129,6 +133,8 @@ impl Key {
             ("SLICES", self.slices),
             ("SMOOTH", self.smooth),
             ("REFRACTION", self.refraction),
+            ("DAYLIGHT", self.daylight),
+            ("WALLS", self.walls),
         ]
     }
 }
@@ -269,7 +275,8 @@ impl Skin {
         rows: u32,
         surface: &Buffer<[u32; 4]>,
     ) -> Result<Self> {
-        let Shared { gpu, gas, light, .. } = *shared;
+        let Shared { gpu, sources, gas, light, .. } = *shared;
+        let flat = [("FLAT", sources.grid.dimension < 3)];
         let samples = (view.size[0] * view.samples) as usize * (rows * view.samples + 2 * SAMPLE_MARGIN) as usize;
         let depth: Buffer<u32> = Buffer::new(gpu, "sample depths", samples)?;
         let smooth: Buffer<u32> = Buffer::new(gpu, "smooth depths", samples)?;
@@ -285,7 +292,7 @@ impl Skin {
         let of_covered = ("covered", covered.raw());
         let of_splat = [of_view, balls, ("deformation", &own.deformation), ("depth_bits", depth.raw())];
         let splat = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
-            bind(gpu, "picture/points.wgsl", entry, &[&of_splat, own].concat())
+            bind_with(gpu, "picture/points.wgsl", entry, &flat, &[&of_splat, own].concat())
         };
         let smoothed = |from: &Buffer<u32>, to: &Buffer<u32>| {
             let own = [of_view, of_shown, balls, ("depth_in", from.raw()), ("depth_out", to.raw())];

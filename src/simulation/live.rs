@@ -44,7 +44,7 @@ impl Simulation {
     /// # Errors
     /// [`Error::Usage`] if something else differs; driver errors.
     pub fn change(&mut self, from: &Scene, to: &Scene, records: &mut Vec<StepRecord>) -> Result<()> {
-        check(from, to)?;
+        Self::can_change(from, to)?;
         self.settle(records)?;
         let (openings, state) = (Openings::new(to), &mut self.state);
         state.admit(to, &openings);
@@ -59,6 +59,14 @@ impl Simulation {
         state.openings.write(&self.gpu, 0, openings.of_rules());
         state.knots.write(&self.gpu, 0, &openings.knots);
         self.gpu.check()
+    }
+
+    /// Whether a simulation of `from` can go on with the parameters of `to`, see [`Simulation::change`].
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if not.
+    pub fn can_change(from: &Scene, to: &Scene) -> Result<()> {
+        check(from, to)
     }
 
     /// Sets energy free in the gas of a ball, evenly over its volume: pressure rises, density and velocity stay. The budgets count it among

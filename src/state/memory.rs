@@ -12,6 +12,9 @@ use crate::math::greatest_divisor;
 use crate::numerics::{PcgControl, Scan, pcg};
 use crate::scene::{MAX_BODIES, Scene};
 
+/// Labels of buffers that the plan counts together with others: of prefix sums, of terms of the surface, of colours of columns.
+const COUNTED_TOGETHER: [&str; 5] = ["scan level", "scan totals", "scan offsets", "turn", "color"];
+
 /// Bytes in a gibibyte.
 const GIB: f64 = (1u64 << 30) as f64;
 
@@ -158,6 +161,14 @@ impl MemoryPlan {
     fn add(&mut self, group: &'static str, buffers: &[(&'static str, u64, u64)]) {
         let planned = |&(name, elements, size): &(_, u64, u64)| Planned { group, name, bytes: elements.max(1) * size };
         self.buffers.extend(buffers.iter().map(planned));
+    }
+
+    /// Whether a full state of the scene may have an array of this name: that of a buffer, or of one of several with the same label.
+    pub fn has_array(&self, name: &str) -> bool {
+        let plain = name.trim_end_matches(|digit: char| digit.is_ascii_digit());
+        let label = plain.strip_suffix('_').filter(|_| plain.len() < name.len()).unwrap_or(name);
+        let known = |own: &str| label == own.replace(' ', "_");
+        COUNTED_TOGETHER.iter().any(|own| known(own)) || self.buffers.iter().any(|buffer| known(buffer.name))
     }
 
     /// Bytes of a group, or of all.

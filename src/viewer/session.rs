@@ -237,7 +237,9 @@ impl Session {
     fn show(&mut self, stored: &Stored) -> Result<()> {
         let buffers = SceneBuffers::of(&self.simulation.state);
         if !stored.write(self.simulation.gpu(), &buffers) {
-            return Err(Error::Spoilt("its arrays have other lengths than its scene asks for".to_owned()));
+            let wrong = stored.wrong_length(&buffers.grid).map(|name| format!("array `{name}` has a wrong length"));
+            let text = wrong.unwrap_or_else(|| "its arrays are other ones than its scene asks for".to_owned());
+            return Err(Error::Spoilt(text));
         }
         self.light = Some((stored.time, stored.step));
         Ok(())

@@ -8,6 +8,7 @@ use brisance::export::container::{self, Form, Source};
 use brisance::gpu::Gpu;
 use brisance::scene::{Changes, Scene};
 use brisance::simulation::{Saved, SavedArray, Simulation};
+use brisance::state::MemoryPlan;
 
 use crate::cli::{SmallRun, brisance, fails, small_run, succeeds};
 use crate::common::{contents_below, folder_or_skip, gpu_or_skip};
@@ -84,6 +85,9 @@ fn a_saved_state_leads_to_the_same_bits() {
     for (path, variant, keys, cells) in SCENES {
         let scene = scene(path, variant, keys, cells);
         let (middle, end) = halves(&gpu, &scene);
+        let plan = MemoryPlan::new(&scene, scene.seed_particles().len());
+        let unknown = middle.arrays.iter().map(|array| &array.name).find(|name| !plan.has_array(name));
+        assert_eq!(unknown, None, "{path} {keys:?}");
         let mut again = Simulation::new(&gpu, &scene).unwrap();
         again.set_target(scene.time.until).unwrap();
         advance(&mut again, 2); // what is left out of a state must not matter
@@ -231,6 +235,7 @@ fn a_branch_starts_from_a_state_of_another_run() {
     let time = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap();
     assert!(after.lines().skip(1).map(time).is_sorted() && time(after.lines().last().unwrap()) > 0.0599);
     assert!(!branch.join("frames/0001.png").exists() && branch.join("frames/0006.png").exists());
+    another_run_stays(&run, &branch);
     let refused = fails(2, &["run", "--branch", &from, "--set", "gas.gamma=1.3"]);
     assert!(refused.contains("gas.gamma") && refused.contains("boundary"), "{refused}");
     for (more, reason) in [
@@ -244,6 +249,27 @@ fn a_branch_starts_from_a_state_of_another_run() {
     }
     assert!(fails(2, &["run", "--branch", &text(&run)]).contains("DIR@TIME"));
     assert!(fails(2, &["run", "--branch", &format!("{}@0.001", run.display())]).contains("it has: "));
+}
+
+/// What lies where a branch is to go stays where its checkpoint, or a table, is refused; so does the run that it comes from.
+fn another_run_stays(run: &Path, branch: &Path) {
+    let [from, out] = [run, branch].map(|path| path.to_str().unwrap().to_owned());
+    let before = contents_below(branch);
+    let at = format!("{from}@0.03");
+    assert!(
+        fails(2, &["run", "--branch", &at, "--force", "--out", &from]).contains("the run that this one begins from")
+    );
+    let table = run.join("diagnostics.csv");
+    let rows = std::fs::read(&table).unwrap();
+    std::fs::write(&table, "step,time\n1,2\n").unwrap();
+    let away = branch.with_file_name("away").join("deep");
+    for place in [&out, away.to_str().unwrap()] {
+        let refused = fails(6, &["run", "--branch", &at, "--force", "--no-expect", "--out", place]);
+        assert!(refused.contains("not those that the run wrote"), "{refused}");
+    }
+    assert!(!away.parent().unwrap().exists(), "a branch that is refused leaves a folder");
+    assert!(contents_below(branch) == before, "a branch that is refused changes what was there");
+    std::fs::write(&table, rows).unwrap();
 }
 
 /// A branch keeps `[expect]` in force unless it, or the run that it comes from, was changed by hand.

@@ -92,7 +92,13 @@ fn spoiled_states_are_refused(run: &Path, convert: &[&str]) {
         for verb in verbs {
             let text = fails(6, verb);
             assert!(text.contains(told_of_all) && text.contains(name), "{text}");
+            assert!(!Path::new(&branch).exists(), "{verb:?} leaves a folder");
         }
+        let (states, aside) = (run.join("states"), run.join("states_aside"));
+        std::fs::rename(&states, &aside).unwrap();
+        let text = fails(6, convert);
+        assert!(text.contains(told) && text.contains(name), "{text}");
+        std::fs::rename(&aside, &states).unwrap();
         #[cfg(feature = "viewer")]
         looked_at(run, (told_of_all, name));
         std::fs::write(&state, &good[0]).unwrap();

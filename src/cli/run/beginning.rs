@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::super::args::RunOptions;
 use super::super::folder::Folder;
 use super::super::outcome::device;
-use super::super::tables::Marks;
+use super::super::tables::{Marks, Tables};
 use super::super::{scenes, writer};
 use super::checkpoint::About;
 use super::overrides;
@@ -120,6 +120,10 @@ impl Beginning {
     pub(super) fn folder(&self) -> Result<Folder> {
         match (&self.from, &self.options.out) {
             (Some(from), _) if !from.branch => Folder::again(&from.run),
+            (Some(from), Some(path)) if same_place(&from.run, path) => {
+                let run = from.run.display();
+                Err(Error::Usage(format!("--out {run} is the run that this one begins from; name another folder")))
+            }
             (_, Some(path)) => Folder::take(path, self.options.force),
             (from, None) => {
                 let name = if from.is_some() { "branch" } else { &scene::stem(&self.options.scene.scene) };
@@ -137,12 +141,23 @@ impl Beginning {
         writer::Before { folder, marks, frames: if goes_on { frames } else { 0 } }
     }
 
-    /// The simulation at its start.
+    /// Removes what another run left in the folder of this one; a run that goes on keeps it.
     ///
     /// # Errors
-    /// Those of [`Simulation::new`]; [`Error::Usage`] if the checkpoint is not of this scene and program.
-    pub(super) fn simulation(&self, gpu: &Gpu, plan: &MemoryPlan) -> Result<Simulation> {
-        let Some(from) = &self.from else { return Simulation::new(gpu, &self.scene) };
+    /// As those of [`Folder::clear`].
+    pub(super) fn clear(&self, folder: &Folder) -> Result<()> {
+        if self.from.as_ref().is_some_and(|from| !from.branch) { Ok(()) } else { folder.clear() }
+    }
+
+    /// The simulation of a run that begins from a checkpoint.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::new`]; [`Error::Spoilt`] and [`Error::Usage`] if the checkpoint is not of this scene and program, or tables
+    /// are not those that belong to it.
+    pub(super) fn taken(&self, gpu: &Gpu, plan: &MemoryPlan, folder: &Folder) -> Result<Option<Simulation>> {
+        let Some(from) = &self.from else { return Ok(None) };
+        let tables = self.tables();
+        Tables::continued(&folder.path, &self.scene, (&tables.folder, &tables.marks))?;
         let before = self.scene.taking_over(&from.scene)?;
         from.warn(gpu);
         let mut simulation = Simulation::new(gpu, &before)?;
@@ -157,7 +172,7 @@ impl Beginning {
         if from.branch {
             simulation.change(&before, &self.scene, &mut Vec::new())?;
         }
-        Ok(simulation)
+        Ok(Some(simulation))
     }
 
     /// Time \[s\], steps and frames of the run so far.
@@ -176,6 +191,11 @@ impl Beginning {
         // a branch with other frames: those up to its time count as drawn
         Some(((from.head.time / new + ROUNDING).floor() as u32, false))
     }
+}
+
+/// Whether two paths name one folder that is there.
+fn same_place(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 
 /// A run that goes on does so as it began.

@@ -81,7 +81,7 @@ pub(super) fn points(axes: &[Axis], sample: Option<&str>, seed: u64) -> Result<V
                 return Err(Error::Usage(text));
             }
             Values::Range { low, high, count } => {
-                (0..*count).map(|k| format!("{:?}", low + (high - low) * k as f64 / (count - 1) as f64)).collect()
+                (0..*count).map(|k| short(low + (high - low) * k as f64 / (count - 1) as f64)).collect()
             }
         };
         if all.len().saturating_mul(values.len()) > MOST_RUNS {
@@ -90,6 +90,11 @@ pub(super) fn points(axes: &[Axis], sample: Option<&str>, seed: u64) -> Result<V
         all = all.iter().flat_map(|one| values.iter().map(|v| [&one[..], std::slice::from_ref(v)].concat())).collect();
     }
     Ok(all)
+}
+
+/// A number without what rounding leaves behind its fifteenth digit: 0.15, not 0.15000000000000002.
+fn short(number: f64) -> String {
+    format!("{:?}", format!("{number:.14e}").parse().unwrap_or(number))
 }
 
 /// A Latin hypercube: along each axis, one run in each of `count` equal parts. [McKay, Beckman & Conover 1979]
@@ -140,6 +145,8 @@ mod tests {
         let grid = points(&axes, None, 0).unwrap();
         assert_eq!(grid.len(), 9);
         assert_eq!((grid[0].join(" "), grid[5].join(" ")), ("1 10.0".to_owned(), "[2, 3] 20.0".to_owned()));
+        let fine = points(&[axis("c=0.05:0.2:4").unwrap()], None, 0).unwrap().concat();
+        assert_eq!(fine, ["0.05", "0.1", "0.15", "0.2"]);
         let axes = [axis("c=10:20").unwrap()];
         assert!(points(&axes, None, 0).unwrap_err().to_string().contains("low:high:count"));
         let mut sample: Vec<f64> =
