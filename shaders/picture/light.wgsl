@@ -7,6 +7,7 @@
 #include "picture/view.wgsl"
 #include "picture/gas_look.wgsl"
 #include "picture/distance.wgsl"
+#include "picture/growth.wgsl"
 
 @group(0) @binding(1) var<storage, read> balls: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> shadow_bits: array<atomic<u32>>;
@@ -36,7 +37,8 @@ fn clear_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
 fn splat_shadow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let p = thread_index(workgroup, local);
     if p >= view.particles || balls[2u * p].w == 0.0 { return; }
-    let radius = balls[2u * p].w;
+    // Stretched bodies let no light through.
+    let radius = balls[2u * p].w * clamp(balls[2u * p + 1u].w / CLOSING, 1.0, 1.4);
     let q = balls[2u * p].xyz - view.light_origin;
     let centre = vec3f(dot(q, view.light_right), dot(q, view.light_up), -dot(q, view.light));
     let texel = texel_size();

@@ -9,6 +9,7 @@
 #include "shared/reduce.wgsl"
 #include "picture/view.wgsl"
 #include "picture/samples.wgsl"
+#include "picture/growth.wgsl"
 
 @group(0) @binding(1) var<storage, read> position: array<vec4f>;
 @group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
@@ -100,10 +101,6 @@ fn find_particle_range(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_i
     high = workgroup_max(local, high);
     if local == 0u { ranges[workgroup.x] = vec2f(low, high); }
 }
-
-// How much larger balls are drawn where they become a surface: so that neighbours meet without holes, also where a body is stretched.
-const CLOSING: f32 = 1.6;
-const MOST_GROWTH: f32 = 3.2;
 
 // The elastic stretch is that of the deformation; plastic flow leaves its strain alone. Cracks stay open.
 fn growth(p: u32) -> f32 {

@@ -33,7 +33,7 @@ struct View {
     particle_scale: f32,        // Radius of a particle over the edge of its volume
     dark_strain: f32,           // Plastic strain at which a particle has lost half of its brightness
     particle_color: u32,        // Quantity of the particles, a PARTICLE_ constant of the shaders
-    smooth_skin: u32,           // 1 if the particles are smoothed into a surface
+    smooth_skin: u32,           // 1 if the particles make up a smooth surface
     particle_low: f32,          // Value at the low end of the particles' colours
     particle_high: f32,         // Value at the high end of the particles' colours
     exposure: f32,              // Factor on all light

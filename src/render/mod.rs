@@ -26,6 +26,7 @@ mod plane;
 mod plot;
 mod quantity;
 mod screen;
+mod sheets;
 mod stored;
 mod svg;
 mod ticks;

@@ -11,6 +11,7 @@ use super::layers::LayerKernel;
 use super::light::{Distance, Light};
 use super::particles::Particles;
 use super::plane::Wanted;
+use super::sheets::Sheets;
 use super::view::View;
 use crate::Result;
 use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
@@ -66,10 +67,9 @@ struct Deep {
 #[derive(Debug)]
 struct Skin {
     count: u64,
-    samples: u64,
     depth: Buffer<u32>,
     nearest: Buffer<u32>,
-    /// The same for a smooth surface, whose balls are larger and drawn back.
+    /// The particles of a smooth surface.
     kept: Buffer<u32>,
     /// Number and list of the rays that meet particles.
     covered: Buffer<u32>,
@@ -77,8 +77,7 @@ struct Skin {
     groups: Buffer<u32>,
     splat_depth: Bound,
     splat_nearest: Bound,
-    draw_back: Bound,
-    smooth_depth: [Bound; 2],
+    sheets: Option<Sheets>,
     list_skin: Bound,
     shade_skin: Bound,
 }
@@ -125,13 +124,12 @@ impl Key {
         }
     }
 
-    fn switches(&self) -> [(&'static str, bool); 8] {
+    fn switches(&self) -> [(&'static str, bool); 7] {
         [
             ("EMISSION", self.emission),
             ("SOOT", self.soot),
             ("DUST", self.dust),
             ("SLICES", self.slices),
-            ("SMOOTH", self.smooth),
             ("REFRACTION", self.refraction),
             ("DAYLIGHT", self.daylight),
             ("WALLS", self.walls),
@@ -279,7 +277,6 @@ impl Skin {
         let flat = [("FLAT", sources.grid.dimension < 3)];
         let samples = (view.size[0] * view.samples) as usize * (rows * view.samples + 2 * SAMPLE_MARGIN) as usize;
         let depth: Buffer<u32> = Buffer::new(gpu, "sample depths", samples)?;
-        let smooth: Buffer<u32> = Buffer::new(gpu, "smooth depths", samples)?;
         let nearest: Buffer<u32> = Buffer::new(gpu, "sample particles", samples)?;
         let of_view = ("view", gas.view.raw());
         let kept: Buffer<u32> = Buffer::new(gpu, "kept particles", if key.smooth { samples } else { 1 })?;
@@ -294,33 +291,24 @@ impl Skin {
         let splat = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
             bind_with(gpu, "picture/points.wgsl", entry, &flat, &[&of_splat, own].concat())
         };
-        let smoothed = |from: &Buffer<u32>, to: &Buffer<u32>| {
-            let own = [of_view, of_shown, balls, ("depth_in", from.raw()), ("depth_out", to.raw())];
-            bind(gpu, "picture/skin.wgsl", "smooth_depth", &own)
-        };
-        let back = [("depth_in", depth.raw()), ("depth_out", smooth.raw()), ("kept", kept.raw())];
+        let sheets = key.smooth.then(|| Sheets::new(shared, own, &depth, &kept)).transpose()?;
         let shade = light.of_surfaces();
-        let result = [of_view, of_shown, balls, of_covered, ("depth_in", depth.raw()), ("surface", surface.raw())];
-        let switches = key.switches();
+        let result = [of_view, of_covered, ("depth_in", depth.raw()), ("surface", surface.raw())];
+        let of_samples = sheets.as_ref().map_or([of_shown, balls], Sheets::of_light);
+        let entry = if key.smooth { "shade_sheets" } else { "shade_skin" };
+        let lit = [&shade[..], &result, &of_samples].concat();
         Ok(Self {
             count: own.count,
-            samples: samples as u64,
             splat_depth: splat("splat_depth", &[])?,
             splat_nearest: splat("splat_nearest", &[of_nearest])?,
-            draw_back: bind(
-                gpu,
-                "picture/skin.wgsl",
-                "draw_back",
-                &[&[of_view, of_nearest, balls][..], &back].concat(),
-            )?,
-            smooth_depth: [smoothed(&smooth, &depth)?, smoothed(&depth, &smooth)?],
             list_skin: bind(
                 gpu,
                 "picture/skin.wgsl",
                 "list_skin",
                 &[of_view, of_shown, of_covered, ("skin_groups", groups.raw())],
             )?,
-            shade_skin: bind_with(gpu, "picture/skin.wgsl", "shade_skin", &switches, &[&shade[..], &result].concat())?,
+            shade_skin: bind_with(gpu, "picture/skin.wgsl", entry, &key.switches(), &lit)?,
+            sheets,
             depth,
             nearest,
             kept,
@@ -335,13 +323,10 @@ impl Skin {
         pass.clear(&self.depth);
         pass.clear(&self.nearest);
         pass.dispatch(&self.splat_depth, &Extent::Threads(self.count));
-        pass.dispatch(&self.splat_nearest, &Extent::Threads(self.count));
-        if view.smooth_skin == 1 {
-            pass.dispatch(&self.draw_back, &Extent::Threads(self.samples));
-            let [first, second] = &self.smooth_depth;
-            for smooth_depth in [first, second, first] {
-                pass.dispatch(smooth_depth, &Extent::Threads(self.samples));
-            }
+        if let Some(sheets) = &self.sheets {
+            sheets.record(pass, view);
+        } else {
+            pass.dispatch(&self.splat_nearest, &Extent::Threads(self.count));
         }
         pass.dispatch(&self.list_skin, rays);
         pass.dispatch(&self.shade_skin, &Extent::Indirect(&self.groups, 0));

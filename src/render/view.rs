@@ -93,7 +93,7 @@ structure! {
         dark_strain: f32,
         /// Quantity of the particles, a `PARTICLE_` constant of the shaders.
         particle_color: u32,
-        /// 1 if the particles are smoothed into a surface.
+        /// 1 if the particles make up a smooth surface.
         smooth_skin: u32,
         /// Value at the low end of the particles' colours.
         particle_low: f32,

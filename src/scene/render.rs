@@ -264,7 +264,7 @@ pub enum Surface {
     /// Every particle is a ball.
     #[default]
     Spheres,
-    /// The balls in front are smoothed into a surface (3D), closed also where a body is stretched.
+    /// Rays meet the smooth surface of what the particles make up (3D), closed also where a body is stretched.
     Smooth,
 }
 

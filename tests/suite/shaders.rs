@@ -9,10 +9,24 @@ use wgpu::naga;
 use crate::common::{files_below, is_kind, report, slashed};
 
 /// Shaders of the pictures; all others belong to the step.
-const PICTURES: [&str; 15] = [
-    "picture/arrows.wgsl", "picture/bend.wgsl", "picture/bricks.wgsl", "picture/dust.wgsl", "picture/field.wgsl",
-    "picture/finish.wgsl", "picture/glow.wgsl", "picture/layers.wgsl", "picture/light.wgsl", "picture/optics.wgsl",
-    "picture/points.wgsl", "picture/skin.wgsl", "picture/slice.wgsl", "picture/solids.wgsl", "picture/volume.wgsl",
+const PICTURES: [&str; 17] = [
+    "picture/arrows.wgsl",
+    "picture/bend.wgsl",
+    "picture/bricks.wgsl",
+    "picture/dust.wgsl",
+    "picture/field.wgsl",
+    "picture/finish.wgsl",
+    "picture/glow.wgsl",
+    "picture/layers.wgsl",
+    "picture/light.wgsl",
+    "picture/near.wgsl",
+    "picture/optics.wgsl",
+    "picture/points.wgsl",
+    "picture/skin.wgsl",
+    "picture/slice.wgsl",
+    "picture/solids.wgsl",
+    "picture/trace_skin.wgsl",
+    "picture/volume.wgsl",
 ];
 
 /// The text injected before a shader's source.

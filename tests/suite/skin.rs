@@ -2,7 +2,7 @@
 
 use brisance::gpu::readback;
 use brisance::render::{Picture, Renderer};
-use brisance::scene::{Camera, Field, ParticleColor};
+use brisance::scene::{Camera, Field, ParticleColor, Surface};
 use brisance::simulation::Simulation;
 
 use crate::synthetic::{brightness, gpu, pixel, scene};
@@ -84,4 +84,77 @@ fn a_stretched_plate_has_a_closed_surface() {
     let holes = (160..320).flat_map(|x| (130..230).map(move |y| (x, y)));
     let holes = holes.filter(|&(x, y)| brightness(pixel(&picture, x, y)) < (middle + background) / 2).count();
     assert_eq!(holes, 0, "dark pixels in the plate");
+}
+
+/// Side of the pictures of a ball, and the ball's radius in them: they show 0.8 on 400 pixels.
+const SIDE: u32 = 400;
+const BALL_RADIUS: f64 = 175.0;
+
+/// Brightness around the middle of a picture.
+fn shade(picture: &Picture, x: f64, y: f64) -> f64 {
+    let middle = f64::from(SIDE / 2);
+    f64::from(brightness(pixel(picture, (middle + x) as u32, (middle - y) as u32)))
+}
+
+/// A ball of particles on a lattice, 28 of them across, seen along y and lit from above the eye; without it; and its particles as balls.
+fn lattice_ball() -> [Picture; 3] {
+    let gpu = gpu();
+    let text = "render.look = \"film\"\nrender.volume = false\n\
+                render.light = { direction = [-0.6, -1.0, 1.0] }\n\
+                materials.jelly.neo_hookean = { young_modulus = 1e3, poisson_ratio = 0.3 }\n\
+                [[bodies]]\nname = \"ball\"\nmaterial = \"jelly\"\ndensity = 1.0\ncolor = \"#c0c0c0\"\n\
+                shape.sphere = { center = [0.5, 0.5, 0.5], radius = 0.35 }\n";
+    let scene = scene(3, 20, [SIDE; 2], text);
+    let simulation = Simulation::new(&gpu, &scene).unwrap();
+    let mut look = scene.render.clone();
+    let (eye, up) = ([0.5, -3.0, 0.5], [0.0, 0.0, 1.0]);
+    look.camera = Some(Camera { eye, target: [0.5; 3], up, fov_degrees: 40.0, height: Some(0.8) });
+    let mut renderer = Renderer::of(&simulation, &scene).unwrap();
+    let mut draw = |look: &_| renderer.draw(look, Field::Density, 0.0).unwrap();
+    let ball = draw(&look);
+    look.particles = false;
+    let empty = draw(&look);
+    (look.particles, look.surface) = (true, Surface::Spheres);
+    [ball, empty, draw(&look)]
+}
+
+/// Root mean square and largest difference between a shade of the ball and the mean of those a particle's distance around, away from
+/// its side and from where light only grazes it.
+fn ripple(picture: &Picture) -> [f64; 2] {
+    let reach = (0.7 * BALL_RADIUS) as i32;
+    let places = (-reach..reach).flat_map(|x| (-reach..reach).map(move |y| (f64::from(x), f64::from(y))));
+    let seen = places.filter(|(x, y)| y - x > -0.2 * BALL_RADIUS && x.hypot(*y) < 0.7 * BALL_RADIUS);
+    let differ = |(x, y): (f64, f64)| {
+        let around = [(12.5, 0.0), (-12.5, 0.0), (0.0, 12.5), (0.0, -12.5)];
+        shade(picture, x, y) - around.iter().map(|(a, b)| shade(picture, x + a, y + b)).sum::<f64>() / 4.0
+    };
+    let all: Vec<f64> = seen.map(differ).collect();
+    let mean = all.iter().map(|value| value * value).sum::<f64>() / all.len() as f64;
+    [mean.sqrt(), all.iter().fold(0.0, |worst, value| value.abs().max(worst))]
+}
+
+/// Mean distance of the silhouette from the middle, and the root mean square of its bends: how far it is from the mean of what is two
+/// degrees beside.
+fn silhouette(picture: &Picture, empty: &Picture) -> [f64; 2] {
+    let edge = |k: u32| {
+        let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 720.0).sin_cos();
+        let covered = |r: f64| (shade(picture, r * cos, r * sin) - shade(empty, r * cos, r * sin)).abs() > 12.0;
+        (0..1990).rev().map(|tenth| 0.1 * f64::from(tenth)).find(|&r| covered(r)).unwrap_or(0.0)
+    };
+    let edges: Vec<f64> = (0..720).map(edge).collect();
+    let bend = |k: usize| edges[k] - 0.5 * (edges[(k + 4) % 720] + edges[(k + 716) % 720]);
+    let bends = (0..720).map(|k| bend(k).powi(2)).sum::<f64>() / 720.0;
+    [edges.iter().sum::<f64>() / 720.0, bends.sqrt()]
+}
+
+#[test]
+fn the_lattice_of_a_ball_is_not_seen() {
+    let [ball, empty, spheres] = lattice_ball();
+    let [[own, worst], [bare, _]] = [ripple(&ball), ripple(&spheres)];
+    let [[radius, bends], [_, bare_bends]] = [silhouette(&ball, &empty), silhouette(&spheres, &empty)];
+    println!("ripple {own:.2}, at most {worst:.1}, of balls {bare:.2}");
+    println!("radius {radius:.1}, bends {bends:.2}, of balls {bare_bends:.2}");
+    assert!(own < 4.5 && worst < 25.0, "ripple {own} of 765, at most {worst}");
+    assert!((radius - BALL_RADIUS).abs() < 5.0, "radius {radius}");
+    assert!(bends < 1.5, "silhouette bends by {bends} pixels");
 }
