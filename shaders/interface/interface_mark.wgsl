@@ -186,7 +186,7 @@ fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     // Of the six cells around a face only the outermost may be an image.
-    var interior = inside(c) && (MIRRORED == 0u || within(c, 2 * reach(), vec3i(params.cells) - 2 * reach())) && away_from_seam(c, -3, 3);
+    var interior = inside(c) && (!MIRRORED || within(c, 2 * reach(), vec3i(params.cells) - 2 * reach())) && away_from_seam(c, -3, 3);
     if interior {
         for (var k = 0u; k < corner_count(); k++) {
             interior = interior && has(cells[slot_of(c - corner_offset(k))], NODE_INTERIOR);

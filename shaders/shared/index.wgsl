@@ -63,24 +63,30 @@ fn nearest_ring(c: vec3i) -> vec3i {
 }
 
 // 1 where a side is a plane of symmetry.
-fn mirrors(side: u32) -> i32 { return i32((MIRRORED >> side) & 1u); }
+fn mirrors(side: u32) -> i32 {
+    if !MIRRORED { return 0; }
+    return i32((params.sides >> side) & 1u);
+}
 
 // 1 where a node beyond a side has the velocity of the cell before it, and so is no node of its own.
-fn joins(side: u32) -> i32 { return i32((JOINED >> side) & 1u); }
+fn joins(side: u32) -> i32 {
+    if !JOINED { return 0; }
+    return i32((params.sides >> (8u + side)) & 1u);
+}
 
 // The cell whose velocity the node of a cell has.
 fn joined(c: vec3i) -> vec3i {
-    if JOINED == 0u { return c; }
+    if !JOINED { return c; }
     let low = vec3i(joins(0u), joins(2u), joins(4u)) == vec3i(1);
     let high = vec3i(joins(1u), joins(3u), joins(5u)) == vec3i(1);
     let last = vec3i(params.cells) - vec3i(1);
     return select(select(c, last, high & (c > last)), vec3i(0), low & (c < vec3i(0)));
 }
-fn is_joined(c: vec3i) -> bool { return JOINED != 0u && any(joined(c) != c); }
+fn is_joined(c: vec3i) -> bool { return JOINED && any(joined(c) != c); }
 
 // What stands for a place beyond planes of symmetry; `gap` is that between the image of the first place and the first: 1 for cells, 0 for vertices.
 fn before_sides(c: vec3i, gap: i32) -> vec3i {
-    if MIRRORED == 0u { return c; }
+    if !MIRRORED { return c; }
     let low = vec3i(mirrors(0u), mirrors(2u), mirrors(4u)) == vec3i(1);
     let high = vec3i(mirrors(1u), mirrors(3u), mirrors(5u)) == vec3i(1);
     let last = vec3i(params.cells) - vec3i(gap);
@@ -95,17 +101,17 @@ fn mirrored_vertex(v: vec3i) -> vec3i { return before_sides(v, 0); }
 fn place_along(n: u32, j: i32) -> i32 {
     let count = i32(params.cells[n]);
     if PERIODIC != 0u && ((PERIODIC >> n) & 1u) == 1u { return (j + count) % count; }
-    if MIRRORED == 0u { return j; }
+    if !MIRRORED { return j; }
     if j < 0 && mirrors(2u * n) == 1 { return -1 - j; }
     if j >= count && mirrors(2u * n + 1u) == 1 { return 2 * count - 1 - j; }
     return j;
 }
 
 fn is_reflected(n: u32, j: i32) -> bool {
-    return MIRRORED != 0u && ((j < 0 && mirrors(2u * n) == 1) || (j >= i32(params.cells[n]) && mirrors(2u * n + 1u) == 1));
+    return MIRRORED && ((j < 0 && mirrors(2u * n) == 1) || (j >= i32(params.cells[n]) && mirrors(2u * n + 1u) == 1));
 }
 
-fn is_image(c: vec3i) -> bool { return MIRRORED != 0u && any(mirrored(c) != c); }
+fn is_image(c: vec3i) -> bool { return MIRRORED && any(mirrored(c) != c); }
 
 // Whether a slot lies beyond a periodic side: it stands for one at the other end and holds nothing.
 fn is_alias(c: vec3i) -> bool { return !away_from_seam(c, 0, 0); }
@@ -172,10 +178,10 @@ const WIDE_SHIFT = 16u;
 const END_SHIFT = 22u;
 
 fn is_wide(word: u32, n: u32, up: bool) -> bool { return has(word, 1u << (WIDE_SHIFT + 2u * n + u32(up))); }
-fn ends_in_image(word: u32, n: u32, up: bool) -> bool { return MIRRORED != 0u && has(word, 1u << (END_SHIFT + 2u * n + u32(up))); }
+fn ends_in_image(word: u32, n: u32, up: bool) -> bool { return MIRRORED && has(word, 1u << (END_SHIFT + 2u * n + u32(up))); }
 
 // Whether the slot stands for the image of the cell before it; see is_image().
-fn holds_image(word: u32) -> bool { return MIRRORED != 0u && kind_of(word) == WALL && has(word, IMAGE); }
+fn holds_image(word: u32) -> bool { return MIRRORED && kind_of(word) == WALL && has(word, IMAGE); }
 
 fn friction_of(word: u32) -> f32 { return 1e-3 * f32(word >> 16u); }
 fn word_with_friction(word: u32, friction: f32) -> u32 {

@@ -22,10 +22,10 @@ override FRICTION: bool;        // some body does not slip
 override LATE_FLUX: bool;       // half of what bodies gain in the solve carries gas, see gas/late_flux.wgsl
 override IMPLICIT: bool;        // one elastic step by backward Euler instead of explicit sub-steps
 override SHARED_VOLUME: bool;   // the ghost pressure follows the elastic law's volumetric part, which the law then lacks
-override RULES_USED: u32;        // rules of open sides in the scene, as bits
+override RULES_USED: u32;        // rules of open sides in the scene, as bits, and more of them that such scenes may have
 override PERIODIC: u32;          // axes whose ends meet, as bits
-override MIRRORED: u32;         // sides that are planes of symmetry: walls, as bits; gas only
-override JOINED: u32;           // open sides whose nodes go with the cells before them, as bits; B1B0 only
+override MIRRORED: bool;        // some sides are planes of symmetry: walls; gas only
+override JOINED: bool;          // nodes of some open sides go with the cells before them; B1B0 only
 override INTERFACE: u32;        // INTERFACE_RESOLVED, INTERFACE_H or INTERFACE_SINGLE
 
 // Generated from src/state/params.rs by scripts/generate.
@@ -73,6 +73,7 @@ struct Params {
     air_needed: f32,            // Mass of the first gas with which they burn whole, over their own [1]
     afterburn_rate: f32,        // How fast those burn that have met enough of it [s^-1]
     densest: f32,               // Density beyond which the law of its products does not hold [kg m^-3]
+    sides: u32,                 // Sides that are planes of symmetry, as bits, and from bit 8 on open sides whose nodes go with the cells before them
     products: vec4f,            // A and B [Pa], R1 and R2 times the density of the explosive [kg m^-3]
     scan: array<vec4u, SCAN_DISPATCHES>, // Groups of each dispatch of a prefix sum over all slots and one more
 }
@@ -270,7 +271,6 @@ fn gas_from_primitive(density: f32, velocity: vec3f, pressure: f32, species: vec
 
 // p = f + w rho e, f the sum of A (1 - w / x) exp(-x), x = R rho_0 / r, r their density in their own volume. [Jones, Wilkins and Lee;
 // UCRL-52997] What has not burned still holds its chemical energy, and has the pressure of a heavy ideal gas.
-
 const TRACE = 1e-6; // share of the density that a gas of no volume has in it
 fn expansions_of(gas: Gas) -> vec2f {
     let density = (max(gas.species.x, 0.0) + TRACE * gas.flow.x) / (max(gas.species.y, 0.0) + TRACE);

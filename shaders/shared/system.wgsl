@@ -111,7 +111,7 @@ fn wide_entries(a: u32, v: vec4i, solid: bool) -> AxisEntries {
     let sides = select(vec4f(v == n) * f32(1 - high) - vec4f(v == vec4i(0)) * f32(1 - low), vec4f(0.0), solid);
     var entries = AxisEntries((below * vec4f(0.0, -2.0, 1.0, 1.0) + above * vec4f(-1.0, -1.0, 2.0, 0.0)) / 6.0
         + vec4f(0.0, 0.5, 0.5, 0.0) * sides, (below * vec4f(0.0, 3.0, 8.0, 1.0) + above * vec4f(1.0, 8.0, 3.0, 0.0)) / 24.0);
-    if MIRRORED == 0u { return entries; }
+    if !MIRRORED { return entries; }
     let own = own_nodes(a, v - vec4i(-1, 0, 1, 2));
     let images = vec2f(f32(low) * f32(v.z == 1), f32(high) * f32(v.y == n.x - 1));
     entries.slope += vec4f(0.0, images.y, -images.x, 0.0) / 6.0;

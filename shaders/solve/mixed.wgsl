@@ -29,7 +29,7 @@ fn split_entries(a: u32, quadratic: bool) -> Split {
 // The same where the vertex at `v` is fixed and nodes differ: what an image beyond a plane of symmetry has goes to its node, of what is across
 // the plane with the other sign.
 fn with_images(entries: Split, a: u32, v: i32) -> Split {
-    if MIRRORED == 0u || a >= DIM { return entries; }
+    if !MIRRORED || a >= DIM { return entries; }
     let own = own_nodes(a, vec4i(v) - vec4i(-1, 0, 1, 2));
     let images = vec2f(f32(mirrors(2u * a) * i32(v == 1)), f32(mirrors(2u * a + 1u) * i32(v == i32(params.cells[a]) - 1)));
     return Split(own * folded(entries.mean_below, images), own * folded(entries.mean_above, images),
@@ -39,7 +39,7 @@ fn with_images(entries: Split, a: u32, v: i32) -> Split {
 // Entries that gas has at a vertex `v`, where what a node beyond a side that joins nodes had goes to the one before it.
 fn gas_entries_of_vertex(a: u32, quadratic: bool, v: i32) -> Split {
     var entries = split_entries(a, quadratic);
-    if JOINED != 0u && !quadratic && a < DIM {
+    if JOINED && !quadratic && a < DIM {
         let low = entries.mean_above.z * f32(joins(2u * a) * i32(v == 0));
         let high = entries.mean_below.y * f32(joins(2u * a + 1u) * i32(v == i32(params.cells[a])));
         entries.mean_above += vec4f(0.0, low, -low, 0.0);
@@ -51,7 +51,7 @@ fn gas_entries_of_vertex(a: u32, quadratic: bool, v: i32) -> Split {
 // The same of the vertices of node `j`; what lies beyond a plane of symmetry is there as images.
 fn entries_of_node(a: u32, quadratic: bool, j: i32) -> Split {
     var entries = split_entries(a, quadratic);
-    if JOINED != 0u && !quadratic && a < DIM {
+    if JOINED && !quadratic && a < DIM {
         let low = entries.mean_above.z * f32(joins(2u * a));
         let high = entries.mean_below.y * f32(joins(2u * a + 1u));
         let n = i32(params.cells[a]);

@@ -177,9 +177,11 @@ impl Openings {
         place.map_or(constants::WALL, |place| constants::GHOST | (place << constants::RULE_SHIFT))
     }
 
-    /// Rules in the table, as bits.
+    /// Rules in the table, as bits: those of prescribed gas and far fields, or all, so that many scenes share their kernels.
     pub fn rules_used(&self) -> u32 {
-        self.table.iter().fold(0, |used, opening| used | 1 << opening.rule)
+        let used = self.table.iter().fold(0, |used, opening| used | 1 << opening.rule);
+        let [fixed, far] = ["FIXED", "FAR"].map(|name| 1 << constants::number(&constants::RULES, name));
+        [0, fixed | far].into_iter().find(|set| used & !set == 0).unwrap_or((1 << constants::RULES.len()) - 1)
     }
 
     /// The table with the length that the device expects.

@@ -102,8 +102,8 @@ structure! {
         afterburn_rate: f32,
         /// Density beyond which the law of its products does not hold \[kg m^-3\].
         densest: f32,
-        /// Fills the space before vectors.
-        unused: u32,
+        /// Sides that are planes of symmetry, as bits, and from bit 8 on open sides whose nodes go with the cells before them.
+        sides: u32,
         /// A and B \[Pa\], R1 and R2 times the density of the explosive \[kg m^-3\].
         products: vec4f,
         /// Groups of each dispatch of a prefix sum over all slots and one more.
@@ -209,6 +209,7 @@ impl Params {
                 .clamp(1, limits.groups),
             march: even_march(grid.strides()[scene.domain.dimension as usize - 1], limits.march),
             wall_sides: wall_sides(scene),
+            sides: mirrored_sides(scene, solids.particles > 0) | joined_sides(scene) << 8,
             surface_rows: surface::rows(grid.slots(), limits.extra_capacity as usize) as u32,
             still: 1,
             row: sum_row(scene, grid, solids.particles > 0),
@@ -285,8 +286,8 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
         ("IMPLICIT", flag(numerics.elasticity == crate::scene::Elasticity::Implicit)),
         ("SHARED_VOLUME", flag(numerics.paper.ghost == Ghost::SharedVolume)),
         ("PERIODIC", f64::from((0..3).map(|axis| u32::from(scene.boundary.periodic(axis)) << axis).sum::<u32>())),
-        ("MIRRORED", f64::from(if solids { 0 } else { whole_walls(scene) })),
-        ("JOINED", f64::from(if numerics.pair == Pair::B1b0 { joined_sides(scene) } else { 0 })),
+        ("MIRRORED", flag(mirrored_sides(scene, solids) != 0)),
+        ("JOINED", flag(joined_sides(scene) != 0)),
         (
             "INTERFACE",
             f64::from(constants::number(
@@ -312,14 +313,18 @@ fn sum_row(scene: &Scene, grid: &Grid, solids: bool) -> u32 {
     grid.slots() as u32 / if across { last } else { 1 }
 }
 
-/// Sides that are walls and nothing else, as bits.
-fn whole_walls(scene: &Scene) -> u32 {
-    let wall = |side: &Boundary| side.rules().iter().all(|rule| **rule == Boundary::Wall);
-    scene.boundary.sides().iter().enumerate().map(|(index, side)| u32::from(wall(side)) << index).sum()
+/// Sides that are walls and nothing else, and so planes of symmetry for gas alone, as bits.
+fn mirrored_sides(scene: &Scene, solids: bool) -> u32 {
+    let wall = |side: &Boundary| !solids && side.rules().iter().all(|rule| **rule == Boundary::Wall);
+    let sides = scene.boundary.sides().into_iter().enumerate().take(2 * scene.domain.axes());
+    sides.map(|(index, side)| u32::from(wall(side)) << index).sum()
 }
 
-/// Sides beyond all of whose faces the gas has the velocity of that before them, as bits.
+/// Sides beyond all of whose faces the gas has the velocity of that before them, as bits; B1B0 only.
 fn joined_sides(scene: &Scene) -> u32 {
+    if scene.numerics.pair == Pair::B2b1 {
+        return 0;
+    }
     let joins = |rule: &&Boundary| {
         matches!(rule, Boundary::Outlet | Boundary::FarField(_) | Boundary::PressureOutlet(_) | Boundary::TotalInlet(_))
     };
