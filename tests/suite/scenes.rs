@@ -184,6 +184,7 @@ scenes! {
     meteor: "demos/meteor_3d.toml" takes "40 s";
     playground: "demos/playground_2d.toml" takes "56 s";
     bursting_shell_3d: "demos/bursting_shell_3d.toml" takes "59 s";
+    bursting_shell_askew: "demos/bursting_shell_3d.toml" [askew] takes "90 s";
     bursting_vessel_3d: "demos/bursting_vessel_3d.toml" [small];
     gelatine_3d: "demos/gelatine_3d.toml", "domain.cells=[12, 12, 12]", "time.until=0.1";
     fireball: "demos/fireball_3d.toml", "domain.cells=[16, 16, 24]", "time.until=0.05";
