@@ -2,6 +2,7 @@
 // neighbours [Zhu and Bridson 2005]. Reads near_start, near_order, near_balls, near_reach, balls.
 
 #include "picture/near_cubes.wgsl"
+#include "picture/shard.wgsl"
 
 // Below the first sum of weights there is nothing, so that gaps between two surfaces stay open; from the second on a surface is whole.
 const LOOSE: f32 = 0.2;
@@ -53,7 +54,7 @@ fn with_list(sum: Around, first: u32, end: u32, point: vec3f, scale: f32, hue: v
             all.nearest = k;
         }
         if hue.x >= 0.0 {
-            let color = balls[2u * near_order[k] + 1u].rgb;
+            let color = balls[2u * particle_of(k) + 1u].rgb;
             if dot(color, hue) >= SAME_HUE * length(color) * length(hue) { all.color += weight * vec4f(color, 1.0); }
         }
     }
@@ -96,10 +97,11 @@ fn look_around(point: vec3f, scale: f32, hue: vec3f) -> Around {
 // Positive outside, about the distance to the surface [m].
 fn above_surface(sum: Around) -> f32 { return length(sum.away) - sum.half * smoothstep(LOOSE, WHOLE, sum.weight); }
 
-// What a ray meets: its distance, negative for nothing, and the nearest particle there.
+// What a ray meets: its distance, negative for nothing, and the nearest particle there; the normal of a shard, zero for a surface.
 struct Meeting {
     depth: f32,
-    particle: u32,
+    nearest: u32,
+    normal: vec3f,
 }
 
 // Follows a ray from a distance on to the first surface.
@@ -116,6 +118,13 @@ fn meet_surface(ray: Ray, from_distance: f32) -> Meeting {
             while s < far && reach_around(ray.start + (s + edge) * ray.direction) == 0.0 { s += edge; }
             continue;
         }
+        if is_lone(sum.nearest) {
+            let face = meet_shard(ray, shard_of(sum.nearest));
+            if face.w > 0.0 { return Meeting(face.w, sum.nearest, face.xyz); }
+            before = vec2f(s, 0.3 * edge);
+            s += 0.4 * edge;
+            continue;
+        }
         let height = above_surface(sum);
         let towards = -dot(sum.away, ray.direction) / max(length(sum.away), 1e-20);
         let facing = max(towards, 0.7);
@@ -126,10 +135,10 @@ fn meet_surface(ray: Ray, from_distance: f32) -> Meeting {
         }
         if height < 0.06 * edge {
             if before.y > 0.0 && height < 0.0 { s = mix(before.x, s, before.y / (before.y - height)); } else { s += height / facing; }
-            return Meeting(s, near_order[sum.nearest]);
+            return Meeting(s, sum.nearest, vec3f(0.0));
         }
         before = vec2f(s, height);
         s += max(0.7 * height / facing, select(0.3, 0.7, towards < -0.2) * edge);
     }
-    return Meeting(-1.0, 0u);
+    return Meeting(-1.0, 0u, vec3f(0.0));
 }

@@ -21,10 +21,15 @@
 struct Seen {
     depth: f32,
     particle: u32,
+    // Whether it is a shard.
+    alone: bool,
     sheet: Sheet,
 }
 
-fn nothing_seen() -> Seen { return Seen(-1.0, 0u, Sheet(vec3f(0.0), vec3f(0.0))); }
+// How much the normals of broken particles are those of shards.
+const ROUGHNESS: f32 = 0.5;
+
+fn nothing_seen() -> Seen { return Seen(-1.0, 0u, false, Sheet(vec3f(0.0), vec3f(0.0))); }
 
 // Depth of the ball in a sample, negative for none.
 fn ball_depth(place: vec2u) -> f32 {
@@ -36,15 +41,22 @@ fn ball_depth(place: vec2u) -> f32 {
 fn see(ray: Ray, ball: f32, known: Seen) -> Seen {
     let met = meet_surface(ray, ball);
     if met.depth < 0.0 { return nothing_seen(); }
-    if known.depth > 0.0 && abs(met.depth - known.depth) < 0.3 * largest_reach() {
-        return Seen(met.depth, met.particle, known.sheet);
+    let p = particle_of(met.nearest);
+    let own = balls[2u * p + 1u].rgb;
+    if is_lone(met.nearest) { return Seen(met.depth, p, true, Sheet(met.normal, own)); }
+    if known.depth > 0.0 && !known.alone && abs(met.depth - known.depth) < 0.3 * largest_reach() {
+        return Seen(met.depth, p, false, known.sheet);
     }
-    let own = balls[2u * met.particle + 1u].rgb;
     let sum = look_around(ray.start + met.depth * ray.direction, SMOOTHER, own);
     let color = select(own, sum.color.rgb / sum.color.w, sum.color.w > 0.0);
     // A surface that is seen at its edge is not seen from behind.
     let away = sum.away - max(dot(sum.away, ray.direction), 0.0) * ray.direction;
-    return Seen(met.depth, met.particle, Sheet(away / max(length(away), 1e-20), color));
+    var normal = away / max(length(away), 1e-20);
+    if is_broken(met.nearest) {
+        let face = face_towards(ray.start + met.depth * ray.direction, shard_of(met.nearest));
+        normal = normalize(normal + ROUGHNESS * face);
+    }
+    return Seen(met.depth, p, false, Sheet(normal, color));
 }
 
 // Distance to the plane that touches a surface.
@@ -72,9 +84,9 @@ fn see_beside(place: vec2u, corner: vec2u, first: Seen, known: Seen) -> Seen {
     if ball < 0.0 { return nothing_seen(); }
     let ray = sample_ray(corner);
     let other = sample_ray(place);
-    if first.depth > 0.0 && -dot(first.sheet.normal, ray.direction) > steepest(first) {
+    if first.depth > 0.0 && !first.alone && -dot(first.sheet.normal, ray.direction) > steepest(first) {
         let depth = beside(first, ray, other);
-        if depth > ball { return Seen(depth, first.particle, first.sheet); }
+        if depth > ball { return Seen(depth, first.particle, false, first.sheet); }
     }
     return see(other, ball, known);
 }

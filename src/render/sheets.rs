@@ -21,6 +21,7 @@ pub(super) struct Sheets {
     scan: Scan,
     place: Bound,
     mark: Bound,
+    mark_lone: Bound,
     gather: Bound,
     trace: Bound,
     /// Normal and colour of each sample.
@@ -71,6 +72,13 @@ impl Sheets {
                 &[("near_marks", start.raw()), of_places],
             )?,
             gather: near("gather_near", &[of_reach, of_start, of_order, of_places])?,
+            mark_lone: bind_numbers(
+                gpu,
+                "picture/lone.wgsl",
+                "mark_lone",
+                &numbers,
+                &[&lists[..], &[("deformation", &own.deformation)]].concat(),
+            )?,
             trace: bind_numbers(
                 gpu,
                 "picture/trace_skin.wgsl",
@@ -103,6 +111,7 @@ impl Sheets {
             pass.dispatch(&self.place, &particles);
             pass.dispatch(&self.gather, &Extent::Threads(self.cubes));
             pass.dispatch(&self.mark, &Extent::Threads(self.cubes));
+            pass.dispatch(&self.mark_lone, &particles);
         }
         let blocks = (view.size[0] * view.samples).div_ceil(2) * (view.rows * view.samples).div_ceil(2);
         pass.dispatch(&self.trace, &Extent::Threads(blocks.into()));

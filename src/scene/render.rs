@@ -264,7 +264,8 @@ pub enum Surface {
     /// Every particle is a ball.
     #[default]
     Spheres,
-    /// Rays meet the smooth surface of what the particles make up (3D), closed also where a body is stretched.
+    /// Rays meet the smooth surface of what the particles make up (3D), closed also where a body is stretched. A particle that touches no
+    /// other one is a shard, and broken ones are rough.
     Smooth,
 }
 

@@ -9,7 +9,7 @@ use wgpu::naga;
 use crate::common::{files_below, is_kind, report, slashed};
 
 /// Shaders of the pictures; all others belong to the step.
-const PICTURES: [&str; 17] = [
+const PICTURES: [&str; 18] = [
     "picture/arrows.wgsl",
     "picture/bend.wgsl",
     "picture/bricks.wgsl",
@@ -19,6 +19,7 @@ const PICTURES: [&str; 17] = [
     "picture/glow.wgsl",
     "picture/layers.wgsl",
     "picture/light.wgsl",
+    "picture/lone.wgsl",
     "picture/near.wgsl",
     "picture/optics.wgsl",
     "picture/points.wgsl",

@@ -158,3 +158,51 @@ fn the_lattice_of_a_ball_is_not_seen() {
     assert!((radius - BALL_RADIUS).abs() < 5.0, "radius {radius}");
     assert!(bends < 1.5, "silhouette bends by {bends} pixels");
 }
+
+/// One particle far from any other; without it; and it as a ball.
+fn lone_particle() -> [Picture; 3] {
+    let gpu = gpu();
+    let text = "render.look = \"film\"\nrender.volume = false\nrender.ground = false\nrender.supersampling = 1\n\
+                materials.jelly.neo_hookean = { young_modulus = 1e3, poisson_ratio = 0.3 }\n\
+                [[bodies]]\nname = \"crumb\"\nmaterial = \"jelly\"\ndensity = 1.0\nparticles_per_cell = 1\n\
+                shape.box = { center = [0.525, 0.525, 0.525], size = [0.05, 0.05, 0.05] }\n";
+    let scene = scene(3, 20, [SIDE; 2], text);
+    let simulation = Simulation::new(&gpu, &scene).unwrap();
+    let mut look = scene.render.clone();
+    let (eye, up) = ([0.525, -3.0, 0.525], [0.0, 0.0, 1.0]);
+    look.camera = Some(Camera { eye, target: [0.525; 3], up, fov_degrees: 40.0, height: Some(0.3) });
+    let mut renderer = Renderer::of(&simulation, &scene).unwrap();
+    let mut draw = |look: &_| renderer.draw(look, Field::Density, 0.0).unwrap();
+    let shard = draw(&look);
+    look.particles = false;
+    let empty = draw(&look);
+    (look.particles, look.surface) = (true, Surface::Spheres);
+    [shard, empty, draw(&look)]
+}
+
+/// Least and largest distance of the silhouette from its middle, along 72 directions.
+fn outline(picture: &Picture, empty: &Picture) -> [f64; 2] {
+    let shown = |x, y| (brightness(pixel(picture, x, y)) - brightness(pixel(empty, x, y))).abs() > 3;
+    let own: Vec<(u32, u32)> =
+        (0..SIDE).flat_map(|x| (0..SIDE).map(move |y| (x, y))).filter(|&(x, y)| shown(x, y)).collect();
+    let mean =
+        |of: fn(&(u32, u32)) -> u32| own.iter().map(|place| f64::from(of(place))).sum::<f64>() / own.len() as f64;
+    let middle = [mean(|place| place.0), mean(|place| place.1)];
+    let mut far = [0.0_f64; 72];
+    for place in own {
+        let offset = [f64::from(place.0) - middle[0], f64::from(place.1) - middle[1]];
+        let turn = (offset[1].atan2(offset[0]) / std::f64::consts::TAU).rem_euclid(1.0);
+        let own = &mut far[(72.0 * turn) as usize % 72];
+        *own = own.max(offset[0].hypot(offset[1]));
+    }
+    [far.iter().copied().fold(f64::MAX, f64::min), far.iter().copied().fold(0.0, f64::max)]
+}
+
+#[test]
+fn a_lone_particle_is_a_shard_and_no_ball() {
+    let [shard, empty, ball] = lone_particle();
+    let [shard, ball] = [shard, ball].map(|picture| outline(&picture, &empty));
+    eprintln!("shard {shard:.1?}, ball {ball:.1?} pixels");
+    assert!(shard[0] > 15.0, "shard {shard:?}");
+    assert!(shard[1] > 1.3 * shard[0] && ball[1] < 1.05 * ball[0], "shard {shard:?}, ball {ball:?}");
+}
