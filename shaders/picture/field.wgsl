@@ -227,31 +227,42 @@ fn nearest_cell(cell: vec3i) -> u32 {
     return inside.x + view.cells.x * (inside.y + view.cells.y * inside.z);
 }
 
+// The fraction of a corner of a cube, negative without gas.
+fn field_fraction(cube: vec3i, corner: u32) -> f32 {
+    let seen = field[nearest_cell(corner_cell(cube, corner))];
+    let fraction = pow(clamp((seen - view.low) / (view.high - view.low), 0.0, 1.0), view.contrast);
+    return select(fraction, -1.0, seen == NO_VALUE);
+}
+
+fn heat_fraction(cube: vec3i, corner: u32) -> f32 {
+    let seen = heat[nearest_cell(corner_cell(cube, corner))];
+    return select(clamp(seen * view.heat_scale - view.heat_offset, 0.0, 1.0), -1.0, seen == NO_VALUE);
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn pack_corners(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, local);
-    if i >= cube_count() { return; }
-    let cube = cube_of(i);
+    let run = run_of(thread_index(workgroup, local));
+    var cube = run.first;
     var fractions = array<f32, 8>();
-    for (var corner = 0u; corner < 8u; corner++) {
-        let seen = field[nearest_cell(corner_cell(cube, corner))];
-        let fraction = pow(clamp((seen - view.low) / (view.high - view.low), 0.0, 1.0), view.contrast);
-        fractions[corner] = select(fraction, -1.0, seen == NO_VALUE);
+    for (var k = 0u; k < 4u; k++) { fractions[k + 4u] = field_fraction(cube, k); }
+    for (; cube.z < run.end; cube.z++) {
+        for (var k = 0u; k < 4u; k++) { fractions[k] = fractions[k + 4u]; }
+        for (var k = 4u; k < 8u; k++) { fractions[k] = field_fraction(cube, k); }
+        corners[cube_index(cube)] = packed_corners(fractions);
     }
-    corners[i] = packed_corners(fractions);
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn pack_glow(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, local);
-    if i >= cube_count() { return; }
-    let cube = cube_of(i);
+    let run = run_of(thread_index(workgroup, local));
+    var cube = run.first;
     var fractions = array<f32, 8>();
-    for (var corner = 0u; corner < 8u; corner++) {
-        let seen = heat[nearest_cell(corner_cell(cube, corner))];
-        fractions[corner] = select(clamp(seen * view.heat_scale - view.heat_offset, 0.0, 1.0), -1.0, seen == NO_VALUE);
+    for (var k = 0u; k < 4u; k++) { fractions[k + 4u] = heat_fraction(cube, k); }
+    for (; cube.z < run.end; cube.z++) {
+        for (var k = 0u; k < 4u; k++) { fractions[k] = fractions[k + 4u]; }
+        for (var k = 4u; k < 8u; k++) { fractions[k] = heat_fraction(cube, k); }
+        glow[glow_place(cube_index(cube))] = packed_corners(fractions);
     }
-    glow[glow_place(i)] = packed_corners(fractions);
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -2,14 +2,15 @@
 // find_reach: reads balls; raises near_reach to the bits of the largest reach.
 // tally_near: reads balls, near_reach; counts near_count. Its scan is near_start.
 // place_near: reads balls, near_reach, near_start; counts near_count down; writes near_order, the particles cube by cube.
-// mark_near: reads near_balls; near_marks is near_start, and behind it the largest reach around each cube, over the largest of all in
+// gather_near: reads balls, near_reach, near_start, near_order; writes, cube by cube in the order of the particles, near_balls: the place, then
+// the reach and half of the distance of neighbours over the largest reach; and near_names: the colour and the particle.
+// mark_near: reads near_balls; near_marks is near_start, and behind it the largest reach in and around each cube, over the largest of all in
 // 65535 parts.
-// gather_near: reads balls, near_reach, near_start; sorts near_order inside each cube; writes near_balls in that order: the place, then the reach
-// and half of the distance of neighbours over the largest reach.
 
 #include "picture/view.wgsl"
 #include "picture/near_cubes.wgsl"
 #include "picture/growth.wgsl"
+#include "picture/sheets.wgsl"
 
 @group(0) @binding(1) var<storage, read> balls: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> near_reach: array<atomic<u32>>;
@@ -18,6 +19,7 @@
 @group(0) @binding(7) var<storage, read_write> near_marks: array<atomic<u32>>;
 @group(0) @binding(5) var<storage, read_write> near_order: array<u32>;
 @group(0) @binding(6) var<storage, read_write> near_balls: array<vec4u>;
+@group(0) @binding(8) var<storage, read_write> near_names: array<vec2u>;
 
 // Reach of a particle over the distance of its neighbours, and how far stretching widens it at most.
 const REACH: f32 = 1.75;
@@ -55,39 +57,30 @@ fn place_near(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
 // The order inside a cube is that of the particles, so that sums are the same in every picture.
 @compute @workgroup_size(WORKGROUP)
 fn gather_near(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
-    let slot = thread_index(workgroup, local);
-    if slot >= cube_count() { return; }
+    let p = thread_index(workgroup, local);
+    if !is_shown(p) { return; }
+    let slot = cube_of(p);
     let first = near_start[slot];
     let end = near_start[slot + 1u];
-    for (var i = first; i < end; i++) {
-        let moving = near_order[i];
-        var j = i;
-        while j > first && near_order[j - 1u] > moving {
-            near_order[j] = near_order[j - 1u];
-            j--;
-        }
-        near_order[j] = moving;
-    }
-    for (var i = first; i < end; i++) {
-        let p = near_order[i];
-        let half = 0.5 * balls[2u * p].w / BALL;
-        let sizes = vec2f(reach_of(p), half) / bitcast<f32>(atomicLoad(&near_reach[0]));
-        near_balls[i] = vec4u(bitcast<vec3u>(balls[2u * p].xyz), pack2x16unorm(sizes));
-    }
+    var place = first;
+    for (var i = first; i < end; i++) { place += u32(near_order[i] < p); }
+    let half = 0.5 * balls[2u * p].w / BALL;
+    let sizes = vec2f(reach_of(p), half) / bitcast<f32>(atomicLoad(&near_reach[0]));
+    near_balls[place] = vec4u(bitcast<vec3u>(balls[2u * p].xyz), pack2x16unorm(sizes));
+    near_names[place] = vec2u(pack_color(balls[2u * p + 1u].rgb), p);
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn mark_near(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let slot = thread_index(workgroup, local);
     if slot >= cube_count() { return; }
-    let first = atomicLoad(&near_marks[slot]);
     let end = atomicLoad(&near_marks[slot + 1u]);
     var widest = 0u;
-    for (var i = first; i < end; i++) { widest = max(widest, near_balls[i].w & 0xffffu); }
+    for (var k = atomicLoad(&near_marks[slot]); k < end; k++) { widest = max(widest, near_balls[k].w & 0xffffu); }
     if widest == 0u { return; }
     let cube = vec3i(vec3u(slot % CUBES_X, slot / CUBES_X % CUBES_Y, slot / (CUBES_X * CUBES_Y)));
-    for (var k = 0; k < 125; k++) {
-        let around = cube + vec3i(k % 5, k / 5 % 5, k / 25) - 2;
+    for (var k = 0; k < 27; k++) {
+        let around = cube + vec3i(k % 3, k / 3 % 3, k / 9) - 1;
         atomicMax(&near_marks[cube_count() + 1u + cube_slot(around)], widest);
     }
 }

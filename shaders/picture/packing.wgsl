@@ -32,6 +32,23 @@ fn cube_count() -> u32 {
     return cubes.x * cubes.y * cubes.z;
 }
 
+// The first cube of a thread, and the end of its run; with no cubes the end is not behind the first.
+struct Run {
+    first: vec3i,
+    end: i32,
+}
+
+fn run_of(i: u32) -> Run {
+    let cubes = view.cells + 1u;
+    let first = vec3u(i % cubes.x, (i / cubes.x) % cubes.y, i / (cubes.x * cubes.y) * RUN);
+    return Run(vec3i(first), i32(min(first.z + RUN, cubes.z)));
+}
+
+fn cube_index(cube: vec3i) -> u32 {
+    let cubes = view.cells + 1u;
+    return u32(cube.x) + cubes.x * (u32(cube.y) + cubes.y * u32(cube.z));
+}
+
 fn corner_cell(cube: vec3i, corner: u32) -> vec3i {
     return cube - 1 + vec3i(vec3u(corner & 1u, (corner >> 1u) & 1u, corner >> 2u));
 }

@@ -34,6 +34,10 @@ const DEPTH_SLACK: u32 = 64u;
 // Whether the scene is in the plane.
 override FLAT: bool = true;
 
+// Samples along the edge of a square that has one depth, the nearest, in its first sample: that of balls which only say where rays to a
+// surface begin.
+override SHARED: u32 = 1u;
+
 // Samples from the middle of a ball that are looked at, at most: a ball in front of the eye would fill the picture.
 const MAX_REACH: f32 = 400.0;
 
@@ -211,7 +215,8 @@ fn depth_of_large(mark: Footprint, place: vec2u) -> f32 { return hit_sphere(samp
 
 // The same of any other one. Its outline is round, and its depth that of a ball seen along its own line of sight.
 fn depth_of_small(mark: Footprint, place: vec2u) -> f32 {
-    let offset = vec2f(place) + 0.5 - mark.middle;
+    let nearest = clamp(mark.middle, vec2f(place), vec2f(place + SHARED));
+    let offset = select(vec2f(place) + 0.5, nearest, SHARED > 1u) - mark.middle;
     if FLAT {
         let share = share_of_square(mark, offset);
         return select(-1.0, mark.distance + mark.radius * share, share < 1.0);
@@ -224,7 +229,8 @@ fn is_large(mark: Footprint) -> bool { return !FLAT && mark.samples > LARGE; }
 
 // Positive floats order like their bits.
 fn raise_depth(place: vec2u, depth: f32) {
-    let i = place.x + sample_grid().x * place.y;
+    let first = place / SHARED * SHARED;
+    let i = first.x + sample_grid().x * first.y;
     let bits = FARTHEST - bitcast<u32>(depth);
     if depth > 0.0 && bits > atomicLoad(&depth_bits[i]) { atomicMax(&depth_bits[i], bits); }
 }
@@ -236,16 +242,18 @@ fn raise_nearest(place: vec2u, depth: f32, p: u32) {
     }
 }
 
-// Number of samples that a particle may cover, looked at row by row; large balls have a loop of their own, because software computes both
-// branches of a condition.
-fn count_of(mark: Footprint, large: bool) -> u32 {
-    let size = vec2u(max(mark.high - mark.low, vec2i(0)));
-    return select(0u, size.x * size.y, is_large(mark) == large);
+// The first sample that a particle may cover, and number of samples `step` apart; looked at row by row. Large balls have a loop of their own,
+// because software computes both branches of a condition.
+fn first_sample(mark: Footprint, step: u32) -> vec2u { return vec2u(mark.low) / step * step; }
+
+fn count_of(mark: Footprint, step: u32, large: bool) -> u32 {
+    let size = (vec2u(max(mark.high, mark.low)) - first_sample(mark, step) + step - 1u) / step;
+    return select(0u, size.x * size.y, is_large(mark) == large && all(mark.high > mark.low));
 }
 
-fn next_sample(mark: Footprint, place: vec2u) -> vec2u {
-    let right = place.x + 1u;
-    return select(vec2u(right, place.y), vec2u(u32(mark.low.x), place.y + 1u), right >= u32(mark.high.x));
+fn next_sample(mark: Footprint, place: vec2u, step: u32) -> vec2u {
+    let right = place.x + step;
+    return select(vec2u(right, place.y), vec2u(first_sample(mark, step).x, place.y + step), right >= u32(mark.high.x));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -253,14 +261,15 @@ fn splat_depth(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     let p = thread_index(workgroup, local);
     if p >= view.particles { return; }
     let mark = footprint(p);
-    var place = vec2u(mark.low);
-    for (var left = count_of(mark, false); left > 0u; left--) {
+    var place = first_sample(mark, SHARED);
+    for (var left = count_of(mark, SHARED, false); left > 0u; left--) {
         raise_depth(place, depth_of_small(mark, place));
-        place = next_sample(mark, place);
+        place = next_sample(mark, place, SHARED);
     }
-    for (var left = count_of(mark, true); left > 0u; left--) {
+    place = vec2u(mark.low);
+    for (var left = count_of(mark, 1u, true); left > 0u; left--) {
         raise_depth(place, depth_of_large(mark, place));
-        place = next_sample(mark, place);
+        place = next_sample(mark, place, 1u);
     }
 }
 
@@ -270,12 +279,12 @@ fn splat_nearest(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocat
     if p >= view.particles { return; }
     let mark = footprint(p);
     var place = vec2u(mark.low);
-    for (var left = count_of(mark, false); left > 0u; left--) {
+    for (var left = count_of(mark, 1u, false); left > 0u; left--) {
         raise_nearest(place, depth_of_small(mark, place), p);
-        place = next_sample(mark, place);
+        place = next_sample(mark, place, 1u);
     }
-    for (var left = count_of(mark, true); left > 0u; left--) {
+    for (var left = count_of(mark, 1u, true); left > 0u; left--) {
         raise_nearest(place, depth_of_large(mark, place), p);
-        place = next_sample(mark, place);
+        place = next_sample(mark, place, 1u);
     }
 }

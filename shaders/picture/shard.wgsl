@@ -1,15 +1,13 @@
 // Shards: what a particle is drawn as that no other one touches. A box of one of three forms, turned, and cut at three corners, by what the
-// particle's number says. Reads near_balls, near_order, near_reach.
+// particle's number says. Reads near_balls, near_names, near_reach.
 
-// In near_order, above the number of the particle: it touches no other one; it is broken.
+// In near_names, above the colour: the particle touches no other one; it is broken.
 const LONE: u32 = 0x80000000u;
 const BROKEN: u32 = 0x40000000u;
 
-fn particle_of(k: u32) -> u32 { return near_order[k] & ~(LONE | BROKEN); }
+fn particle_of(k: u32) -> u32 { return near_names[k].y; }
 
-fn is_lone(k: u32) -> bool { return (near_order[k] & LONE) != 0u; }
-
-fn is_broken(k: u32) -> bool { return (near_order[k] & BROKEN) != 0u; }
+fn is_lone(k: u32) -> bool { return (near_names[k].x & LONE) != 0u; }
 
 struct Shard {
     middle: vec3f,

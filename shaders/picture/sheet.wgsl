@@ -1,5 +1,5 @@
 // The surface of what particles make up: where the distance to the weighted mean of the particles around is half the distance of
-// neighbours [Zhu and Bridson 2005]. Reads near_start, near_order, near_balls, near_reach, balls.
+// neighbours [Zhu and Bridson 2005]. Reads near_start, near_balls, near_names, near_reach.
 
 #include "picture/near_cubes.wgsl"
 #include "picture/shard.wgsl"
@@ -26,37 +26,31 @@ struct Around {
     color: vec4f,
 }
 
+fn nothing_around() -> Around { return Around(0.0, vec3f(0.0), 0.0, 0u, 1e30, vec4f(0.0)); }
+
 fn largest_reach() -> f32 { return bitcast<f32>(near_reach[0]); }
 
-// First cube of a row and how many follow; a row that leaves the grid goes on at its other side.
-fn row_part(row: u32, first: u32, count: u32, k: u32) -> vec2u {
-    let before = min(count, CUBES_X - first);
-    if k == 0u { return vec2u(row + first, row + first + before); }
-    return vec2u(row, row + count - before);
-}
-
-// Adds what one list has. With a hue the colours of particles count, too.
-fn with_list(sum: Around, first: u32, end: u32, point: vec3f, scale: f32, hue: vec3f) -> Around {
+// Adds one particle of the lists. With a hue the colours of particles count, too.
+fn with_particle(sum: Around, k: u32, point: vec3f, widening: f32, hue: vec3f) -> Around {
     var all = sum;
-    for (var k = first; k < end; k++) {
-        let ball = near_balls[k];
-        let sizes = largest_reach() * unpack2x16unorm(ball.w);
-        let offset = point - bitcast<vec3f>(ball.xyz);
-        let square = dot(offset, offset);
-        let share = 1.0 - square / (scale * scale * sizes.x * sizes.x);
-        if share <= 0.0 { continue; }
-        let weight = share * share * share;
-        all.weight += weight;
-        all.away += weight * offset;
-        all.half += weight * sizes.y;
-        if square < all.square {
-            all.square = square;
-            all.nearest = k;
-        }
-        if hue.x >= 0.0 {
-            let color = balls[2u * particle_of(k) + 1u].rgb;
-            if dot(color, hue) >= SAME_HUE * length(color) * length(hue) { all.color += weight * vec4f(color, 1.0); }
-        }
+    let ball = near_balls[k];
+    let sizes = unpack2x16unorm(ball.w);
+    let offset = point - bitcast<vec3f>(ball.xyz);
+    let square = dot(offset, offset);
+    let share = max(1.0 - widening * square / (sizes.x * sizes.x), 0.0);
+    let weight = share * share * share;
+    all.weight += weight;
+    all.away += weight * offset;
+    all.half += weight * sizes.y;
+    if share > 0.0 && square < all.square {
+        all.square = square;
+        all.nearest = k;
+    }
+    if hue.x >= 0.0 {
+        let color = unpack_color(near_names[k].x);
+        let along = dot(color, hue);
+        let limit = SAME_HUE * SAME_HUE * dot(color, color) * dot(hue, hue);
+        all.color += select(0.0, weight, along * along >= limit) * vec4f(color, 1.0);
     }
     return all;
 }
@@ -68,36 +62,43 @@ fn reach_around(point: vec3f) -> f32 {
 }
 
 fn look_around(point: vec3f, scale: f32, hue: vec3f) -> Around {
-    var sum = Around(0.0, vec3f(0.0), 0.0, 0u, 1e30, vec4f(0.0));
-    let reach = scale * reach_around(point);
+    var sum = nothing_around();
+    // In cubes.
+    let reach = scale * reach_around(point) / largest_reach();
     if reach == 0.0 { return sum; }
-    let edge = 0.5 * largest_reach();
-    let low = cube_at_point(point - reach, largest_reach());
-    let high = cube_at_point(point + reach, largest_reach());
-    let place = (point - view.origin) / edge;
-    let first = cube_slot(vec3i(low.x, 0, 0));
-    for (var z = low.z; z <= high.z; z++) {
-        for (var y = low.y; y <= high.y; y++) {
-            // Distance of the row of cubes.
+    let place = (point - view.origin) / largest_reach();
+    let widening = 1.0 / (scale * scale * largest_reach() * largest_reach());
+    let low = vec2i(floor(place.yz - reach));
+    let high = vec2i(floor(place.yz + reach));
+    for (var z = low.y; z <= high.y; z++) {
+        for (var y = low.x; y <= high.x; y++) {
+            // Distance of the row of cubes, and how far along it particles may be near.
             let beyond = vec2f(vec2i(y, z)) - place.yz;
-            let gap = edge * max(max(beyond, -beyond - 1.0), vec2f(0.0));
-            if dot(gap, gap) > reach * reach { continue; }
-            let row = cube_slot(vec3i(0, y, z));
-            for (var k = 0u; k < 2u; k++) {
-                let part = row_part(row, first, u32(high.x - low.x + 1), k);
-                if part.y > part.x { sum = with_list(sum, near_start[part.x], near_start[part.y], point, scale, hue); }
+            let gap = max(max(beyond, -beyond - 1.0), vec2f(0.0));
+            let along = sqrt(max(reach * reach - dot(gap, gap), 0.0));
+            let begin = i32(floor(place.x - along));
+            var left = select(0u, u32(i32(floor(place.x + along)) - begin + 1), along > 0.0);
+            var first = cube_slot(vec3i(begin, y, z));
+            // A row that leaves the grid goes on at its other side.
+            while left > 0u {
+                let count = min(left, CUBES_X - first % CUBES_X);
+                let end = near_start[first + count];
+                for (var k = near_start[first]; k < end; k++) { sum = with_particle(sum, k, point, widening, hue); }
+                left -= count;
+                first -= first % CUBES_X;
             }
         }
     }
     sum.away /= max(sum.weight, 1e-20);
-    sum.half /= max(sum.weight, 1e-20);
+    sum.half *= largest_reach() / max(sum.weight, 1e-20);
     return sum;
 }
 
 // Positive outside, about the distance to the surface [m].
 fn above_surface(sum: Around) -> f32 { return length(sum.away) - sum.half * smoothstep(LOOSE, WHOLE, sum.weight); }
 
-// What a ray meets: its distance, negative for nothing, and the nearest particle there; the normal of a shard, zero for a surface.
+// What a ray meets: its distance, negative for nothing; the place in the lists of the nearest particle there; the normal of a shard, zero for
+// a surface.
 struct Meeting {
     depth: f32,
     nearest: u32,
@@ -118,9 +119,11 @@ fn meet_surface(ray: Ray, from_distance: f32) -> Meeting {
             while s < far && reach_around(ray.start + (s + edge) * ray.direction) == 0.0 { s += edge; }
             continue;
         }
-        if is_lone(sum.nearest) {
-            let face = meet_shard(ray, shard_of(sum.nearest));
-            if face.w > 0.0 { return Meeting(face.w, sum.nearest, face.xyz); }
+        let alone = is_lone(sum.nearest);
+        var face = vec4f(-1.0);
+        for (var turn = 0u; turn < when(alone); turn++) { face = meet_shard(ray, shard_of(sum.nearest)); }
+        if face.w > 0.0 { return Meeting(face.w, sum.nearest, face.xyz); }
+        if alone {
             before = vec2f(s, 0.3 * edge);
             s += 0.4 * edge;
             continue;
@@ -134,7 +137,7 @@ fn meet_surface(ray: Ray, from_distance: f32) -> Meeting {
             continue;
         }
         if height < 0.06 * edge {
-            if before.y > 0.0 && height < 0.0 { s = mix(before.x, s, before.y / (before.y - height)); } else { s += height / facing; }
+            if before.y > height { s += clamp(height * (s - before.x) / (before.y - height), before.x - s, 0.3 * edge); } else { s += height / facing; }
             return Meeting(s, sum.nearest, vec3f(0.0));
         }
         before = vec2f(s, height);

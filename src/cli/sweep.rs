@@ -91,7 +91,7 @@ impl<'a> Sweep<'a> {
         if branch_at.is_none() {
             return Ok(());
         }
-        Changes { set: sets, ..Changes::default() }.of_a_state(None, "--branch-at")?;
+        Changes { set: sets, ..Changes::default() }.of_a_state(None, "--branch-at", "--over")?;
         Simulation::can_change(&scene.taking_over(&self.scene)?, &scene)
     }
 

@@ -4,13 +4,14 @@ use glam::Vec4;
 
 use super::buffers::Sources;
 use super::colormap::TABLE_LENGTH;
-use super::kernels::{BRICK, bind, bind_with};
+use super::kernels::{BRICK, RUN, bind, bind_with};
 use super::quantity;
 use super::transfer::Tables;
 use super::view::View;
 use crate::Result;
 use crate::gpu::{Bound, Buffer, Extent, Gpu, Pass, readback};
 use crate::scene::Field;
+use crate::state::Grid;
 
 /// Workgroups that search a range; each leaves one pair of values.
 pub(super) const RANGE_GROUPS: u32 = 64;
@@ -20,6 +21,8 @@ pub(super) const RANGE_GROUPS: u32 = 64;
 pub(super) struct Gas {
     cell_count: u64,
     cube_count: u64,
+    /// Runs of cubes that a thread packs.
+    run_count: u64,
     pub(super) view: Buffer<View>,
     /// Colours and opacity of the field, of hot gas, of the particles.
     pub(super) colors: Buffer<Vec4>,
@@ -93,6 +96,7 @@ impl Gas {
             )?,
             cell_count: grid.cell_count() as u64,
             cube_count,
+            run_count: cube_count.min(runs(grid)),
             view,
             colors,
             visible,
@@ -137,9 +141,10 @@ impl Gas {
     /// Records what the ray march needs of the field evaluated last, for the range and tables of the view.
     pub(super) fn record_packing(&self, pass: &mut Pass, view: &View) {
         if self.cube_count > 0 {
-            pass.dispatch(&self.pack_corners, &Extent::Threads(self.cube_count));
+            let runs = Extent::Threads(self.run_count);
+            pass.dispatch(&self.pack_corners, &runs);
             if view.heat_opacity > 0.0 {
-                pass.dispatch(&self.pack_glow, &Extent::Threads(self.cube_count));
+                pass.dispatch(&self.pack_glow, &runs);
             }
             if view.soot > 0.0 {
                 pass.dispatch(&self.pack_soot, &Extent::Threads(self.cube_count));
@@ -150,6 +155,12 @@ impl Gas {
             pass.dispatch(&self.mark_bricks, &Extent::Threads(self.bricks.len() as u64));
         }
     }
+}
+
+/// Runs of cubes along the last axis, each packed by a thread.
+fn runs(grid: &Grid) -> u64 {
+    let [across, along, up] = grid.cells.map(|n| u64::from(n) + 1);
+    across * along * up.div_ceil(RUN.into())
 }
 
 /// The kernels that evaluate fields, in the order of [`Gas::evaluate_field`].

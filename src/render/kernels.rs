@@ -13,6 +13,9 @@ const SOOT_DEPTH: f32 = 16.0;
 /// Cubes along each edge of a brick, the unit of empty space that the ray march leaps over.
 pub(super) const BRICK: u32 = 4;
 
+/// Cubes along the last axis that one thread packs, so that it reads half of the corners of each once, not twice.
+pub(super) const RUN: u32 = 8;
+
 /// Marks cells without gas in the field.
 const NO_VALUE: f32 = -3.0e38;
 
@@ -57,6 +60,7 @@ pub fn constants() -> String {
     let _ = writeln!(text, "const GLOW_CELLS: u32 = {GLOW_CELLS}u;\nconst BLOCK_CELLS: u32 = {BLOCK_CELLS}u;");
     let _ =
         writeln!(text, "const BEND_KNOTS: u32 = {BEND_KNOTS}u;\nconst BACKDROP_DAYLIGHT: u32 = {BACKDROP_DAYLIGHT}u;");
+    let _ = writeln!(text, "const RUN: u32 = {RUN}u;");
     let _ = writeln!(text, "const RANGE_GROUPS: u32 = {}u;", super::gas::RANGE_GROUPS);
     let _ = writeln!(text, "const TONE_ACES: u32 = {TONE_ACES}u;\nconst OPTICS_SHADOWGRAPH: u32 = {}u;", OPTICS[1]);
     text

@@ -6,7 +6,7 @@ use super::bend::Bend;
 use super::buffers::Sources;
 use super::frame::{Depth, Drawn};
 use super::gas::{Gas, RANGE_GROUPS};
-use super::kernels::{BACKDROP_DAYLIGHT, SAMPLE_MARGIN, bind, bind_with};
+use super::kernels::{BACKDROP_DAYLIGHT, SAMPLE_MARGIN, bind, bind_numbers, bind_with};
 use super::layers::LayerKernel;
 use super::light::{Distance, Light};
 use super::particles::Particles;
@@ -274,7 +274,8 @@ impl Skin {
         surface: &Buffer<[u32; 4]>,
     ) -> Result<Self> {
         let Shared { gpu, sources, gas, light, .. } = *shared;
-        let flat = [("FLAT", sources.grid.dimension < 3)];
+        let flat = f64::from(u8::from(sources.grid.dimension < 3));
+        let made_for = [("FLAT", flat), ("SHARED", if key.smooth { 2.0 } else { 1.0 })];
         let samples = (view.size[0] * view.samples) as usize * (rows * view.samples + 2 * SAMPLE_MARGIN) as usize;
         let depth: Buffer<u32> = Buffer::new(gpu, "sample depths", samples)?;
         let nearest: Buffer<u32> = Buffer::new(gpu, "sample particles", samples)?;
@@ -289,7 +290,7 @@ impl Skin {
         let of_covered = ("covered", covered.raw());
         let of_splat = [of_view, balls, ("deformation", &own.deformation), ("depth_bits", depth.raw())];
         let splat = |entry: &str, own: &[(&str, &wgpu::Buffer)]| {
-            bind_with(gpu, "picture/points.wgsl", entry, &flat, &[&of_splat, own].concat())
+            bind_numbers(gpu, "picture/points.wgsl", entry, &made_for, &[&of_splat, own].concat())
         };
         let sheets = key.smooth.then(|| Sheets::new(shared, own, &depth, &kept)).transpose()?;
         let shade = light.of_surfaces();
@@ -321,10 +322,10 @@ impl Skin {
         self.covered.write(gpu, 0, &[0]);
         self.groups.write(gpu, 0, &[0, 1, 1]);
         pass.clear(&self.depth);
-        pass.clear(&self.nearest);
+        pass.clear(if self.sheets.is_some() { &self.kept } else { &self.nearest });
         pass.dispatch(&self.splat_depth, &Extent::Threads(self.count));
         if let Some(sheets) = &self.sheets {
-            sheets.record(pass, view);
+            sheets.record(gpu, pass, view);
         } else {
             pass.dispatch(&self.splat_nearest, &Extent::Threads(self.count));
         }

@@ -22,18 +22,19 @@ fn may_change(key: &str) -> bool {
 }
 
 impl Changes {
-    /// Whether a state can go on with them, and with another resolution; `asked` says of what, as in `--branch`.
+    /// Whether a state can go on with them, and with another resolution; `asked` says of what, as in `--branch`, and `option` where the
+    /// changes were written, as in `--set`.
     ///
     /// # Errors
     /// [`Error::Usage`] with the key that a state cannot go on with, and those that it can.
-    pub fn of_a_state(&self, resolution: Option<u32>, asked: &str) -> Result<()> {
+    pub fn of_a_state(&self, resolution: Option<u32>, asked: &str, option: &str) -> Result<()> {
         if !self.variants.is_empty() || resolution.is_some() {
-            let reason = "the state has the cells and bodies of its run; --set changes what may change";
+            let reason = format!("the state has the cells and bodies of its run; {option} changes what may change");
             return Err(Error::Usage(format!("--resolution and --variant with {asked}: {reason}")));
         }
         let key = |set: &String| set.split('=').next().unwrap_or_default().trim().to_owned();
         match self.set.iter().map(key).find(|key| !may_change(key)) {
-            Some(key) => Err(Error::Usage(format!("--set {key} with {asked}: {REFUSED}"))),
+            Some(key) => Err(Error::Usage(format!("{option} {key} with {asked}: {REFUSED}"))),
             None => Ok(()),
         }
     }

@@ -32,7 +32,7 @@ impl Request {
     /// Those of [`Scene::find`]; [`Error::Usage`] where a run cannot go on with what is to change.
     pub fn load(&self) -> Result<Scene> {
         if let Some(run) = self.run() {
-            self.changes.of_a_state(self.resolution, "a run in the window")?;
+            self.changes.of_a_state(self.resolution, "a run in the window", "--set")?;
             return past::of_run(run, &self.changes).map(|recorded| recorded.scene);
         }
         let scene = Scene::find(&self.name, &self.changes)?;

@@ -95,7 +95,7 @@ fn runs_of_a_sweep_may_share_their_start() {
     assert!(said.contains("--branch-at 0.02: a time between 0 and the end, 0.02 s"), "{said}");
     let shared = ["--set", "time.until=0.04", "--branch-at", "0.02"];
     let said = fails(2, &[&base[..], &shared, &["--over", "bodies[0].density=5,6"]].concat());
-    assert!(said.contains("bodies[0].density with --branch-at: a state goes on only"), "{said}");
+    assert!(said.contains("--over bodies[0].density with --branch-at: a state goes on only"), "{said}");
     let said = fails(3, &[&base[..], &shared, &["--over", "gravity=[0.0, -1.0],[0.0]"]].concat());
     assert!(said.contains("gravity"), "{said}");
     assert!(!out.exists(), "a sweep that is refused leaves nothing");

@@ -103,7 +103,7 @@ impl Beginning {
         let (run, time) = text.rsplit_once('@').ok_or_else(wrong)?;
         let time: f64 = time.parse().map_err(|_| wrong())?;
         let scene = &given.scene;
-        scenes::changes(scene, &[]).of_a_state(scene.resolution, "--branch")?;
+        scenes::changes(scene, &[]).of_a_state(scene.resolution, "--branch", "--set")?;
         forms::known(Path::new(run), true)?;
         let path = latest_before(Path::new(run), time)?;
         let mut from = From::read(Path::new(run), &path, &[])?;
