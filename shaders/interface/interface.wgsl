@@ -51,7 +51,7 @@ fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     var v = cell_of(thread % step);
     v[n] = 0;
     if first >= params.stride[n] || !is_vertex(v) { return; }
-    // Weight and weighted ghost pressure: from the layer of cells below, and to the vertex above.
+    // Weight and weighted ghost pressure over the ambient one (a mean of equal numbers is that number): from the layer of cells below, and to the vertex above.
     var from_below = vec2f(0.0);
     // Layers are counted with the ring, from 0.
     for (var k = max(first, 1u) - 1u; k < min(first + params.march, params.stride[n]); k++) {
@@ -69,11 +69,11 @@ fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
                 let away = min(abs((position[p].xyz - params.origin) / params.spacing - place), vec3f(1.0));
                 var w = velocity[p].w;
                 for (var a = 0u; a < n; a++) { w *= 1.0 - away[a]; }
-                let carried = w * vec2f(1.0, affine[3u * p].w);
+                let carried = w * vec2f(1.0, affine[3u * p].w - params.ambient_pressure);
                 sum += (1.0 - away[n]) * carried;
                 from_below += away[n] * carried;
             }
         }
-        if k >= first && is_vertex(v) { ghost[slot_of(v)] = select(0.0, sum.y / sum.x, sum.x > 0.0); }
+        if k >= first && is_vertex(v) { ghost[slot_of(v)] = select(0.0, params.ambient_pressure + sum.y / sum.x, sum.x > 0.0); }
     }
 }

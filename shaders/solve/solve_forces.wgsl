@@ -17,9 +17,9 @@ override BODIES_ONLY: bool = false; // leaves out what gas alone asks for
 fn plane_force(slot: u32, c: vec3i) -> vec3f {
     let ex = wide_entries_of_node(0u, c.x, false);
     let ey = wide_entries_of_node(1u, c.y, false);
-    var highest = x[slot_of(clamp(c, vec3i(0), vec3i(params.cells) * reach()))];
+    var highest = x[vertex_below(c)];
     for (var k = 1u; k < corner_count(); k++) {
-        highest = max(highest, x[slot_of(clamp(c + corner_offset(k), vec3i(0), vec3i(params.cells) * reach()))]);
+        highest = max(highest, x[vertex_below(c + corner_offset(k))]);
     }
     var lines: mat4x4f;
     for (var j = 0u; j < 4u; j++) {
@@ -36,13 +36,11 @@ fn plane_force(slot: u32, c: vec3i) -> vec3f {
 }
 
 // B2B1 where only gas, or only solid, and the sides of the domain are around: a product of one-dimensional stencils, line by line.
-// Of gas only differences, so that a constant pressure moves nothing.
-fn wide_force(slot: u32, c: vec3i, solid: bool) -> vec3f {
+// Only differences from the reference, so that a constant pressure moves nothing.
+fn wide_force(slot: u32, c: vec3i, solid: bool, reference: f32) -> vec3f {
     let ex = wide_entries_of_node(0u, c.x, solid);
     let ey = wide_entries_of_node(1u, c.y, solid);
     let ez = wide_entries_of_node(2u, c.z, solid);
-    var reference = 0.0;
-    if !solid { reference = x[slot_of(clamp(c, vec3i(0), vec3i(params.cells) * reach()))]; }
     var force = vec3f(0.0);
     for (var k = -reach().z; k <= 2 * reach().z; k++) {
         for (var j = -reach().y; j <= 2 * reach().y; j++) {
@@ -55,6 +53,9 @@ fn wide_force(slot: u32, c: vec3i, solid: bool) -> vec3f {
     }
     return force;
 }
+
+// The nearest vertex at or below a node.
+fn vertex_below(c: vec3i) -> u32 { return slot_of(clamp(c, vec3i(0), vec3i(params.cells) * reach())); }
 
 fn value_at(slot: u32, solid: bool) -> f32 {
     if solid { return x[ghost_index(slot)]; }
@@ -73,7 +74,7 @@ fn narrow_layer(at: u32, ex: vec3f, ey: vec3f) -> vec3f {
 // Only gas and the sides of the domain around the node.
 fn regular_force(slot: u32, c: vec3i) -> vec3f {
     if QUADRATIC && DIM == 2u { return plane_force(slot, c); }
-    if QUADRATIC { return wide_force(slot, c, false); }
+    if QUADRATIC { return wide_force(slot, c, false, x[vertex_below(c)]); }
     let ex = narrow_entry(0u, c.x);
     let ey = narrow_entry(1u, c.y);
     let low = narrow_layer(slot, ex, ey);
@@ -179,8 +180,9 @@ struct Forces { gas: vec3f, solid: vec3f }
 
 // Sum over the lines of vertices around a node between gas and body; `count`: block_size(), or 0 elsewhere. The bounds of the loops
 // depend on it so that no driver unrolls them: in software the unrolled form takes twice as long. Lines without cells around them, as
-// beyond the ring, have no weight.
-fn mixed_force(c: vec3i, count: u32) -> Forces {
+// beyond the ring, have no weight. Only differences from the references: the faces of the elements close, but for a body's at walls, where
+// the film presses [solid_predictor.wgsl].
+fn mixed_force(c: vec3i, count: u32, gas_reference: f32, solid_reference: f32) -> Forces {
     var forces: Forces;
     let kinds = kinds_of_block(c, count);
     let last = select(vec3i(-2), 2 * reach(), count > 0u);
@@ -193,9 +195,12 @@ fn mixed_force(c: vec3i, count: u32) -> Forces {
             let line = vec3i(-1, y, z);
             let unknowns = unknowns_at(c + line);
             for (var turn = 0u; turn < when(by_gas); turn++) {
-                forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), c, line, unknowns.gas, unknowns.h, false);
+                forces.gas += line_force(gas, solid, rows_of_block(kinds.closed, y, z), c, line, unknowns.gas - gas_reference,
+                    unknowns.h - gas_reference, false);
             }
-            if SOLIDS { forces.solid += line_force(solid, gas, vec4u(0u), c, line, unknowns.solid, unknowns.h, true); }
+            if SOLIDS {
+                forces.solid += line_force(solid, gas, vec4u(0u), c, line, unknowns.solid - solid_reference, unknowns.h - solid_reference, true);
+            }
         }
     }
     return forces;
@@ -221,11 +226,14 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
         return;
     }
     let deep = SOLIDS && has(word, NODE_DEEP);
-    var forces = mixed_force(c, select(0u, block_size(), is_mixed(word)));
+    let below = vertex_below(c);
+    var solid_reference = 0.0;
+    if SOLIDS { solid_reference = select(x[ghost_index(below)], 0.0, has(word, NODE_FILM)); }
+    var forces = mixed_force(c, select(0u, block_size(), is_mixed(word)), x[below], solid_reference);
     for (var turn = 0u; turn < when(regular); turn++) { forces.gas = regular_force(slot, c); }
     if !BODIES_ONLY { work[part(GAS_NODE, slot)] = vec4f(forces.gas * face_area() * inverse_mass, inverse_mass); }
     if !SOLIDS || !has(word, NODE_SOLID) { return; }
-    for (var turn = 0u; turn < when(deep); turn++) { forces.solid = wide_force(slot, c, true); }
+    for (var turn = 0u; turn < when(deep); turn++) { forces.solid = wide_force(slot, c, true, solid_reference); }
     let inverse = select(1.0 / inertia[slot], 0.0, DRIVEN && has(word, NODE_DRIVEN));
     work[part(SOLID_NODE, slot)] = vec4f(forces.solid * face_area() * inverse, inverse);
 }

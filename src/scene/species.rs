@@ -135,6 +135,15 @@ impl EquationOfState {
         self.products().map_or(0.0, term)
     }
 
+    /// Pressure of a state \[Pa\] as the device has it from the internal energy of a cell of the first gas alone, to the bit. Bodies and open
+    /// sides start with it: gas that is even then stays at rest.
+    #[must_use]
+    pub fn pressure_in_single(&self, state: &GasState) -> f32 {
+        let energy = (state.pressure / (self.gamma - 1.0)) as f32;
+        let alone = self.species.is_none() && energy.is_finite();
+        if alone { (self.gamma as f32 - 1.0) * energy } else { state.pressure as f32 }
+    }
+
     /// Speed of sound \[m s^-1\].
     #[must_use]
     pub fn sound_speed(&self, state: Conserved, held: f64) -> f64 {

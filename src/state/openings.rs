@@ -193,13 +193,13 @@ impl Openings {
 }
 
 fn of_state(scene: &Scene, name: &str, state: &GasState) -> Opening {
-    let [density, x, y, z, energy, species_density, species_volume] =
-        scene.gas.equation_of_state().conserved(state).map(|v| v as f32);
+    let gases = scene.gas.equation_of_state();
+    let [density, x, y, z, energy, species_density, species_volume] = gases.conserved(state).map(|v| v as f32);
     let flow = [density, x, y, z];
     Opening {
         flow,
         energy,
-        pressure: state.pressure as f32,
+        pressure: gases.pressure_in_single(state),
         species_density,
         species_volume,
         rule: constants::number(&constants::RULES, name),

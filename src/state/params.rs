@@ -188,7 +188,7 @@ impl Params {
             gravity: scene.gravity.map(|g| g as f32),
             gamma: scene.gas.gamma as f32,
             ambient_density: scene.gas.ambient.density as f32,
-            ambient_pressure: scene.gas.ambient.pressure as f32,
+            ambient_pressure: scene.gas.equation_of_state().pressure_in_single(&scene.gas.ambient),
             cfl: time.cfl as f32,
             max_courant: scene.time.max_courant as f32,
             max_growth: time.max_growth as f32,

@@ -73,7 +73,7 @@ impl ParticleStart {
             start.velocity.push([u, v, w, seed.volume as f32]);
             let broken = if seed.broken { 1.0 } else { 0.0 };
             let word = if seed.driven { 2.0 } else { 1.0 };
-            let ghost = scene.gas.ambient.pressure as f32;
+            let ghost = scene.gas.equation_of_state().pressure_in_single(&scene.gas.ambient);
             let [x, y, z] = seed.spin.map(|rate| rate as f32);
             start.affine.extend([
                 [0.0, z, -y, ghost],
