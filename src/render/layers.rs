@@ -116,13 +116,12 @@ impl LayerKernel {
         Ok(Self { finish, layers })
     }
 
-    /// Pixels of the band drawn last.
-    pub(super) fn read(&self, shared: &Shared, count: usize) -> Result<Vec<LayerPixel>> {
+    /// Appends the pixels of the band drawn last.
+    pub(super) fn read(&self, shared: &Shared, count: usize, all: &mut Vec<LayerPixel>) -> Result<()> {
         let mut pass = Pass::new(shared.gpu, "layers");
         pass.dispatch(&self.finish, &Extent::Threads(count as u64));
         pass.submit()?;
-        let raw = readback::read_range(shared.gpu, &self.layers, 0, count)?;
-        Ok(raw.into_iter().map(pixel).collect())
+        readback::read_into(shared.gpu, &self.layers, count, pixel, all)
     }
 }
 

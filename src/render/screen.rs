@@ -212,6 +212,7 @@ impl Screen {
         }
         self.bend.follow(shared, view)?;
         let n = view.supersampling;
+        let all = (view.size[0] / n * (view.size[1] / n)) as usize;
         let mut drawn = Drawn::default();
         for first_row in (0..view.size[1]).step_by(self.band_rows as usize) {
             wanted.go_on()?;
@@ -227,7 +228,8 @@ impl Screen {
                 drawn.toned.extend(deep.read(gpu, count as usize)?);
             }
             if let Some(layers) = &self.layers {
-                drawn.layers.extend(layers.read(shared, count as usize)?);
+                drawn.layers.reserve_exact(all - drawn.layers.len());
+                layers.read(shared, count as usize, &mut drawn.layers)?;
             }
         }
         Ok(drawn)
