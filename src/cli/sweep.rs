@@ -60,6 +60,14 @@ pub(super) fn sweep(options: &SweepOptions, cli: &Cli) -> Result<()> {
     if failed.is_empty() { Ok(()) } else { Err(Error::Expectation(format!("runs failed: {}", failed.join(", ")))) }
 }
 
+/// An error in the scene of a run with the option that its changes were written in: those of `--set` are read before.
+fn of_over(error: Error) -> Error {
+    match error {
+        Error::Scene(text) => Error::Scene(text.replace("--> --set:", "--> --over:")),
+        other => other,
+    }
+}
+
 impl<'a> Sweep<'a> {
     fn of(options: &'a SweepOptions) -> Result<Self> {
         let axes: Vec<Axis> = options.over.iter().map(|text| axis(text)).collect::<Result<_>>()?;
@@ -87,7 +95,7 @@ impl<'a> Sweep<'a> {
         let until = until.map(|until| format!("time.until={until:?}"));
         let frames = frames.map(|frames| format!("time.frames={frames}"));
         let all: Vec<String> = until.into_iter().chain(frames).chain(sets.iter().cloned()).collect();
-        let scene = scenes::load(base, &all)?;
+        let scene = scenes::load(base, &all).map_err(of_over)?;
         if branch_at.is_none() {
             return Ok(());
         }

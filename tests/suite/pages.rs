@@ -97,7 +97,7 @@ fn runs_of_a_sweep_may_share_their_start() {
     let said = fails(2, &[&base[..], &shared, &["--over", "bodies[0].density=5,6"]].concat());
     assert!(said.contains("--over bodies[0].density with --branch-at: a state goes on only"), "{said}");
     let said = fails(3, &[&base[..], &shared, &["--over", "gravity=[0.0, -1.0],[0.0]"]].concat());
-    assert!(said.contains("gravity"), "{said}");
+    assert!(said.contains("gravity") && said.contains("--> --over:1:"), "{said}");
     assert!(!out.exists(), "a sweep that is refused leaves nothing");
     let done = run(&[&base[..], &shared, &["--over", "gravity=[0.0, -1.0],[0.0, -2.0]"]].concat());
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
