@@ -16,7 +16,7 @@ use super::{film, open_device};
 use crate::export::{self, forms, report, states};
 use crate::gpu::Gpu;
 use crate::render::{Loaded, Renderer, Stored};
-use crate::scene::{MOST_PARTICLES, Overlays, Scene, Shot};
+use crate::scene::{Field, MOST_PARTICLES, Overlays, Scene, Shot};
 use crate::spelling::did_you_mean;
 use crate::state::Grid;
 use crate::{Error, Result, input};
@@ -81,7 +81,8 @@ fn perform(options: &RenderOptions, (files, labelled): (Files, bool), cli: &Cli)
     let folder = files.folder.clone();
     let gpu = open_device(cli)?;
     let grid = Grid::of(&scene.domain);
-    let reading = Reading { hash, grid, most: states::most_bytes(grid.slots() as u64, particles) };
+    let owed = shots.iter().flat_map(|shot| &shot.fields).any(|field| *field == Field::Owed);
+    let reading = Reading { hash, grid, most: states::most_bytes(grid.slots() as u64, particles), owed };
     let mut drawing = Drawing { gpu, scene, grid, shots, depth: files.needs()?.depth, at_work: None };
     let writer = Writer::start(files, &drawing.scene);
     let drawn = drawing.all(&reading, &frames, &writer);
@@ -244,13 +245,15 @@ struct Reading {
     hash: String,
     grid: Grid,
     most: u64,
+    /// Whether a picture shows what gas is owed; if none does it is left out, for it takes as many bytes as the flow.
+    owed: bool,
 }
 
 impl Reading {
     fn read(&self, path: &Path) -> Result<Stored> {
         let (hash, stored) = states::read(path, self.most, true)?;
         belongs(path, (&hash, &self.hash), &stored, Some(&self.grid))?;
-        Ok(stored)
+        Ok(if self.owed { stored } else { Stored { owed: Vec::new(), ..stored } })
     }
 }
 

@@ -64,7 +64,11 @@ pub(super) fn show(ui: &mut Ui, view: &mut View) {
         ui.end_row();
         if view.dimension() > 1 {
             ui.label("colours");
-            choice(ui, "colours", &mut view.look.settings.colormap, &COLORMAPS);
+            if view.dimension() == 2 && view.look.field == Field::Schlieren {
+                ui.label("dark where density changes").on_hover_text("gradients in a plane have greys of their own");
+            } else {
+                choice(ui, "colours", &mut view.look.settings.colormap, &COLORMAPS);
+            }
             ui.end_row();
         }
         range(ui, view);
