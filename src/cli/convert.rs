@@ -11,6 +11,7 @@ use super::progress::clock;
 use super::render::{Recorded, belongs, read_report};
 use crate::export::{self, Moment, Needs, Origin, checkpoint, states};
 use crate::scene::{Fire, MOST_PARTICLES, Scene};
+use crate::spelling::did_you_mean;
 use crate::state::{Grid, MemoryPlan};
 use crate::{Error, Result};
 
@@ -21,6 +22,7 @@ use crate::{Error, Result};
 pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
     interrupt::listen();
     let start = Instant::now();
+    known(&options.to)?;
     let (drawn, to): (Vec<String>, Vec<String>) = options.to.iter().cloned().partition(|name| name == "exr");
     if !drawn.is_empty() {
         // what is wrong with the others is told before anything is drawn
@@ -72,6 +74,20 @@ pub(super) fn convert(options: &ConvertOptions, cli: &Cli) -> Result<()> {
         say!("{} frames in {} in {}", frames.len(), folder.display(), clock(start.elapsed()));
     }
     Ok(())
+}
+
+/// Formats that a run is not converted to: pictures with letters, and the states themselves.
+const OTHERS: [&str; 3] = ["png", "png16", "fields"];
+
+/// Refuses names that no format has.
+fn known(names: &[String]) -> Result<()> {
+    let all = || export::FORMATS.iter().map(|format| format.name);
+    let unknown = names.iter().find(|name| !all().any(|own| own == export::keyword(name)));
+    unknown.map_or(Ok(()), |name| {
+        let offered: Vec<&str> = all().filter(|own| !OTHERS.contains(own)).collect();
+        let like = did_you_mean(name, offered.iter().copied());
+        Err(Error::Usage(format!("no export format `{name}`; a run is converted to {}{like}", offered.join(", "))))
+    })
 }
 
 /// The states to convert, with the numbers of their frames; where a run has none, its checkpoints.
