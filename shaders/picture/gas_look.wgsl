@@ -77,6 +77,15 @@ const SHINING: u32 = 2u;
 const SMOKY: u32 = 4u;
 const ANYTHING: u32 = 7u;
 
+// Cells before an open side over which gas fades: what reaches farther is cut off there.
+const FADING: f32 = 3.0;
+
+// What is seen of gas at a place.
+fn fading(place: vec3f) -> f32 {
+    let inside = min(place + view.far_from_low.xyz, vec3f(view.cells) - place + view.far_from_high.xyz);
+    return clamp(min(inside.x, min(inside.y, inside.z)) / FADING, 0.0, 1.0);
+}
+
 // The gas at a place, of a brick that holds `what`. Colours are read where they count alone: in software a read costs as much as dozens of
 // products.
 fn optics_in(place: vec3f, what: u32) -> Optics {
@@ -94,6 +103,9 @@ fn optics_in(place: vec3f, what: u32) -> Optics {
     }
     if has_soot() { gas = with_soot(gas, cube); }
     if has_dust() { gas = with_dust(gas, cube); }
+    let seen = fading(place);
+    gas.extinction *= seen;
+    gas.shining *= seen;
     return gas;
 }
 

@@ -38,8 +38,8 @@ override FLAT: bool = true;
 // surface begin.
 override SHARED: u32 = 1u;
 
-// Samples from the middle of a ball that are looked at, at most: a ball in front of the eye would fill the picture.
-const MAX_REACH: f32 = 400.0;
+// Samples from the middle of a ball that are looked at, at most.
+const MAX_REACH: f32 = 2000.0;
 
 // Norm of the deviatoric part of the Cauchy stress [Pa].
 fn deviatoric_stress(p: u32) -> f32 {

@@ -130,7 +130,7 @@ fn meet_surface(ray: Ray, from_distance: f32) -> Meeting {
         }
         let height = above_surface(sum);
         let towards = -dot(sum.away, ray.direction) / max(length(sum.away), 1e-20);
-        let facing = max(towards, 0.7);
+        let facing = max(towards, 0.4);
         if height < -0.06 * edge && before.y < 0.0 {
             // Too far: from in front again.
             s -= 0.6 * edge;
@@ -141,7 +141,7 @@ fn meet_surface(ray: Ray, from_distance: f32) -> Meeting {
             return Meeting(s, sum.nearest, vec3f(0.0));
         }
         before = vec2f(s, height);
-        s += max(0.7 * height / facing, select(0.3, 0.7, towards < -0.2) * edge);
+        s += max(0.9 * height / facing, select(0.5, 1.0, towards < -0.2) * edge);
     }
     return Meeting(-1.0, 0u, vec3f(0.0));
 }

@@ -1,4 +1,5 @@
 // Where rays meet the surface of what particles make up; samples in blocks of two by two.
+// trace_coarse: as trace_first, of every other block along both axes.
 // trace_first: reads what near.wgsl writes. depth_bits of the first sample of each block goes from the depth of the balls in the block to that
 // of the surface, those of the others to that of the balls. Writes kept, the nearest particle there; its colour into sheets; and listed, the
 // workgroups of a dispatch and samples to shade.
@@ -94,16 +95,58 @@ fn write_sample(place: vec2u, seen: Seen) {
     sheets[i] = seen.sheet;
 }
 
+// Samples across the largest reach from which on what lies between blocks that show nothing shows nothing: bodies are wider.
+const WIDE_REACH: f32 = 18.0;
+
+fn sample_width(depth: f32) -> f32 {
+    return 2.0 * view.half_height / f32(view.size.y * view.samples) * select(depth, 1.0, view.parallel == 1u);
+}
+
+// Distance between the first samples of coarse blocks.
+const COARSE: u32 = 4u;
+
+// The coarse blocks beside a block along an axis: itself, or the ones before and behind it.
+fn beside_along(place: u32) -> vec2u { return vec2u(place, place + COARSE - 1u) / COARSE * COARSE; }
+
+// Whether a coarse block around a block shows something, or is not known.
+fn is_near_shown(place: vec2u) -> bool {
+    let columns = beside_along(place.x);
+    let rows = beside_along(place.y - SAMPLE_MARGIN) + SAMPLE_MARGIN;
+    var shown = false;
+    for (var k = 0u; k < 4u; k++) {
+        let coarse = vec2u(columns[k & 1u], rows[k >> 1u]);
+        if !is_in_band(coarse) || depth_at(coarse) > 0.0 { shown = true; }
+    }
+    return shown;
+}
+
+fn is_coarse(place: vec2u) -> bool { return all((place - vec2u(0u, SAMPLE_MARGIN)) % COARSE == vec2u(0u)); }
+
+@compute @workgroup_size(WORKGROUP)
+fn trace_coarse(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, local);
+    let across = (sample_grid().x + COARSE - 1u) / COARSE;
+    let place = COARSE * vec2u(i % across, i / across) + vec2u(0u, SAMPLE_MARGIN);
+    if is_in_band(place) { trace_block(place, true); }
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn trace_first(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let place = first_of(thread_index(workgroup, local));
-    if !is_in_band(place) { return; }
+    if !is_in_band(place) || is_coarse(place) { return; }
+    let is_wide = largest_reach() > WIDE_REACH * sample_width(depth_at(place));
+    trace_block(place, !is_wide || is_near_shown(place));
+}
+
+fn trace_block(place: vec2u, wanted: bool) {
     let ball = depth_at(place);
-    for (var turn = 0u; turn < when(ball > 0.0); turn++) {
-        for (var k = 1u; k < 4u; k++) {
-            let other = other_of(place, k);
-            if is_in_band(other) { depth_bits[index_of(other)] = depth_bits[index_of(place)]; }
-        }
+    if ball <= 0.0 { return; }
+    for (var k = 1u; k < 4u; k++) {
+        let other = other_of(place, k);
+        if is_in_band(other) { depth_bits[index_of(other)] = depth_bits[index_of(place)]; }
+    }
+    if !wanted { write_sample(place, NOTHING_SEEN); }
+    for (var turn = 0u; turn < when(wanted); turn++) {
         let seen = see(sample_ray(place), ball);
         write_sample(place, seen);
         if seen.depth > 0.0 && !is_shard(seen) { list_sample(place, 0u); }
@@ -145,8 +188,7 @@ fn beside(depth: f32, normal: vec3f, ray: Ray, other: Ray) -> f32 {
 
 // Cosine between ray and surface above which the samples beside it show the same surface: it may end within them below.
 fn steepest(depth: f32) -> f32 {
-    let width = 2.0 * view.half_height / f32(view.size.y * view.samples) * select(depth, 1.0, view.parallel == 1u);
-    return sqrt(clamp(4.0 * width / largest_reach(), 0.06, 0.9));
+    return sqrt(clamp(4.0 * sample_width(depth) / largest_reach(), 0.06, 0.9));
 }
 
 // Share of the largest reach by which samples of one surface differ in depth at most.
@@ -201,5 +243,11 @@ fn trace_beside(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocati
     let corner = first_of(thread_index(workgroup, local));
     if !is_in_band(corner) { return; }
     let balls = vec3f(ball_at(other_of(corner, 1u)), ball_at(other_of(corner, 2u)), ball_at(other_of(corner, 3u)));
-    for (var turn = 0u; turn < when(any(balls > vec3f(0.0))); turn++) { trace_others(corner); }
+    let around = vec4f(depth_at(corner), ball_at(corner + vec2u(2u, 0u)), ball_at(corner + vec2u(0u, 2u)), ball_at(corner + vec2u(2u, 2u)));
+    let met = any(around > vec4f(0.0));
+    let close = any(balls > vec3f(0.0));
+    for (var turn = 0u; turn < when(close && met); turn++) { trace_others(corner); }
+    for (var k = 1u; k <= 3u * when(close && !met); k++) {
+        if is_in_band(other_of(corner, k)) { write_sample(other_of(corner, k), NOTHING_SEEN); }
+    }
 }

@@ -69,6 +69,8 @@ struct View {
     fuel: f32,                  // What its products give where they burn on in the first gas, over that energy [1]
     dust: f32,                  // Extinction of dust in the ray march [m^2 kg^-1]; 0 without any
     dust_color: vec4f,          // Share of the light that dust scatters, by colour
+    far_from_low: vec4f,        // Added to the distance in cells from the low sides before what is seen of gas fades: 0 for open sides, far for others
+    far_from_high: vec4f,       // The same of the high sides
     background: array<vec4f, 2>, // Light behind everything in 3D, at the top and the bottom of the picture
     slices: array<vec4f, 4>,    // Slices: the points x with dot(xyz, x) = w
     contours: array<vec4f, 8>,  // Values of the contour lines, as fractions of the range

@@ -154,8 +154,16 @@ impl Renderer {
     /// # Errors
     /// [`crate::Error::DoesNotFit`] if the picture is too large for the device, and whatever the device reports.
     pub fn draw(&mut self, look: &RenderSettings, field: Field, time: f64) -> Result<Picture> {
+        self.draw_in_haste(look, field, time, 1.0)
+    }
+
+    /// The same with a share of the rays along each axis of the plot; what is around it and written stays as sharp. In 1D all are drawn.
+    ///
+    /// # Errors
+    /// As [`Renderer::draw`].
+    pub fn draw_in_haste(&mut self, look: &RenderSettings, field: Field, time: f64, share: f64) -> Result<Picture> {
         let layout = self.layout(look);
-        let mut view = self.view(look, &layout, time);
+        let mut view = self.view(look, layout.pixels(share), time);
         let Some(drawing) = &self.drawing else { return self.draw_lines(look, time) };
         let shown = self.shown_field(look, field);
         view.field = quantity::code(shown);
@@ -183,6 +191,7 @@ impl Renderer {
             scale: self.scale(look, &layout, time),
             camera: layers::camera(&self.eye(look, time), layout.plot.width as f32 / layout.plot.height as f32),
         };
+        let drawn = drawn.on(layout.pixels(1.0).map(|side| side as usize));
         let picture = plane::compose(look, &layout, &drawn, &labels, self.sources.grid.dimension < 3);
         let [name, shown] = [field, shown].map(|field| field.keyword().to_owned());
         Ok(Picture { name, shown, range, ..picture })
@@ -212,7 +221,7 @@ impl Renderer {
     pub fn automatic_range(&self, look: &RenderSettings, field: Field) -> Result<[f64; 2]> {
         let shown = self.shown_field(look, field);
         let Some(drawing) = &self.drawing else { return Ok(self.read_line(look, 0.0)?.range(0)) };
-        let view = View { field: quantity::code(shown), ..self.view(look, &self.layout(look), 0.0) };
+        let view = View { field: quantity::code(shown), ..self.view(look, self.layout(look).pixels(1.0), 0.0) };
         Ok(self.range_to_show(shown, drawing.evaluate(&self.gpu, &view)?[0]))
     }
 
@@ -235,8 +244,7 @@ impl Renderer {
     }
 
     /// Everything about a picture but what depends on the field.
-    fn view(&self, look: &RenderSettings, layout: &Layout, time: f64) -> View {
-        let size = [layout.plot.width as u32, layout.plot.height as u32];
+    fn view(&self, look: &RenderSettings, size: [u32; 2], time: f64) -> View {
         let grid = &self.sources.grid;
         let mut view = View::new(&self.scene, grid, &self.eye(look, time), look, size);
         view.species_start = self.sources.species.as_ref().map_or(0, |(_, start, _)| *start);

@@ -67,6 +67,13 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// Pixels of the plot, or a share of them along each axis.
+    pub(crate) fn pixels(&self, share: f64) -> [u32; 2] {
+        [self.plot.width, self.plot.height].map(|side| (f64::from(side) * share).round().max(1.0) as u32)
+    }
+}
+
 /// Shares a column among the colour bars in it, with room for a caption between two.
 fn split(column: Rectangle, shown: [bool; 2], line: i32) -> [Option<Rectangle>; 2] {
     if shown != [true, true] {
@@ -173,10 +180,18 @@ pub(crate) fn color_bar(
         canvas.fill(Rectangle { x: bar.right(), y, width: advance / 2, height: unit }, faint, 1.0);
         canvas.text(bar.right() + advance, y, Anchor::Left, &label, ink);
     }
-    let width = canvas.lettering.width(caption);
-    let (x, y) = (bar.x.min(canvas.frame.width as i32 - advance - width), bar.y - 5 * line / 4);
-    // A long caption reaches over the picture, which may be bright.
-    let behind = Rectangle { x: x - unit, y: y - line / 2, width: width + 2 * unit, height: line };
-    canvas.fill(behind, ground, 0.6);
-    canvas.text(x, y, Anchor::Left, caption, ink);
+    let end = canvas.frame.width as i32 - advance;
+    let is_wide = bar.x + canvas.lettering.width(caption) > end && bar.y > 5 * line;
+    // What is too wide has its unit in a line of its own, where there is room above the bar.
+    let [name, of_unit] = caption.split_once(" [").filter(|_| is_wide).map_or([caption, ""], |(a, b)| [a, b]);
+    let unit_line = format!("[{of_unit}");
+    let lines = if of_unit.is_empty() { vec![name] } else { vec![unit_line.as_str(), name] };
+    for (text, above) in lines.into_iter().zip([5, 9]) {
+        let width = canvas.lettering.width(text);
+        let (x, y) = (bar.x.min(end - width), bar.y - above * line / 4);
+        // It may still reach over the picture, which may be bright.
+        let behind = Rectangle { x: x - unit, y: y - line / 2, width: width + 2 * unit, height: line };
+        canvas.fill(behind, ground, 0.6);
+        canvas.text(x, y, Anchor::Left, text, ink);
+    }
 }

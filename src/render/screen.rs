@@ -213,7 +213,8 @@ impl Screen {
         self.bend.follow(shared, view)?;
         let n = view.supersampling;
         let all = (view.size[0] / n * (view.size[1] / n)) as usize;
-        let mut drawn = Drawn::default();
+        let size = [0, 1].map(|axis| (view.size[axis] / n) as usize);
+        let mut drawn = Drawn { size, ..Drawn::default() };
         for first_row in (0..view.size[1]).step_by(self.band_rows as usize) {
             wanted.go_on()?;
             view.first_row = first_row;

@@ -12,6 +12,7 @@ use crate::numerics::Scan;
 #[derive(Debug)]
 pub(super) struct Sheets {
     near: Near,
+    trace_coarse: Bound,
     trace_first: Bound,
     trace_beside: Bound,
     /// Samples that each of them lists, and the kernel that finds their sheets.
@@ -132,6 +133,7 @@ impl Sheets {
         let lists = [list(1)?, list(3)?];
         let trace = |entry: &str, list: &Buffer<u32>| kernel(entry, &[("kept", kept.raw()), ("listed", list.raw())]);
         Ok(Self {
+            trace_coarse: trace("trace_coarse", &lists[0].0)?,
             trace_first: trace("trace_first", &lists[0].0)?,
             trace_beside: trace("trace_beside", &lists[1].0)?,
             lists,
@@ -150,13 +152,17 @@ impl Sheets {
         if view.first_row == 0 {
             self.near.record(pass);
         }
-        let across = u64::from(view.size[0] * view.samples).div_ceil(2);
-        let blocks = Extent::Threads(across * u64::from(view.rows * view.samples).div_ceil(2));
-        for (trace, (list, look)) in [&self.trace_first, &self.trace_beside].into_iter().zip(&self.lists) {
+        let [across, rows] = [view.size[0], view.rows].map(|rays| u64::from(rays * view.samples));
+        let blocks = |apart: u64| Extent::Threads(across.div_ceil(apart) * rows.div_ceil(apart));
+        let [first, beside] = &self.lists;
+        for (list, _) in &self.lists {
             list.write(gpu, 0, &EMPTY_LIST);
-            pass.dispatch(trace, &blocks);
-            pass.dispatch(look, &Extent::Indirect(list, 0));
         }
+        pass.dispatch(&self.trace_coarse, &blocks(4));
+        pass.dispatch(&self.trace_first, &blocks(2));
+        pass.dispatch(&first.1, &Extent::Indirect(&first.0, 0));
+        pass.dispatch(&self.trace_beside, &blocks(2));
+        pass.dispatch(&beside.1, &Extent::Indirect(&beside.0, 0));
     }
 }
 

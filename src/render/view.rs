@@ -24,6 +24,9 @@ const DARK_STRAIN: f32 = 0.5;
 /// Width of the line around bodies in the plane, in pixels.
 const OUTLINE: f32 = 1.2;
 
+/// More cells than a domain has.
+const FAR: f32 = 1e6;
+
 /// Length of a step of the ray march over the edge of a cell.
 const MARCH_STEP: f32 = 0.7;
 
@@ -167,6 +170,10 @@ structure! {
         unused: [f32; 2],
         /// Share of the light that dust scatters, by colour.
         dust_color: vec4f,
+        /// Added to the distance in cells from the low sides before what is seen of gas fades: 0 for open sides, far for others.
+        far_from_low: vec4f,
+        /// The same of the high sides.
+        far_from_high: vec4f,
         /// Light behind everything in 3D, at the top and the bottom of the picture.
         background: [vec4f; 2],
         /// Slices: the points x with dot(xyz, x) = w.
@@ -220,6 +227,7 @@ impl View {
             ..Self::zeroed()
         };
         view.set_light(grid, look);
+        view.set_sides(scene);
         for (plane, slice) in view.slices.iter_mut().zip(&look.slices) {
             let normal = single(slice.normal).normalize_or(Vec3::Z);
             *plane = normal.extend(normal.dot(scene.domain.in_frame(slice.point).into())).into();
@@ -240,6 +248,16 @@ impl View {
         self.light_strength = look.light.strength as f32;
         self.sky_strength = look.light.ambient as f32;
         self.shadows = u32::from(look.light.shadows && grid.dimension == 3);
+    }
+
+    /// Gas is cut off at open sides, so that it fades before them; the floor is seen and ends it.
+    fn set_sides(&mut self, scene: &Scene) {
+        for (index, side) in scene.boundary.sides().into_iter().enumerate() {
+            let (axis, high) = (index / 2, index % 2 == 1);
+            let towards = if high { -self.ground[axis] } else { self.ground[axis] };
+            let far = if side.is_closed() || towards > 0.0 { FAR } else { 0.0 };
+            *(if high { &mut self.far_from_high[axis] } else { &mut self.far_from_low[axis] }) = far;
+        }
     }
 
     /// Where a point appears, in rays from the top left corner, and its depth along the view axis \[m\].

@@ -14,12 +14,12 @@ pub(super) const KEY: &str = "render.look";
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Look {
-    /// Fields with scales, bodies as particles: the defaults of all keys.
+    /// Fields with scales: the defaults of all keys.
     #[default]
     Lab,
-    /// Black on white, PNG files with 300 pixels per inch; in 3D smooth bodies and four rays per pixel.
+    /// Black on white, PNG files with 300 pixels per inch; in 3D four rays per pixel.
     Print,
-    /// Nothing written; in 3D a grey veil of gas, smooth bodies, filmic tone, four rays per pixel, a view bent tenfold. `emission`, `ground` and
+    /// Nothing written; in 3D a grey veil of gas, filmic tone, four rays per pixel, a view bent tenfold. `emission`, `ground` and
     /// `backdrop` are added by hand.
     Film,
 }
@@ -151,7 +151,7 @@ mod tests {
             Scene::parse(&text, "run.toml", &overrides).unwrap().render
         };
         let lab = read(&["render.look=lab"]);
-        assert_eq!((lab.tone, lab.surface, lab.overlays.title), (ToneMap::None, Surface::Spheres, true));
+        assert_eq!((lab.tone, lab.surface, lab.overlays.title), (ToneMap::None, Surface::Smooth, true));
         let film = read(&["render.look=film", "render.surface=spheres"]);
         assert_eq!((film.tone, film.surface, film.overlays.title), (ToneMap::Aces, Surface::Spheres, false));
     }

@@ -262,10 +262,10 @@ pub enum ToneMap {
 #[serde(rename_all = "snake_case")]
 pub enum Surface {
     /// Every particle is a ball.
-    #[default]
     Spheres,
     /// Rays meet the smooth surface of what the particles make up (3D), closed also where a body is stretched. A particle that touches no
     /// other one is a shard, and broken ones are rough.
+    #[default]
     Smooth,
 }
 

@@ -22,6 +22,8 @@ const RUNNING_PICTURE: f64 = 0.15;
 const COARSEST_RUNNING: f64 = 0.5;
 /// The same while the camera moves.
 const COARSEST_MOVING: f64 = 0.25;
+/// Shares of the pixels along an axis are multiples of one over this.
+const SHARES: f64 = 8.0;
 /// Time that the rate of steps is averaged over \[s\].
 const RATE_PERIOD: f64 = 1.0;
 /// Weight of the newest measurement.
@@ -90,20 +92,19 @@ impl Budget {
         self.picture_end.map_or(f64::NEG_INFINITY, |end| end + pause)
     }
 
-    /// Pixels of a picture: all of them, or fewer along each axis in haste if a whole picture would take too long.
-    pub fn size(&self, whole: [u32; 2], haste: Haste) -> [u32; 2] {
-        let pixels = f64::from(whole[0]) * f64::from(whole[1]);
+    /// Share of the pixels of a picture along each axis: all of them, or fewer in haste if a whole picture would take too long.
+    pub fn share(&self, pixels: f64, haste: Haste) -> f64 {
         let expected = self.pixel.unwrap_or(0.0) * pixels;
         let (longest, coarsest) = match haste {
-            Haste::None => return whole,
+            Haste::None => return 1.0,
             Haste::Running => (RUNNING_PICTURE, COARSEST_RUNNING),
             Haste::Moving => (MOVING_PICTURE, COARSEST_MOVING),
         };
         if expected <= longest {
-            return whole;
+            return 1.0;
         }
-        let scale = (longest / expected).sqrt().max(coarsest);
-        whole.map(|side| ((f64::from(side) * scale) as u32).max(64).min(side))
+        // In a few steps: what has the size of the picture is made anew for each.
+        ((SHARES * (longest / expected).sqrt()).floor() / SHARES).max(coarsest)
     }
 }
 
@@ -190,20 +191,19 @@ mod tests {
 
     #[test]
     fn haste_takes_pixels_only_where_pictures_are_slow() {
-        let whole = [1200, 800];
+        let whole = 1200.0 * 800.0;
         let mut budget = Budget::default();
         budget.drew(960_000, 9.0, 0.0);
         budget.drew(960_000, 0.02, 0.0);
-        assert_eq!(budget.size(whole, Haste::Moving), whole);
+        assert_eq!(budget.share(whole, Haste::Moving), 1.0);
         let mut slow = Budget::default();
         slow.drew(960_000, 9.0, 0.0);
         slow.drew(960_000, 0.32, 0.0);
-        assert_eq!(slow.size(whole, Haste::None), whole);
-        assert_eq!(slow.size(whole, Haste::Moving), [600, 400]);
-        let running = slow.size(whole, Haste::Running);
-        assert!(running[0] > 800 && running[0] < 840 && running[1] > 530 && running[1] < 560, "{running:?}");
+        assert_eq!(slow.share(whole, Haste::None), 1.0);
+        assert_eq!(slow.share(whole, Haste::Moving), 0.5);
+        assert_eq!(slow.share(whole, Haste::Running), 0.625);
         slow.drew(960_000, 1e3, 1.0);
-        assert_eq!([slow.size(whole, Haste::Running), slow.size(whole, Haste::Moving)], [[600, 400], [300, 200]]);
+        assert_eq!([slow.share(whole, Haste::Running), slow.share(whole, Haste::Moving)], [0.5, 0.25]);
     }
 
     #[test]

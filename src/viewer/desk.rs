@@ -32,6 +32,8 @@ pub(super) struct Desk {
     gpu: Option<Gpu>,
     session: Option<Session>,
     folder: PathBuf,
+    /// Where scenes are saved, and the beginning of their names.
+    saved: (PathBuf, String),
     look: Option<Look>,
     moving: bool,
     /// The look has changed since the last picture; then also whether it was drawn with fewer pixels than asked for.
@@ -69,6 +71,7 @@ impl Desk {
             gpu: None,
             session: None,
             folder: PathBuf::from(OUT),
+            saved: (PathBuf::from(OUT), String::new()),
             look: None,
             moving: false,
             stale: false,
@@ -148,6 +151,7 @@ impl Desk {
             Command::Change(scene) => self.change(*scene),
             Command::Rewind(time) => self.rewind(time),
             Command::Detonate(strike) => self.strike(&strike),
+            Command::SaveScene => self.save_scene(),
             Command::Screenshot => self.screenshot(),
             Command::Record(on) => self.record(on),
             Command::Measure(on) => {
@@ -195,6 +199,9 @@ impl Desk {
         };
         let look = look.map_or_else(|| session.look(), |look| *look);
         self.folder = Path::new(OUT).join(stem(&request.name));
+        // beside the file, whose meshes it may read
+        let beside = Path::new(&request.name).parent().filter(|_| Path::new(&request.name).is_file());
+        self.saved = (beside.unwrap_or(&self.folder).to_owned(), stem(&request.name).to_owned());
         lock(&self.outbox).opened = Some(Opened {
             request: request.clone(),
             scene: Arc::clone(session.scene()),
@@ -276,13 +283,13 @@ impl Desk {
             return Ok(());
         }
         let start = self.start.elapsed().as_secs_f64();
-        let mut look = whole.clone();
-        look.settings.size = self.budget.size(whole.settings.size, haste);
-        let picture = Arc::new(session.draw(&look)?);
+        let look = whole.clone();
+        let [width, height] = look.settings.size.map(f64::from);
+        let share = self.budget.share(width * height, haste);
+        let picture = Arc::new(session.draw_in_haste(&look, share)?);
         let now = self.start.elapsed().as_secs_f64();
-        let [width, height] = look.settings.size.map(u64::from);
-        self.budget.drew(width * height, now - start, now);
-        self.coarse = look.settings.size != whole.settings.size;
+        self.budget.drew((width * height * share * share) as u64, now - start, now);
+        self.coarse = share < 1.0;
         let shown = Shown { picture, look, time: session.time(), step: session.step_count() };
         let recorded = match &mut self.recording {
             Some(recording) if self.news && !self.coarse => recording.add(&shown),

@@ -1,9 +1,12 @@
 //! The start page: the shipped scenes, in groups, with title and first lines; and a field for any other file.
 
+use std::sync::{Arc, OnceLock};
+
 use egui::{RichText, ScrollArea, Ui, Vec2};
 
 use super::model::Request;
 use super::theme;
+use crate::gpu::Gpu;
 use crate::scene::{Changes, SMALL, Shipped, shipped};
 
 /// Groups in the order of the page, with what they are; other folders follow.
@@ -70,13 +73,23 @@ pub(super) struct Gallery {
     entries: Vec<Entry>,
     wanted: String,
     path: String,
-    small: bool,
+    /// Whether large scenes open in their small size: as chosen, or else on devices that are slow.
+    small: Option<bool>,
+    slow: Arc<OnceLock<bool>>,
 }
 
 impl Gallery {
     pub(super) fn new() -> Self {
         let entries = shipped().iter().map(entry).collect();
-        Self { entries, wanted: String::new(), path: String::new(), small: false }
+        let slow = Arc::new(OnceLock::new());
+        let found = Arc::clone(&slow);
+        // Drivers may take long to answer.
+        std::thread::spawn(move || found.set(Gpu::adapters().iter().all(|adapter| adapter.kind == "software")));
+        Self { entries, wanted: String::new(), path: String::new(), small: None, slow }
+    }
+
+    fn is_small(&self) -> bool {
+        self.small.unwrap_or_else(|| self.slow.get().copied().unwrap_or(false))
     }
 
     /// Shows the page; the scene that was chosen.
@@ -108,8 +121,11 @@ impl Gallery {
         });
         ui.horizontal(|ui| {
             ui.add(egui::TextEdit::singleline(&mut self.wanted).hint_text("search").desired_width(180.0));
-            ui.checkbox(&mut self.small, "small sizes")
-                .on_hover_text("Large scenes open in their variant `small`: minutes on a processor instead of hours.");
+            let mut small = self.is_small();
+            let hint = "Large scenes open in their variant `small`: minutes on a processor instead of hours. Ticked where there is no GPU.";
+            if ui.checkbox(&mut small, "small sizes").on_hover_text(hint).changed() {
+                self.small = Some(small);
+            }
             ui.add_space(12.0);
             let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a scene file, or drop one here");
             let field = ui.add(field.desired_width(320.0));
@@ -140,7 +156,7 @@ impl Gallery {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = Vec2::splat(GAP);
             for entry in entries {
-                chosen = card(ui, entry, size, self.small).or(chosen.take());
+                chosen = card(ui, entry, size, self.is_small()).or(chosen.take());
             }
         });
         chosen

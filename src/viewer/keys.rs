@@ -15,6 +15,10 @@ pub enum Action {
     Step(u32),
     /// The last state that is kept up to a time \[s\].
     Rewind(f64),
+    /// The state before that is kept.
+    Undo,
+    /// Run again from where the time line was dragged to last, or from the start.
+    Again,
     /// The scene from its start.
     Restart,
     /// Everything in the picture.
@@ -46,10 +50,12 @@ pub enum Action {
 }
 
 /// What the help shows: key, and what it does.
-pub const HELP: [(&str, &str); 17] = [
+pub const HELP: [(&str, &str); 19] = [
     ("Space", "run or pause; play a run"),
     ("G", "of a run: go on from the state that is shown"),
     ("Right", "one step; with Shift 16 steps"),
+    ("Left", "back to the state before that is kept"),
+    ("B", "run again from where the time line was dragged to"),
     ("Up, Down", "twice as fast, half as fast"),
     ("R", "restart the scene"),
     ("1 to 9", "density, pressure, speed, temperature, schlieren, Mach number, vorticity, entropy, owed gas"),
@@ -72,7 +78,7 @@ pub const MOUSE: [(&str, &str); 7] = [
     ("Right or middle drag", "shift"),
     ("Wheel", "nearer or farther, towards the pointer"),
     ("Double click", "fit everything into the picture"),
-    ("Ctrl+click", "detonate: energy and radius, or kilograms of TNT, stand in the panel"),
+    ("Ctrl+click", "detonate: energy and radius, or kilograms of TNT, stand in the panel; held, the blast grows"),
     ("Drag on the time line", "back to a state that is kept; from there the scene goes on"),
     ("File dropped on the window", "opens it"),
 ];
@@ -100,6 +106,8 @@ pub fn action(key: Key, modifiers: Modifiers) -> Option<Action> {
         Key::Space => Action::Play,
         Key::G => Action::GoOn,
         Key::ArrowRight => Action::Step(if modifiers.shift { 16 } else { 1 }),
+        Key::ArrowLeft => Action::Undo,
+        Key::B => Action::Again,
         Key::ArrowUp => Action::Pace(2.0),
         Key::ArrowDown => Action::Pace(0.5),
         Key::R => Action::Restart,
@@ -131,6 +139,7 @@ mod tests {
         assert_eq!(plain(Key::G), Some(Action::GoOn));
         assert_eq!(plain(Key::ArrowRight), Some(Action::Step(1)));
         assert_eq!(action(Key::ArrowRight, Modifiers::SHIFT), Some(Action::Step(16)));
+        assert_eq!((plain(Key::ArrowLeft), plain(Key::B)), (Some(Action::Undo), Some(Action::Again)));
         assert_eq!(plain(Key::Num1), Some(Action::Field(Field::Density)));
         assert_eq!(plain(Key::Num7), Some(Action::Field(Field::Vorticity)));
         assert_eq!(plain(Key::Num9), Some(Action::Field(Field::Owed)));

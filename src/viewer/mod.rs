@@ -4,12 +4,13 @@
 //! interface and nothing else. So the window answers however long a step takes, and outlives a lost device. It shows the bytes of
 //! [`crate::render::Picture`]s: what is seen is what `run` writes.
 //!
-//! What can be tested without a window knows none: [`session`], [`camera`], [`pick`], [`budget`], [`keys`].
+//! What can be tested without a window knows none: [`session`], [`camera`], [`pick`], [`budget`], [`charge`], [`keys`].
 
 mod app;
 mod bars;
 pub mod budget;
 pub mod camera;
+pub mod charge;
 mod clipboard;
 mod desk;
 mod gallery;

@@ -90,6 +90,17 @@ pub enum Source {
     Tnt(f64),
 }
 
+impl Source {
+    /// So many times as much energy.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        match self {
+            Source::Energy(energy, radius) => Source::Energy(factor * energy, radius),
+            Source::Tnt(mass) => Source::Tnt(factor * mass),
+        }
+    }
+}
+
 /// What the window asks for.
 #[derive(Debug)]
 pub enum Command {
@@ -118,6 +129,8 @@ pub enum Command {
     Rewind(f64),
     /// Set energy free at a point of the picture.
     Detonate(Strike),
+    /// Save the scene as it is now, with what pictures show.
+    SaveScene,
     /// Save the picture.
     Screenshot,
     /// Start or stop saving every picture.

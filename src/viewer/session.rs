@@ -319,8 +319,16 @@ impl Session {
     /// # Errors
     /// Those of the renderer.
     pub fn draw(&mut self, look: &Look) -> Result<Picture> {
+        self.draw_in_haste(look, 1.0)
+    }
+
+    /// The same with a share of the pixels of the plot along each axis.
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn draw_in_haste(&mut self, look: &Look, share: f64) -> Result<Picture> {
         let time = self.time();
-        self.renderer.draw(&look.settings, look.field, time)
+        self.renderer.draw_in_haste(&look.settings, look.field, time, share)
     }
 
     /// Goes on with other parameters, see [`Simulation::change`].

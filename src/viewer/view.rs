@@ -7,10 +7,11 @@ use std::time::{Duration, Instant};
 use egui::{ColorImage, Event, Pos2, Rect, Response, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 
 use super::camera;
+use super::charge::Charge;
 use super::history::History;
 use super::keys::Action;
 use super::model::{Command, Look, Opened, Outbox, Pace, Shown, Status, Strike};
-use super::panel::Panel;
+use super::panel::{Panel, amount};
 use super::theme;
 use crate::scene::{Camera, RenderSettings, Scene};
 
@@ -41,6 +42,9 @@ pub(super) struct View {
     sent: Option<(Look, bool)>,
     moves_until: Instant,
     dragging: bool,
+    charge: Charge,
+    /// Where the time line was dragged to last [s].
+    again: f64,
 }
 
 impl View {
@@ -60,6 +64,8 @@ impl View {
             sent: None,
             moves_until: Instant::now(),
             dragging: false,
+            charge: Charge::default(),
+            again: 0.0,
         }
     }
 
@@ -139,7 +145,15 @@ impl View {
             Action::Play => self.commands.push(Command::Play(!status.playing)),
             Action::GoOn => self.commands.push(Command::GoOn),
             Action::Step(steps) => self.commands.push(Command::Steps(steps)),
-            Action::Rewind(time) => self.commands.push(Command::Rewind(time)),
+            Action::Rewind(time) => self.rewind(time),
+            Action::Undo => {
+                let before = status.kept.iter().rev().find(|kept| **kept < status.time * (1.0 - 1e-9));
+                before.into_iter().for_each(|kept| self.rewind(*kept));
+            }
+            Action::Again => {
+                self.commands.push(Command::Rewind(self.again));
+                self.commands.push(Command::Play(true));
+            }
             Action::Screenshot => self.commands.push(Command::Screenshot),
             Action::Record => self.commands.push(Command::Record(status.recorded.is_none())),
             Action::Fit => self.fit(),
@@ -158,6 +172,11 @@ impl View {
             }
             Action::Restart | Action::Help | Action::Back | Action::Open | Action::Quit => {}
         }
+    }
+
+    fn rewind(&mut self, time: f64) {
+        self.again = time;
+        self.commands.push(Command::Rewind(time));
     }
 
     pub(super) fn set_pace(&mut self, pace: Pace) {
@@ -232,13 +251,33 @@ impl View {
         if response.double_clicked() && !struck {
             self.fit();
         }
-        if response.clicked() && struck {
-            let share = (pointer - place.min) / place.size();
-            let at = [f64::from(share.x), f64::from(share.y)];
-            self.commands.push(Command::Detonate(Strike { at, source: self.panel.blast.source() }));
-        }
+        self.detonate(ui, response, place, struck.then_some(pointer));
         if struck && response.hovered() {
             ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+        }
+    }
+
+    /// Charges a blast while the button is held over a place, and sets it off where it is let go.
+    fn detonate(&mut self, ui: &Ui, response: &Response, place: Rect, struck: Option<Pos2>) {
+        let (pressed, released) = ui.input(|input| (input.pointer.primary_pressed(), input.pointer.primary_released()));
+        if pressed && struck.is_some() && response.contains_pointer() {
+            self.charge.begin();
+        }
+        let source = self.panel.blast.source();
+        if let (Some(grown), Some(pointer)) = (self.charge.now().filter(|grown| *grown > 1.0), response.hover_pos()) {
+            let text = amount(source.times(grown), self.scene.domain.axes());
+            let font = egui::FontId::proportional(16.0);
+            let corner = pointer + Vec2::new(14.0, -10.0);
+            ui.painter().text(corner, egui::Align2::LEFT_BOTTOM, text, font, theme::ACCENT);
+            ui.ctx().request_repaint();
+        }
+        // Press and release may come in one frame, and Ctrl may be up by then.
+        let grown = if released { self.charge.end() } else { None };
+        let clicked = struck.filter(|_| response.clicked()).map(|_| 1.0);
+        if let (Some(grown), Some(pointer)) = (grown.or(clicked), response.hover_pos()) {
+            let share = (pointer - place.min) / place.size();
+            let at = [f64::from(share.x), f64::from(share.y)];
+            self.commands.push(Command::Detonate(Strike { at, source: source.times(grown) }));
         }
     }
 

@@ -3,8 +3,9 @@
 use super::super::model::Weight;
 use super::super::record::{self, Recording};
 use super::Desk;
-use crate::Result;
 use crate::export::Origin;
+use crate::scene::RenderSettings;
+use crate::{Error, Result};
 
 impl Desk {
     /// Draws the picture as it stands in the window, in all its pixels, if that was not done.
@@ -24,6 +25,24 @@ impl Desk {
         self.draw_whole()?;
         let (Some(shown), Some(session)) = (&self.shown, &self.session) else { return Ok(()) };
         let path = record::save(&self.folder, shown, &Origin::of(session.scene()))?;
+        self.note(Weight::Fine, format!("saved {}", path.display()));
+        Ok(())
+    }
+
+    /// Writes a scene file of the scene as it is now, with what pictures show.
+    pub(super) fn save_scene(&mut self) -> Result<()> {
+        let (Some(session), Some(look)) = (&self.session, &self.look) else { return Ok(()) };
+        let mut scene = (**session.scene()).clone();
+        let settings = look.settings.clone();
+        scene.render = RenderSettings { size: scene.render.size, views: scene.render.views, ..settings };
+        scene.output.fields.retain(|field| *field != look.field);
+        scene.output.fields.insert(0, look.field);
+        let text = toml::to_string(&scene).map_err(|error| Error::Scene(error.to_string()))?;
+        let (folder, name) = &self.saved;
+        let path = (1..).map(|k| folder.join(format!("{name}_saved_{k:03}.toml"))).find(|path| !path.exists());
+        let path = path.unwrap_or_else(|| folder.join(name));
+        std::fs::create_dir_all(folder).map_err(|source| Error::io(folder, source))?;
+        std::fs::write(&path, text).map_err(|source| Error::io(&path, source))?;
         self.note(Weight::Fine, format!("saved {}", path.display()));
         Ok(())
     }

@@ -7,6 +7,8 @@ mod look;
 mod parameters;
 mod plots;
 
+use std::sync::Arc;
+
 use egui::{CollapsingHeader, DragValue, Grid, RichText, ScrollArea, Ui};
 
 use super::model::{Command, Source, Status};
@@ -144,8 +146,22 @@ fn short(value: f64, _: std::ops::RangeInclusive<usize>) -> String {
     plain(value)
 }
 
+/// What energies and masses are per, by dimension.
+const PER: [&str; 3] = ["/m\u{b2}", "/m", ""];
+
+/// What goes off, with three digits.
+pub(super) fn amount(source: Source, axes: usize) -> String {
+    let (value, unit) = match source {
+        Source::Energy(energy, _) => (energy, "J"),
+        Source::Tnt(mass) => (mass, "kg"),
+    };
+    let digit = 10.0_f64.powf(value.abs().max(1e-300).log10().floor() - 2.0);
+    let of = if unit == "kg" { " of TNT" } else { "" };
+    format!("{} {unit}{}{of}", plain((value / digit).round() * digit), PER[axes - 1])
+}
+
 fn detonate(ui: &mut Ui, view: &mut View) {
-    let unit = ["J/m\u{b2}", "J/m", "J"][view.scene.domain.axes() - 1];
+    let per = PER[view.scene.domain.axes() - 1];
     if view.dimension() == 1 {
         ui.label(RichText::new("needs a picture of a plane or of space").color(theme::FAINT));
         return;
@@ -157,12 +173,12 @@ fn detonate(ui: &mut Ui, view: &mut View) {
     rows(ui, "blast", |ui| {
         if blast.by_mass {
             ui.label("TNT");
-            ui.add(positive(&mut blast.mass, ["kg/m\u{b2}", "kg/m", "kg"][view.scene.domain.axes() - 1]));
+            ui.add(positive(&mut blast.mass, &format!("kg{per}")));
             ui.end_row();
             return;
         }
         ui.label("energy");
-        ui.add(positive(&mut blast.energy, unit));
+        ui.add(positive(&mut blast.energy, &format!("J{per}")));
         ui.end_row();
         ui.label("radius");
         ui.add(positive(&mut blast.radius, "m"));
@@ -198,8 +214,8 @@ fn times(ui: &mut Ui, view: &mut View, status: &Status) {
     });
 }
 
-fn about(ui: &mut Ui, view: &View) {
-    let scene = &view.scene;
+fn about(ui: &mut Ui, view: &mut View) {
+    let scene = Arc::clone(&view.scene);
     ui.label(RichText::new(&scene.title).strong());
     if !scene.description.is_empty() {
         ui.label(&scene.description);
@@ -209,6 +225,9 @@ fn about(ui: &mut Ui, view: &View) {
         .request
         .file()
         .map_or_else(|| "shipped with the program".to_owned(), |file| file.display().to_string());
+    if ui.button("save as scene").on_hover_text("a file with what is set here: look, camera, parameters").clicked() {
+        view.commands.push(Command::SaveScene);
+    }
     rows(ui, "about", |ui| {
         let lines = [
             ("file", from),
