@@ -17,7 +17,7 @@ pub(super) const BRICK: u32 = 4;
 pub(super) const RUN: u32 = 8;
 
 /// Marks cells without gas in the field.
-const NO_VALUE: f32 = -3.0e38;
+pub(super) const NO_VALUE: f32 = -3.0e38;
 
 /// Cells of the light grid along each axis.
 pub(super) const LIGHT_CELLS: u32 = 96;

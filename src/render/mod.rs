@@ -31,6 +31,7 @@ mod stored;
 mod svg;
 mod ticks;
 mod transfer;
+mod value;
 mod view;
 
 pub use frame::{Depth, Frame, Picture};

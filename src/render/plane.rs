@@ -25,7 +25,7 @@ const MOST_SCREENS: usize = 6;
 /// Kernels and buffers of all parts of a picture.
 #[derive(Debug)]
 pub(super) struct Drawing {
-    gas: Gas,
+    pub(super) gas: Gas,
     particles: Option<Particles>,
     pub(super) distance: Distance,
     light: Light,

@@ -8,6 +8,9 @@ use super::theme;
 use super::view::View;
 use crate::math::plain;
 
+/// Least width of a button.
+const BUTTON: f32 = 58.0;
+
 /// Choices of the pace: what the whole run takes at least \[s\].
 const PACES: [f64; 5] = [3.0, 6.0, 12.0, 30.0, 120.0];
 
@@ -68,7 +71,9 @@ pub(super) fn bottom(ui: &mut Ui, view: Option<&mut View>, status: &Status) -> V
         for (text, key, action) in buttons.into_iter().filter(|(_, _, action)| *action != Action::GoOn || status.replay)
         {
             let enabled = ready || action == Action::Restart;
-            if ui.add_enabled(enabled, egui::Button::new(text)).on_hover_text(key).clicked() {
+            // What changes its word keeps its size.
+            let button = egui::Button::new(text).min_size(egui::vec2(BUTTON, 0.0));
+            if ui.add_enabled(enabled, button).on_hover_text(key).clicked() {
                 asked.push(action);
             }
         }
@@ -116,7 +121,9 @@ fn clock(ui: &mut Ui, view: &View, status: &Status) -> Option<Action> {
     let recorded = status.recorded.map_or_else(String::new, |count| {
         format!("   recording: {count} {}", if count == 1 { "picture" } else { "pictures" })
     });
-    let text = format!("t = {} s   step {}   {rate}{recorded}", plain(status.time), status.step);
+    // The letters have one width: what stands before the clock does not move.
+    let time = format!("{} s", plain(status.time));
+    let text = format!("t = {time:<12}   step {:<6}   {rate:<13}{recorded}", status.step);
     let mut asked = None;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.label(RichText::new(text).monospace());

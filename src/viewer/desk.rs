@@ -1,5 +1,6 @@
 //! What the worker does: obeys commands, steps the scene within its budget, draws, and leaves the outcome in the outbox.
 
+mod ask;
 mod files;
 mod pace;
 mod rewind;
@@ -151,6 +152,7 @@ impl Desk {
             Command::Change(scene) => self.change(*scene),
             Command::Rewind(time) => self.rewind(time),
             Command::Detonate(strike) => self.strike(&strike),
+            Command::Ask(at) => self.ask(at),
             Command::SaveScene => self.save_scene(),
             Command::Screenshot => self.screenshot(),
             Command::Record(on) => self.record(on),

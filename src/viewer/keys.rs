@@ -73,12 +73,13 @@ pub const HELP: [(&str, &str); 19] = [
 ];
 
 /// What the help says about the mouse.
-pub const MOUSE: [(&str, &str); 7] = [
+pub const MOUSE: [(&str, &str); 8] = [
     ("Left drag", "turn (3D) or shift (2D)"),
     ("Right or middle drag", "shift"),
     ("Wheel", "nearer or farther, towards the pointer"),
     ("Double click", "fit everything into the picture"),
     ("Ctrl+click", "detonate: energy and radius, or kilograms of TNT, stand in the panel; held, the blast grows"),
+    ("Rest", "position, value in the plane, body"),
     ("Drag on the time line", "back to a state that is kept; from there the scene goes on"),
     ("File dropped on the window", "opens it"),
 ];

@@ -129,6 +129,8 @@ pub enum Command {
     Rewind(f64),
     /// Set energy free at a point of the picture.
     Detonate(Strike),
+    /// What lies at a place of the picture, in shares of its width and height from the top left corner.
+    Ask([f64; 2]),
     /// Save the scene as it is now, with what pictures show.
     SaveScene,
     /// Save the picture.
@@ -234,6 +236,19 @@ pub struct Note {
     pub text: String,
 }
 
+/// What lies at a place of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// The place that was asked for.
+    pub at: [f64; 2],
+    /// The point there \[m\]; empty beside the domain.
+    pub point: Vec<f64>,
+    /// The value that a picture of a plane shows of the gas.
+    pub value: Option<f64>,
+    /// Name of the body.
+    pub body: Option<String>,
+}
+
 /// What the worker has for the window since the window last looked.
 #[derive(Debug, Default)]
 pub struct Outbox {
@@ -251,6 +266,8 @@ pub struct Outbox {
     pub stages: Option<Vec<(String, f64)>>,
     /// Parameters were changed: the scene as it is now.
     pub changed: Option<Arc<Scene>>,
+    /// What lies where the window asked.
+    pub spot: Option<Spot>,
     /// Lines for the user.
     pub notes: Vec<Note>,
 }

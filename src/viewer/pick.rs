@@ -6,6 +6,9 @@ use crate::render::Ray;
 use crate::snapshot::ParticleSample;
 use crate::state::Grid;
 
+/// Distance from the middle of a particle up to which it holds points, over the edge of its volume.
+const HELD: f64 = 0.8;
+
 /// The point that a line of sight means: in 2D where it meets the plane of the domain; in 3D the first particle that it hits, or else
 /// its point in the domain next to the plane through the middle that faces the viewer. None if it misses the domain.
 pub fn point(ray: &Ray, grid: &Grid, particles: &[ParticleSample]) -> Option<[f64; 3]> {
@@ -23,6 +26,16 @@ pub fn point(ray: &Ray, grid: &Grid, particles: &[ParticleSample]) -> Option<[f6
     let [enters, leaves] = crossing(origin, direction, low, low + extent)?;
     let middle = (low + 0.5 * extent - origin).dot(direction);
     Some((origin + middle.clamp(enters, leaves) * direction).into())
+}
+
+/// The body whose nearest particle holds a point.
+pub fn body(point: [f64; 3], grid: &Grid, particles: &[ParticleSample]) -> Option<usize> {
+    let near = particles.iter().filter_map(|particle| {
+        let away = DVec3::from(grid.in_scene(particle.position)).distance(point.into());
+        let edge = f64::from(particle.volume0).powf(1.0 / f64::from(grid.dimension));
+        (away < HELD * edge).then_some((away, particle.body as usize))
+    });
+    near.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, body)| body)
 }
 
 /// Distance along a ray to the ball of a particle's volume; none if it misses it.
@@ -74,6 +87,13 @@ mod tests {
         assert_eq!(point(&beside, &GRID, &[]), None);
         let away = Ray { origin: [0.5, -2.0, 0.5], direction: [0.0, -1.0, 0.0] };
         assert_eq!(point(&away, &GRID, &[]), None);
+    }
+
+    #[test]
+    fn a_point_belongs_to_the_body_of_the_nearest_particle() {
+        let two = [particle([0.3, 0.5, 0.5]), ParticleSample { body: 1, ..particle([0.4, 0.5, 0.5]) }];
+        let at = |x: f64| body([x, 0.5, 0.5], &GRID, &two);
+        assert_eq!([at(0.34), at(0.36), at(0.47), at(0.49)], [Some(0), Some(1), Some(1), None]);
     }
 
     #[test]

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::model::{Look, Source, Strike};
+use super::model::{Look, Source, Spot, Strike};
 use super::past::{self, Found, Kept, Past, Recorded};
 use super::pick;
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Ending, Summary, Warning};
 use crate::export::states;
 use crate::gpu::{Detail, Gpu};
-use crate::render::{Picture, Renderer, SceneBuffers, Stored};
+use crate::render::{Picture, Ray, Renderer, SceneBuffers, Stored};
 use crate::scene::{Camera, Changes, Field, RenderSettings, Scene};
 use crate::simulation::{Blast, Saved, Simulation};
 use crate::state::MemoryPlan;
@@ -351,8 +351,7 @@ impl Session {
     /// [`Error::Usage`] if the click misses the domain or its gas, or there is no room for the charge.
     pub fn strike(&mut self, strike: &Strike, look: &Look, records: &mut Vec<StepRecord>) -> Result<([f64; 3], f64)> {
         self.whole()?;
-        let [width, height] = look.settings.size.map(f64::from);
-        let ray = self.renderer.ray(&look.settings, self.time(), [strike.at[0] * width, strike.at[1] * height]);
+        let ray = self.ray(strike.at, look);
         let grid = self.simulation.state.grid;
         let particles = if grid.dimension == 3 { self.simulation.snapshot()?.particles } else { Vec::new() };
         let center = pick::point(&ray, &grid, &particles)
@@ -364,6 +363,26 @@ impl Session {
         };
         self.summary.add(&records[before..]);
         Ok((center, energy))
+    }
+
+    /// The line of sight through a place of a picture, in shares of its width and height.
+    fn ray(&self, at: [f64; 2], look: &Look) -> Ray {
+        let [width, height] = look.settings.size.map(f64::from);
+        self.renderer.ray(&look.settings, self.time(), [at[0] * width, at[1] * height])
+    }
+
+    /// What lies at a place of the picture drawn last.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn spot(&self, at: [f64; 2], look: &Look) -> Result<Spot> {
+        let (grid, particles) = (self.simulation.state.grid, self.simulation.snapshot()?.particles);
+        let Some(point) = pick::point(&self.ray(at, look), &grid, &particles) else {
+            return Ok(Spot { at, point: Vec::new(), value: None, body: None });
+        };
+        let body = pick::body(point, &grid, &particles).map(|index| self.scene.bodies[index].name.clone());
+        let value = if grid.dimension == 2 && body.is_none() { self.renderer.value_at(point)? } else { None };
+        Ok(Spot { at, point: point[..grid.dimension as usize].to_vec(), value, body })
     }
 
     /// The simulation.

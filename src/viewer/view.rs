@@ -10,13 +10,17 @@ use super::camera;
 use super::charge::Charge;
 use super::history::History;
 use super::keys::Action;
-use super::model::{Command, Look, Opened, Outbox, Pace, Shown, Status, Strike};
+use super::model::{Command, Look, Opened, Outbox, Pace, Shown, Spot, Status, Strike};
 use super::panel::{Panel, amount};
 use super::theme;
+use crate::math::plain;
+use crate::render::caption;
 use crate::scene::{Camera, RenderSettings, Scene};
 
 /// The camera counts as moving for so long after the last turn of the wheel.
 const SETTLES: Duration = Duration::from_millis(250);
+/// The pointer rests where it has not moved for so long \[s\].
+const RESTS: f32 = 0.25;
 /// Least and largest side of a picture.
 const SIDES: [f32; 2] = [16.0, 8192.0];
 /// Points of a scroll that make one notch.
@@ -43,6 +47,9 @@ pub(super) struct View {
     moves_until: Instant,
     dragging: bool,
     charge: Charge,
+    /// What lies under the pointer, and for which place and time that was asked.
+    spot: Option<Spot>,
+    asked: Option<([f64; 2], f64)>,
     /// Where the time line was dragged to last [s].
     again: f64,
 }
@@ -65,6 +72,8 @@ impl View {
             moves_until: Instant::now(),
             dragging: false,
             charge: Charge::default(),
+            spot: None,
+            asked: None,
             again: 0.0,
         }
     }
@@ -80,6 +89,7 @@ impl View {
             self.history.forget_after(time);
         }
         self.history.add(&outbox.records);
+        self.spot = outbox.spot.or(self.spot.take());
         if let Some(stages) = outbox.stages {
             self.stages = stages;
         }
@@ -196,6 +206,7 @@ impl View {
         self.look.settings.size = [pixels.x as u32, pixels.y as u32];
         self.paint(ui, place);
         self.mouse(ui, &response, place);
+        self.under_pointer(ui, &response, place);
         self.send_look(ui, response.dragged());
     }
 
@@ -257,6 +268,29 @@ impl View {
         }
     }
 
+    /// Where the pointer rests, asks what lies there, and shows it beside the pointer.
+    fn under_pointer(&mut self, ui: &Ui, response: &Response, place: Rect) {
+        let (Some(pointer), Some(shown)) = (response.hover_pos().filter(|_| !response.dragged()), &self.shown) else {
+            return;
+        };
+        let share = (pointer - place.min) / place.size();
+        let at = [f64::from(share.x), f64::from(share.y)];
+        let rested = ui.input(|input| input.pointer.time_since_last_movement()) > RESTS;
+        let wanted = (at, shown.time);
+        if !rested {
+            ui.ctx().request_repaint_after(Duration::from_secs_f32(RESTS));
+        } else if self.asked != Some(wanted) && self.dimension() > 1 {
+            self.commands.push(Command::Ask(at));
+            self.asked = Some(wanted);
+        }
+        let Some(spot) = self.spot.as_ref().filter(|spot| spot.at == at && !spot.point.is_empty()) else { return };
+        let mut lines =
+            vec![format!("({}) m", spot.point.iter().map(|own| plain(*own)).collect::<Vec<_>>().join(", "))];
+        lines.extend(spot.value.map(|value| format!("{}: {}", caption(shown.look.field), plain(value))));
+        lines.extend(spot.body.clone());
+        tag(ui, pointer, &lines.join("\n"));
+    }
+
     /// Charges a blast while the button is held over a place, and sets it off where it is let go.
     fn detonate(&mut self, ui: &Ui, response: &Response, place: Rect, struck: Option<Pos2>) {
         let (pressed, released) = ui.input(|input| (input.pointer.primary_pressed(), input.pointer.primary_released()));
@@ -266,9 +300,9 @@ impl View {
         let source = self.panel.blast.source();
         if let (Some(grown), Some(pointer)) = (self.charge.now().filter(|grown| *grown > 1.0), response.hover_pos()) {
             let text = amount(source.times(grown), self.scene.domain.axes());
-            let font = egui::FontId::proportional(16.0);
-            let corner = pointer + Vec2::new(14.0, -10.0);
-            ui.painter().text(corner, egui::Align2::LEFT_BOTTOM, text, font, theme::ACCENT);
+            tag(ui, pointer, &text);
+        }
+        if self.charge.now().is_some() {
             ui.ctx().request_repaint();
         }
         // Press and release may come in one frame, and Ctrl may be up by then.
@@ -305,6 +339,18 @@ impl View {
         let settings = RenderSettings { size: self.look.settings.size, ..self.opened.scene.own_look() };
         self.look = Look { field: self.opened.look.field, settings };
     }
+}
+
+/// A text beside the pointer.
+fn tag(ui: &Ui, pointer: Pos2, text: &str) {
+    let visuals = ui.visuals();
+    let text =
+        ui.painter().layout_no_wrap(text.to_owned(), egui::FontId::proportional(14.0), visuals.strong_text_color());
+    let corner = pointer + Vec2::new(18.0, 16.0);
+    let around = Rect::from_min_size(corner, text.size()).expand2(Vec2::new(8.0, 5.0));
+    let stroke = visuals.window_stroke;
+    ui.painter().rect(around, 4.0, visuals.window_fill, stroke, egui::StrokeKind::Inside);
+    ui.painter().galley(corner, text, visuals.strong_text_color());
 }
 
 /// Whether Ctrl was held at a click of this frame; it may be up again by now.

@@ -76,6 +76,7 @@ mod verify;
 mod viewer;
 mod walls;
 mod warnings;
+mod window;
 mod words;
 #[cfg(unix)]
 mod written;
