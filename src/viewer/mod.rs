@@ -21,6 +21,7 @@ pub mod model;
 mod panel;
 mod past;
 pub mod pick;
+mod progress;
 pub mod record;
 pub mod session;
 mod theme;
@@ -48,6 +49,7 @@ use worker::Worker;
 pub fn run(options: GpuOptions, request: Option<Request>, pace: Option<Pace>) -> Result<(u64, f64)> {
     let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|error| no_window(&error.to_string()))?;
     let proxy = event_loop.create_proxy();
+    let options = GpuOptions { compiling: Some(progress::tell), ..options };
     let worker = Worker::start(options, move || {
         // The loop has ended: nobody looks any more.
         let _ = proxy.send_event(Wake);

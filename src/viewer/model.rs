@@ -7,7 +7,7 @@ use super::past;
 use crate::Result;
 use crate::diagnostics::StepRecord;
 use crate::render::Picture;
-use crate::scene::{Camera, Changes, Field, RenderSettings, Scene};
+use crate::scene::{Camera, Changes, Field, RenderSettings, SMALL, Scene};
 
 /// A scene to open: file or name of a shipped one, and what to change about it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -40,6 +40,17 @@ impl Request {
             Some(cells) => scene.with_resolution(cells),
             None => Ok(scene),
         }
+    }
+
+    /// The same at its small size, if it has one and is not that.
+    pub fn small(&self) -> Option<Self> {
+        let own = &self.changes.variants;
+        if own.iter().any(|name| name == SMALL) {
+            return None;
+        }
+        let variants = std::iter::once(SMALL.to_owned()).chain(own.iter().cloned()).collect();
+        let small = Self { changes: Changes { variants, ..self.changes.clone() }, ..self.clone() };
+        small.load().is_ok().then_some(small)
     }
 
     /// The folder of a run, if it is one.

@@ -13,6 +13,7 @@ use super::gallery::Gallery;
 use super::help;
 use super::keys::{Action, action};
 use super::model::{Command, Look, Note, Pace, Phase, Request, Status, Weight};
+use super::progress;
 use super::theme;
 use super::view::View;
 use super::watch::Watch;
@@ -40,6 +41,8 @@ pub(super) struct Ui {
     play_when_open: bool,
     notes: Vec<(Instant, Note)>,
     help: bool,
+    /// What is smaller than the scene that could not be opened.
+    offer: Option<Request>,
     path: Option<String>,
     quit: bool,
 }
@@ -60,6 +63,7 @@ impl Ui {
             play_when_open: true,
             notes: Vec::new(),
             help: false,
+            offer: None,
             path: None,
             quit: false,
         };
@@ -118,6 +122,8 @@ impl Ui {
         }
         if self.opening && matches!(self.status.phase, Phase::Ready | Phase::Failed) {
             self.opening = false;
+            let failed = self.request.as_ref().filter(|_| self.status.phase == Phase::Failed);
+            self.offer = failed.and_then(Request::small);
             self.worker.send(Command::Pace(self.pace));
             self.wish = Some(self.play_when_open && self.status.phase == Phase::Ready);
             self.worker.send(Command::Play(self.wish == Some(true)));
@@ -234,13 +240,24 @@ impl Ui {
             panel.show(root, |ui| super::panel::show(ui, view, &self.status));
         }
         let background = egui::Frame::new().fill(theme::BACKGROUND);
+        let mut asked_for = None;
         egui::CentralPanel::no_frame().frame(background).show(root, |ui| match &mut self.view {
             Some(view) => view.show(ui),
-            None => waiting(ui, self.opening),
+            None if self.opening => waiting(ui),
+            None => {
+                ui.add_space(0.7 * ui.available_height());
+                let small = self.offer.as_ref();
+                ui.vertical_centered(|ui| {
+                    asked_for = small.filter(|_| ui.button("open its small size").clicked()).cloned();
+                });
+            }
         });
+        if let Some(small) = asked_for {
+            self.open(small, None);
+        }
         if self.opening && self.view.is_some() {
             let place = egui::Area::new(egui::Id::unique("opening")).anchor(Align2::CENTER_CENTER, [0.0; 2]);
-            place.show(root.ctx(), |ui| egui::Frame::popup(ui.style()).show(ui, |ui| waiting(ui, true)));
+            place.show(root.ctx(), |ui| egui::Frame::popup(ui.style()).show(ui, waiting));
         }
         for action in asked.into_iter().chain(below) {
             self.act(action);
@@ -375,12 +392,7 @@ fn message(ui: &mut EguiUi, note: &Note) -> bool {
 }
 
 /// In place of a picture.
-fn waiting(ui: &mut EguiUi, opening: bool) {
-    ui.centered_and_justified(|ui| {
-        if opening {
-            ui.label(RichText::new("opening: compiling kernels, filling buffers").color(theme::FAINT));
-        } else {
-            ui.label(RichText::new("no picture").color(theme::FAINT));
-        }
-    });
+fn waiting(ui: &mut EguiUi) {
+    ui.ctx().request_repaint_after(Duration::from_millis(200));
+    ui.centered_and_justified(|ui| ui.label(RichText::new(progress::text()).color(theme::FAINT)));
 }

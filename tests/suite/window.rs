@@ -91,3 +91,13 @@ fn what_lies_under_the_pointer_is_told_and_scenes_are_saved() {
     let again = Scene::find(saved.to_str().unwrap(), Changes::default()).unwrap();
     assert_eq!((again.gravity, again.output.fields[0]), ([0.0, -5.0, 0.0], Field::Mach));
 }
+
+/// What cannot be opened may have a size that can.
+#[test]
+fn a_scene_is_asked_for_at_its_small_size() {
+    let plastic = Request { changes: Changes::variant("plastic"), ..Request::of("fig06_pumpkin") };
+    let small = plastic.small().unwrap();
+    assert_eq!(small.changes.variants, ["small", "plastic"]);
+    assert!(small.load().unwrap().domain.cells[0] < plastic.load().unwrap().domain.cells[0]);
+    assert_eq!([small.small(), Request::of("gas/sod").small()], [None, None]);
+}
