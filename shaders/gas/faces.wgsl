@@ -1,6 +1,6 @@
 // Fluxes through the faces of gas_advection: of any slot inside the domain by the seven cells around it in a row, and what the faces deep
 // inside the gas need. Every state is read once per axis: in software a load takes as long as dozens of products.
-// Needs ARS and RUNGE_KUTTA, source(), the bindings cells and node, flux and cut_carrier.
+// Needs ARS, in_first(), source(), the bindings cells and node, flux and cut_carrier.
 
 fn flow_at(slot: u32) -> vec4f { return source(slot).flow; }
 
@@ -216,8 +216,8 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
     if ARS {
         // The solve carries this part, over its own share of the step.
         (*change).heat += sign * control.dt / params.spacing * f.heat;
-        if RUNGE_KUTTA == 1u { implicit = f.heat; }
-        if RUNGE_KUTTA == 2u { implicit = (1.0 - ARS_SHARE) * f.heat; }
+        if in_second() { implicit = f.heat; }
+        if in_third() { implicit = (1.0 - ARS_SHARE) * f.heat; }
     }
     let through = scale * flow;
     (*change).high_order.flow += vec4f(whole(through.x, f.unit), through.yzw);
@@ -274,7 +274,7 @@ fn allowed_share(before: Gas, change: Change) -> f32 {
     let low = Gas(before.flow + change.first_order.flow, before.energy + change.first_order.energy, before.species + change.first_order.species,
         before.unburned + change.first_order.unburned);
     if !(low.flow.x > KEPT * before.flow.x) || !(internal_energy(low) > 0.0) {
-        if ARS && RUNGE_KUTTA > 0u { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
+        if ARS && !in_first() { return 0.0; }    // `before` is no state of the gas here, its own change is behind it
         return drained_share(before, change);
     }
     let slip = low.flow.yzw - low.flow.x * change.velocity;

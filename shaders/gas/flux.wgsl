@@ -4,7 +4,7 @@
 // - elsewhere (`even` 1), fifth order from a to e: three parabolas with the linear weights 0.1, 0.6 and 0.3, times
 //   1 + (tau / (beta + epsilon))^2, tau the difference of the outer two beta. It keeps waves and contacts [Borges et al. 2008].
 // All differences are relative to the largest of the values, so that neither the unit system nor float32's range changes the scheme.
-// Needs ARS, RUNGE_KUTTA, carried_heat() and the bindings control and energy.
+// Needs ARS, in_first(), carried_heat() and the bindings control and energy.
 
 // Differences below its root, 2.6 % of a value, count as smooth where the gas is compressed [docs/notes/reconstruction.md].
 const WENO_EPSILON = 7e-4;
@@ -40,8 +40,8 @@ fn wide(n: u32, a: Gas, b: Gas, c: Gas, d: Gas, e: Gas, f: Gas) -> Stencil {
 
 // [s] over which the fluxes of the stage pass.
 fn stage_span() -> f32 {
-    if !ARS || RUNGE_KUTTA == 0u { return control.dt; }
-    return select(ARS_MIDDLE, ARS_LAST, RUNGE_KUTTA == 2u) * control.dt;
+    if !ARS || in_first() { return control.dt; }
+    return select(ARS_MIDDLE, ARS_LAST, in_third()) * control.dt;
 }
 
 // A third of a cell per stage: with all three axes in a shock, the most that is stable.
@@ -143,7 +143,7 @@ fn unit_between(c: Gas, d: Gas) -> f32 {
 // Internal energy at the face between two slots at the start of the step, by the mean of both.
 fn heat_between(s: Stencil, low: u32, high: u32) -> f32 {
     if !ARS { return 0.0; }
-    if RUNGE_KUTTA == 0u { return 0.5 * (carried_heat(s.c) + carried_heat(s.d)); }
+    if in_first() { return 0.5 * (carried_heat(s.c) + carried_heat(s.d)); }
     return 0.5 * (energy[part(START_HEAT, low)] + energy[part(START_HEAT, high)]);
 }
 

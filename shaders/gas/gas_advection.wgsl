@@ -2,7 +2,7 @@
 // Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
 // TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
 // What the stages of the Runge-Kutta scheme do. With ARS (shared/state.wgsl) one comes before the first of two solves, two before the second:
-//   scheme, RUNGE_KUTTA   carries                        adds to                         writes
+//   scheme, stage         carries                        adds to                         writes
 //   TVD-RK2, 0            U0: conserved                  U0                              U1: HALFWAY
 //   TVD-RK2, 1            U1: HALFWAY                    U1, and halves the sum with U0  U*: ADVECTED
 //   ARS, 0                U0: conserved                  U0                              ADVECTED, KEPT, COLD_ENERGY; of U0 START
@@ -15,8 +15,19 @@
 #include "gas/flux.wgsl"
 #include "gas/faces.wgsl"
 #include "gas/cut_carrier.wgsl"
+#include "gas/stage_result.wgsl"
 
-override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
+// Stage of the scheme: 0, 1, and with ARS 2; or BY_UNIFORM: one kernel for all, which costs little where slots are few.
+override RUNGE_KUTTA: u32;
+const BY_UNIFORM = 3u;
+
+// What a dispatch of such a kernel does: a stage, or (limited: 1) its correction by the limiter.
+struct Advection { stage: u32, limited: u32 }
+
+fn in_stage(stage: u32) -> bool { return RUNGE_KUTTA == BY_UNIFORM && advection.stage == stage; }
+fn in_first() -> bool { return RUNGE_KUTTA == 0u || in_stage(0u); }
+fn in_second() -> bool { return RUNGE_KUTTA == 1u || in_stage(1u); }
+fn in_third() -> bool { return RUNGE_KUTTA == 2u || in_stage(2u); }
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -26,6 +37,7 @@ override RUNGE_KUTTA: u32;    // stage of the scheme: 0, 1, and with ARS 2
 @group(0) @binding(6) var<storage, read> node: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> theta: array<f32>;       // share of the high-order flux a cell allows; below 0: of the first-order flux
 @group(0) @binding(8) var<storage, read> extra: array<u32>;
+@group(0) @binding(9) var<uniform> advection: Advection;
 
 // Two parts of a slot, of the second gas; 0 without one.
 fn species_at(density: u32, volume: u32, slot: u32) -> vec2f {
@@ -49,11 +61,12 @@ fn start(slot: u32) -> Gas { return Gas(in_space(conserved[slot]), energy[slot],
 
 // State of a slot that this stage carries, see the table above.
 fn source(slot: u32) -> Gas {
-    if RUNGE_KUTTA == select(1u, 2u, ARS) {
-        return Gas(in_space(work[part(HALFWAY_FLOW, slot)]), energy[part(HALFWAY_ENERGY, slot)], species_at(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, slot),
-            unburned_at(HALFWAY_UNBURNED, slot));
-    }
-    return start(slot);
+    let halfway = (ARS && in_third()) || (!ARS && in_second());
+    var flow: vec4f;
+    if halfway { flow = work[part(HALFWAY_FLOW, slot)]; } else { flow = conserved[slot]; }
+    let species = species_at(select(SPECIES_DENSITY, HALFWAY_SPECIES_DENSITY, halfway), select(SPECIES_VOLUME, HALFWAY_SPECIES_VOLUME, halfway), slot);
+    let unburned = unburned_at(select(UNBURNED, HALFWAY_UNBURNED, halfway), slot);
+    return Gas(in_space(flow), energy[select(slot, part(HALFWAY_ENERGY, slot), halfway)], species, unburned);
 }
 
 // dt L(U) of a slot inside the domain; of all cells that share its state together.
@@ -135,64 +148,21 @@ fn axis_change(slot: u32, word: u32, n: u32, here: Gas) -> Change {
     return change;
 }
 
-// The state that the change of this stage is added to.
-fn start_of(slot: u32, here: Gas) -> Gas {
-    if !ARS || RUNGE_KUTTA == 0u { return here; }
-    // Density is never the solve's: it starts from that of U0 to the last bit.
-    let factor = select(ARS_MIDDLE, ARS_RETURNED, RUNGE_KUTTA == 2u);
-    let gained = in_space(conserved[slot]) - in_space(work[part(KEPT_FLOW, slot)]);
-    return Gas(in_space(work[part(START_FLOW, slot)]) + factor * gained,
-        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]), species_at(START_SPECIES_DENSITY, START_SPECIES_VOLUME, slot),
-        unburned_at(START_UNBURNED, slot));
-}
-
-fn write_species(density: u32, volume: u32, unburned: u32, slot: u32, species: vec3f) {
-    if !SPECIES { return; }
-    energy[part(density, slot)] = species.x;
-    energy[part(volume, slot)] = species.y;
-    if PRODUCTS { energy[part(unburned, slot)] = species.z; }
-}
-
-fn write_result(slot: u32, before: Gas, all: Change) {
-    let change = all.high_order;
-    let species = vec3f(before.species + change.species, before.unburned + change.unburned);
-    if ARS && RUNGE_KUTTA != 1u {
-        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, ADVECTED_UNBURNED, slot, species);
-        work[part(ADVECTED_FLOW, slot)] = before.flow + change.flow;
-        energy[part(ADVECTED_ENERGY, slot)] = before.energy + change.energy;
-        energy[part(COLD_ENERGY, slot)] = before.energy + change.energy - all.heat;
-        if RUNGE_KUTTA == 2u { return; }
-        write_species(START_SPECIES_DENSITY, START_SPECIES_VOLUME, START_UNBURNED, slot, vec3f(before.species, before.unburned));
-        work[part(START_FLOW, slot)] = before.flow;
-        work[part(KEPT_FLOW, slot)] = before.flow + change.flow;
-        energy[part(START_ENERGY, slot)] = before.energy;
-        energy[part(KEPT_ENERGY, slot)] = before.energy + change.energy - all.heat;
-        energy[part(START_HEAT, slot)] = carried_heat(before);
-    } else if !ARS && RUNGE_KUTTA == 1u {
-        let start = vec3f(species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot), unburned_at(UNBURNED, slot));
-        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, ADVECTED_UNBURNED, slot, 0.5 * (start + species));
-        work[part(ADVECTED_FLOW, slot)] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
-        energy[part(ADVECTED_ENERGY, slot)] = 0.5 * (energy[slot] + before.energy + change.energy);
-    } else {
-        write_species(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, HALFWAY_UNBURNED, slot, species);
-        work[part(HALFWAY_FLOW, slot)] = before.flow + change.flow;
-        energy[part(HALFWAY_ENERGY, slot)] = before.energy + change.energy;
-    }
-}
-
-// Ends the stage for a slot: limits the change and writes what follows.
-fn finish(slot: u32, here: Gas, change: Change) {
+// Ends the stage for a slot: says how much of the change the limiter allows unless it is `limited` already, and writes what follows.
+fn finish(slot: u32, here: Gas, change: Change, limited: bool) {
     let before = start_of(slot, here);
-    var share = 1.0;
-    if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
-    theta[slot] = share;
-    if share < 1.0 { atomicAdd(&control.limited, 1u); }
+    for (var turn = 0u; turn < when(!limited); turn++) {
+        var share = 1.0;
+        if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
+        theta[slot] = share;
+        if share < 1.0 { atomicAdd(&control.limited, 1u); }
+    }
     write_result(slot, before, change);
 }
 
 // Whether nothing passes through the faces of a slot: its state is then the same in all Runge-Kutta stages. Clusters of cut cells reach
 // further, and the second of two solves starts from what the first has moved.
-fn stays(slot: u32) -> bool { return !CUT && !(ARS && RUNGE_KUTTA > 0u) && is_still(slot); }
+fn stays(slot: u32) -> bool { return !CUT && !(ARS && !in_first()) && is_still(slot); }
 
 // Ends the stage for a slot that nothing passes.
 fn stay(slot: u32) {
@@ -207,21 +177,40 @@ fn is_served(c: vec3i) -> bool {
     return steps.x + steps.y + steps.z == 1 && kind_of(cells[slot_of(near)]) == GAS && !stays(slot_of(near));
 }
 
-// One slot of the list.
+// Whether the faces of a slot carry less than the full flux.
+fn carries_less(slot: u32) -> bool {
+    var least = theta[slot];
+    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
+        let member = cell_of(at);
+        for (var n = 0u; n < DIM; n++) {
+            if in_ring(member - axis(n)) { least = min(least, theta[slot_of(member - axis(n))]); }
+            if in_ring(member + axis(n)) { least = min(least, theta[slot_of(member + axis(n))]); }
+        }
+    }
+    return least < 1.0;
+}
+
+// One slot of the list. Limited, where the limiter acted somewhere: any slot whose faces carry less than the full flux, once more.
 @compute @workgroup_size(WORKGROUP)
 fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
+    let limited = advection.limited == 1u;
+    var slot = thread_index(group, lane);
+    if !limited { slot = swept_slot(slot); }
     if slot >= params.slots { return; }
     let c = cell_of(slot);
     let beyond = !inside(c);
     let still = stays(slot);
-    if beyond {
+    var computed = !still && !beyond;
+    if limited {
+        if !computed || is_alias(c) { return; }
+        computed = carries_less(slot);
+    } else if beyond {
         theta[slot] = 1.0;
         if !is_served(c) { write_result(slot, start_of(slot, source(slot)), Change()); }
     } else if still {
         stay(slot);
     }
-    for (var turn = 0u; turn < when(!still && !beyond); turn++) { finish(slot, source(slot), change_of(slot, false)); }
+    for (var turn = 0u; turn < when(computed); turn++) { finish(slot, source(slot), change_of(slot, limited), limited); }
 }
 
 // A column of params.march slots along the last axis: each state there is read once, each face computed once. `moving`: the places of the
@@ -235,7 +224,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let first = swept_slot(thread);
     let last = params.slots - 1u;
     if first > last { return; }
-    let moving = moving_rows(thread, CUT || (ARS && RUNGE_KUTTA > 0u));
+    let moving = moving_rows(thread, CUT || (ARS && !in_first()));
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
         if slot <= last && (k < moving.x || k >= moving.y) { stay(slot); }
@@ -268,7 +257,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
             add_face(&along, high, 1.0, -1.0);
             change = plus(change, along);
             for (var m = 0u; m < n; m++) { change = plus(change, axis_change(slot, word, m, here)); }
-            finish(slot, here, change);
+            finish(slot, here, change, false);
         }
         low = high;
         word = next;
@@ -278,23 +267,4 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
         e = f;
         f = g;
     }
-}
-
-// Only where the limiter acted somewhere: the slots whose faces carry less than the full flux once more.
-@compute @workgroup_size(WORKGROUP)
-fn advect_limited(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, lane);
-    if slot >= params.slots { return; }
-    let c = cell_of(slot);
-    if !inside(c) || is_alias(c) || stays(slot) { return; }
-    var least = theta[slot];
-    for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
-        let member = cell_of(at);
-        for (var n = 0u; n < DIM; n++) {
-            if in_ring(member - axis(n)) { least = min(least, theta[slot_of(member - axis(n))]); }
-            if in_ring(member + axis(n)) { least = min(least, theta[slot_of(member + axis(n))]); }
-        }
-    }
-    if least == 1.0 { return; }
-    write_result(slot, start_of(slot, source(slot)), change_of(slot, true));
 }

@@ -1,5 +1,6 @@
 //! One entry point with the values of its overrides: what they rule out is left out, for drivers take long to find that themselves.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 use wgpu::naga::back::pipeline_constants::process_overrides;
@@ -21,10 +22,16 @@ pub(super) fn specialised(compiled: &Compiled, entry: &str, overrides: &[(String
     let (module, _) =
         process_overrides(&compiled.module, &compiled.uses, point, &values).map_err(|error| error.to_string())?;
     let mut module = module.into_owned();
-    let known = Constants { constants: &module.constants, values: &module.global_expressions };
-    let functions = module.functions.iter_mut().map(|(_, function)| function);
-    for function in functions.chain(module.entry_points.iter_mut().map(|point| &mut point.function)) {
-        prune(&known, function);
+    let mut known =
+        Constants { constants: &module.constants, values: &module.global_expressions, answers: HashMap::new() };
+    // a function is declared before those that call it
+    for (handle, function) in module.functions.iter_mut() {
+        if let Some(answer) = prune(&known, function) {
+            known.answers.insert(handle, answer);
+        }
+    }
+    for point in &mut module.entry_points {
+        prune(&known, &mut point.function);
     }
     // a constant with a name is kept, whether it is used or not
     module.constants.iter_mut().for_each(|(_, constant)| constant.name = None);
@@ -32,28 +39,34 @@ pub(super) fn specialised(compiled: &Compiled, entry: &str, overrides: &[(String
     Ok(module)
 }
 
-/// Constants of a module, and the expressions that they name.
+/// Constants of a module, the expressions that they name, and functions that always give the same truth value.
 struct Constants<'a> {
     constants: &'a Arena<Constant>,
     values: &'a Arena<Expression>,
+    answers: HashMap<Handle<Function>, bool>,
 }
 
 /// Truth values held by variables that the front end makes for `&&` and `||`: it writes each just before it reads it.
 type Held = HashMap<Handle<LocalVariable>, bool>;
 
-/// Leaves out the branches of a function that are never taken.
-fn prune(constants: &Constants<'_>, function: &mut Function) {
+/// Leaves out the branches of a function that are never taken. The truth value that it gives, if that is always the same.
+fn prune(constants: &Constants<'_>, function: &mut Function) -> Option<bool> {
     let body = std::mem::take(&mut function.body);
-    let pruning = Pruning { constants, expressions: &function.expressions, variables: &function.local_variables };
+    let (expressions, variables) = (&function.expressions, &function.local_variables);
+    let pruning = Pruning { constants, expressions, variables, returned: RefCell::default() };
     function.body = pruning.block(body, &mut Held::new());
     // A name keeps what it names, also where that was left out.
     function.named_expressions.clear();
+    let returned = pruning.returned.take();
+    returned.first().copied().flatten().filter(|first| returned.iter().all(|value| *value == Some(*first)))
 }
 
 struct Pruning<'a> {
     constants: &'a Constants<'a>,
     expressions: &'a Arena<Expression>,
     variables: &'a Arena<LocalVariable>,
+    /// What is known of the values that are returned.
+    returned: RefCell<Vec<Option<bool>>>,
 }
 
 impl Pruning<'_> {
@@ -85,6 +98,10 @@ impl Pruning<'_> {
                     self.hold(pointer, value, held);
                     left.push(Statement::Store { pointer, value }, span);
                 }
+                Statement::Return { value } => {
+                    self.returned.borrow_mut().push(value.and_then(|value| self.truth(value, held)));
+                    left.push(Statement::Return { value }, span);
+                }
                 other => left.push(other, span),
             }
             if left.last().is_some_and(leaves) {
@@ -114,6 +131,7 @@ impl Pruning<'_> {
                 Expression::Literal(Literal::Bool(value)) => Some(value),
                 _ => None,
             },
+            Expression::CallResult(function) => self.constants.answers.get(&function).copied(),
             Expression::Load { pointer } => match self.expressions[pointer] {
                 Expression::LocalVariable(variable) => held.get(&variable).copied(),
                 _ => None,
@@ -159,8 +177,9 @@ override CUT: bool = false;
 @group(0) @binding(1) var<storage, read_write> apertures: array<f32>;
 fn in_space(value: f32) -> f32 { return 3.0 * value; }
 fn of_cut(value: f32) -> f32 { apertures[0] = value; return value; }
+fn in_plane() -> bool { return DIM < 3u || (DIM == 4u && values[0] > 0.0); }
 fn early(value: f32) -> f32 {
-    if (DIM == 3u) { return in_space(value); }
+    if (!in_plane()) { return in_space(value); }
     return of_cut(value);
 }
 @compute @workgroup_size(1)

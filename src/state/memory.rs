@@ -12,8 +12,9 @@ use crate::math::greatest_divisor;
 use crate::numerics::{PcgControl, Scan, pcg};
 use crate::scene::{MAX_BODIES, Scene};
 
-/// Labels of buffers that the plan counts together with others: of prefix sums, of terms of the surface, of colours of columns.
-const COUNTED_TOGETHER: [&str; 5] = ["scan level", "scan totals", "scan offsets", "turn", "color"];
+/// Labels of buffers that the plan counts together with others: of prefix sums, of terms of the surface, of colours of
+/// columns, of stages of the advection.
+const COUNTED_TOGETHER: [&str; 6] = ["scan level", "scan totals", "scan offsets", "turn", "color", "advection"];
 
 /// Bytes in a gibibyte.
 const GIB: f64 = (1u64 << 30) as f64;

@@ -2,7 +2,7 @@
 //! [Cao et al. 2022, eqs. 10-12] The form over marches runs first: the form over the list overwrites what it writes into listed slots.
 
 use crate::error::Result;
-use crate::gpu::{Bound, Pass};
+use crate::gpu::{Bound, Buffer, Pass};
 use crate::stage::sweep::Form;
 use crate::stage::{Decision, TimeStep};
 use crate::state::stages::Stage;
@@ -21,13 +21,24 @@ struct RungeKuttaStage {
     limited: Bound,
 }
 
+/// Tells a kernel to take the stage from its uniform.
+const BY_UNIFORM: u32 = 3;
+
 impl RungeKuttaStage {
+    /// The form over the list is the dearest kernel to compile: one serves all stages and their corrections.
     fn new(state: &State, stage: u32) -> Result<Self> {
-        let (shader, switches) = ("gas/gas_advection.wgsl", [("RUNGE_KUTTA", f64::from(stage))]);
-        let form = |over: Over, entry: &str| Form::new(state, over, [shader, entry], &[], &switches);
+        let buffer = || Buffer::uniform(&state.gpu, "advection", 2);
+        let [whole, limited] = [buffer()?, buffer()?];
+        whole.write(&state.gpu, 0, &[stage, 0]);
+        limited.write(&state.gpu, 0, &[stage, 1]);
+        let form = |over: Over, entry: &str, by: u32, advection: &Buffer<u32>| {
+            let (renamed, switches) = ([("advection", advection.raw())], [("RUNGE_KUTTA", f64::from(by))]);
+            Form::new(state, over, ["gas/gas_advection.wgsl", entry], &renamed, &switches)
+        };
+        let listed = |advection: &Buffer<u32>| form(Over::Listed, "advect_listed", BY_UNIFORM, advection);
         Ok(Self {
-            forms: [form(Over::Marches, "advect_interior")?, form(Over::Listed, "advect_listed")?],
-            limited: state.bind(shader, "advect_limited", &[], &switches)?,
+            forms: [form(Over::Marches, "advect_interior", stage, &whole)?, listed(&whole)?],
+            limited: listed(&limited)?.kernel.in_form("limited"),
         })
     }
 }
