@@ -234,7 +234,8 @@ fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {
 fn add_species(change: ptr<function, Change>, f: Fluxes, share: vec2f, scale: f32) {
     let beyond = f.high_order.species - f.first_order.species;
     let carried = vec2f(0.0, (*change).phi * f.volume);
-    let through = scale * (share.x * (f.first_order.species + share.y * beyond - carried));
+    let reached = select(f.first_order.species + share.y * beyond, f.high_order.species, share.y == 1.0);
+    let through = scale * (share.x * (reached - carried));
     (*change).high_order.species += vec2f(whole(through.x, f.unit), through.y);
     (*change).first_order.species += scale * (f.first_order.species - carried);
     (*change).high_order.unburned += scale * share.x * mix(f.first_order.unburned, f.high_order.unburned, share.y);
