@@ -189,7 +189,9 @@ impl Simulation {
         }
         self.record_held(pass, Phase::Begin);
         self.record_force(pass);
-        self.time_step.decide(pass, Decision::Listed);
+        if state.has_solids() {
+            self.time_step.decide(pass, Decision::Listed);
+        }
         self.still.record(pass, state);
         if let Some(dust) = &self.dust {
             dust.record(pass, state);

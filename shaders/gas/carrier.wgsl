@@ -105,24 +105,32 @@ fn surplus_beyond(c: vec3i, slot: u32) -> vec4f {
     return select(vec4f(0.0), vec4f(solved - average(near, slot_of(near))[n]), vec4<bool>(along(n), false));
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn find_average(slot: u32) {
     let word = cells[slot];
-    if SWEEP == OVER_LISTED && SOURCE == 0u && kind_of(word) == GHOST { node[slot] = surplus_beyond(cell_of(slot), slot); }
+    if is_listed() && SOURCE == 0u && kind_of(word) == GHOST { node[slot] = surplus_beyond(cell_of(slot), slot); }
     if kind_of(word) != GAS { return; }
     if stays(slot) {
         node[slot] = vec4f(0.0);
         return;
     }
-    if SWEEP == OVER_LISTED {
+    if is_listed() {
         node[slot] = vec4f(average(cell_of(slot), slot), 0.0);
         return;
     }
     var sum = vec3f(0.0);
     for (var n = 0u; n < DIM; n++) { sum[n] = interior_average(slot, n); }
     node[slot] = vec4f(sum, 0.0);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn carrier_average(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { find_average(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { find_average(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { find_average(listed_slot(k)); }
 }
 
 // Mass-weighted carrier at the face between GAS cell c and its neighbour.
@@ -154,14 +162,11 @@ fn cut_divergence(slot: u32) -> f32 {
     return sum / cluster_share(slot);
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn find_divergence(slot: u32) {
     let word = cells[slot];
     if kind_of(word) != GAS || stays(slot) { return; }
     var sum = 0.0;
-    if SWEEP == OVER_LISTED {
+    if is_listed() {
         let c = cell_of(slot);
         if CUT { sum = cut_divergence(slot); }
         else { for (var n = 0u; n < DIM; n++) { sum += rounded(face_mean(c, slot, n, true) - face_mean(c, slot, n, false)); } }
@@ -176,6 +181,17 @@ fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(local_invoca
         }
     }
     node[slot].w = sum;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn carrier_divergence(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { find_divergence(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { find_divergence(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { find_divergence(listed_slot(k)); }
 }
 
 // Three cells next to each other along x: density and velocity.
@@ -194,17 +210,18 @@ fn row_average(r: Row) -> f32 { return 0.5 * r.y.y + 0.25 * (r.y.x + r.y.z); }
 
 fn mean_of(a: f32, u: f32, b: f32, v: f32) -> f32 { return (a * u + b * v) / (a + b); }
 
+// Whether a march writes what stays at a slot: in a kernel that has the list, too, only deep inside the gas.
+fn leaves_out(slot: u32) -> bool { return SWEEP != OVER_WHOLE || has(cells[slot], INTERIOR); }
+
 // Average and divergence at once, deep inside the gas in 2D: a column of params.march slots, each row of three read once.
-@compute @workgroup_size(WORKGROUP)
-fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn march(thread: u32) {
     let s = params.stride.x;
-    let thread = thread_index(group, lane);
     let first = swept_slot(thread);
     if first >= params.slots { return; }
     let moving = moving_rows(thread, CUT || SOLVED);
     for (var k = 0u; k < params.march; k++) {
         let slot = first + k * s;
-        if slot < params.slots && (k < moving.x || k >= moving.y) { node[slot] = vec4f(0.0); }
+        if slot < params.slots && (k < moving.x || k >= moving.y) && leaves_out(slot) { node[slot] = vec4f(0.0); }
     }
     if moving.x == moving.y { return; }
     let begin = first + moving.x * s;
@@ -223,4 +240,15 @@ fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         low = here;
         here = high;
     }
+}
+
+// The same, on a GPU with the averages of the list.
+@compute @workgroup_size(WORKGROUP)
+fn carrier_march(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    march(thread);
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { find_average(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { find_average(listed_slot(k)); }
 }

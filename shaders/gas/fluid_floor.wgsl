@@ -2,7 +2,7 @@
 // without energy, so a cell squeezed between faces may hold more kinetic than total energy. Its momentum is scaled until a tenth
 // of the internal energy before the pressure step is left, and the entropy of no gas that was there; the ledger takes the momentum.
 // Only if the total energy itself is below that floor is energy borrowed from the ledger. Every floored cell is counted.
-// The plain form runs only if fluid_energy has found a cell that may need it.
+// Deep inside the gas it runs only if fluid_energy has found a cell that may need it.
 // What has crossed the boundary goes from the slot where it was collected to the ledger, where all of it is.
 #include "shared/domain.wgsl"
 #include "gas/floor.wgsl"

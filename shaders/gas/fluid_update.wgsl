@@ -74,15 +74,10 @@ fn interior_heat(slot: u32, here: vec4f) -> f32 {
     return heat + heat_at_vertices(cell_of(slot), slot);
 }
 
+fn push_interior(slot: u32) { conserved[slot] += vec4f(0.0, interior_impulse(slot) * control.dt / params.spacing); }
+
 // Calls with c in GAS; slots of other kinds see the same face from the other side.
-@compute @workgroup_size(WORKGROUP)
-fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
-    if SWEEP != OVER_LISTED {
-        conserved[slot] += vec4f(0.0, interior_impulse(slot) * control.dt / params.spacing);
-        return;
-    }
+fn push_listed(slot: u32) {
     let kind = kind_of(cells[slot]);
     if kind == SOLID { return; }
     let c = cell_of(slot);
@@ -112,6 +107,17 @@ fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     if any(impulse != vec3f(0.0)) {
         conserved[slot] += vec4f(0.0, impulse * control.dt / params.spacing);
     }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn fluid_momentum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { push_interior(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { push_listed(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { push_listed(listed_slot(k)); }
 }
 
 // What passes a face of GAS cell c: p u.
@@ -179,17 +185,14 @@ fn may_be_cold(slot: u32, flow: vec4f, total: f32) -> bool {
     return is_unsound(flow.x, own) || own - kinetic_energy(flow) < least_energy(flow.x, species, own, before);
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
-    if SWEEP != OVER_LISTED {
-        let flow = in_space(conserved[slot]);
-        let total = energy[slot] + interior_heat(slot, flow) * control.dt / params.spacing;
-        if may_be_cold(slot, flow, total) { atomicStore(&control.cold, 1u); }
-        energy[slot] = total;
-        return;
-    }
+fn heat_interior(slot: u32) {
+    let flow = in_space(conserved[slot]);
+    let total = energy[slot] + interior_heat(slot, flow) * control.dt / params.spacing;
+    if may_be_cold(slot, flow, total) { atomicStore(&control.cold, 1u); }
+    energy[slot] = total;
+}
+
+fn heat_listed(slot: u32) {
     let kind = kind_of(cells[slot]);
     if kind == WALL || kind == SOLID { return; }
     var heat = 0.0;
@@ -199,4 +202,15 @@ fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     }
     heat /= cluster_share(slot);
     if heat != 0.0 { energy[slot] += heat * control.dt / params.spacing; }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn fluid_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { heat_interior(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { heat_listed(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { heat_listed(listed_slot(k)); }
 }

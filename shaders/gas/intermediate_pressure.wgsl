@@ -84,14 +84,14 @@ fn cut_divergence(slot: u32, own: f32) -> f32 {
 // What the divergence of the carrier falls short of its mean around a cell, summed over the faces between GAS cells: as much of it as the
 // faces have back [shared/state.wgsl] adds to the divergence.
 fn carried_shortfall(slot: u32, own: f32) -> f32 {
-    if SWEEP == OVER_LISTED && CUT { return cut_divergence(slot, own) / cluster_share(slot); }
+    if is_listed() && CUT { return cut_divergence(slot, own) / cluster_share(slot); }
     var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
         var along = 0.0;
         for (var side = 0u; side < 2u; side++) {
             var other = select(slot - step_of(n), slot + step_of(n), side == 1u);
-            if SWEEP == OVER_LISTED && PERIODIC != 0u { other = slot_of(cell_of(slot) + select(-1, 1, side == 1u) * axis(n)); }
-            if SWEEP != OVER_LISTED || kind_of(cells[other]) == GAS { along += node[other].w - own; }
+            if is_listed() && PERIODIC != 0u { other = slot_of(cell_of(slot) + select(-1, 1, side == 1u) * axis(n)); }
+            if !is_listed() || kind_of(cells[other]) == GAS { along += node[other].w - own; }
         }
         sum += along;
     }
@@ -102,7 +102,7 @@ fn carried_shortfall(slot: u32, own: f32) -> f32 {
 fn plain_divergence(c: vec3i, slot: u32, here: Gas) -> f32 {
     var sum = 0.0;
     for (var n = 0u; n < DIM; n++) {
-        if SWEEP == OVER_LISTED {
+        if is_listed() {
             for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) {
                 let member = cell_of(at);
                 sum += (aperture(at, n, true) * face_velocity(member, n, true, here)
@@ -144,10 +144,7 @@ fn keep_species(slot: u32, here: Gas) {
     if PRODUCTS { energy[part(UNBURNED, slot)] = here.unburned; }
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn predict(slot: u32) {
     let here = advected(slot);
     if kind_of(cells[slot]) != GAS {
         conserved[slot] = here.flow;
@@ -177,4 +174,15 @@ fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     keep_species(slot, here);
     conserved[slot] = here.flow + vec4f(0.0, pull);
     energy[slot] = total + control.dt * dot(here.flow.yzw + 0.5 * pull, params.gravity);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pressure_star(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { predict(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { predict(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { predict(listed_slot(k)); }
 }

@@ -17,8 +17,8 @@ fn least_around(v: vec3i) -> f32 {
     var least = 3.4e38;
     for (var k = 0u; k < corner_count(); k++) {
         let slot = slot_of(v - corner_offset(k));
-        if SWEEP == OVER_LISTED && kind_of(cells[slot]) != GAS { continue; }
-        if SWEEP == OVER_LISTED && cut_entry(slot) != 0u { return -1.0; }
+        if is_listed() && kind_of(cells[slot]) != GAS { continue; }
+        if is_listed() && cut_entry(slot) != 0u { return -1.0; }
         least = min(least, own_pressure(slot));
     }
     return least;
@@ -40,10 +40,7 @@ fn surplus(v: vec3i) -> f32 {
     return select(0.0, sum.x / sum.y, sum.y > 0.0);
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn parting_surplus(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn ask(slot: u32) {
     let v = cell_of(slot);
     if !is_vertex(v) || is_alias(v) { return; }
     let least = least_around(v);
@@ -52,4 +49,15 @@ fn parting_surplus(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     for (var turn = 0u; turn < when(least >= 0.0 && most > 2.0 * least); turn++) { asked = surplus(v); }
     if asked > most_asked() { atomicAdd(&control.limited, 1u); }
     pressure[surplus_index(slot)] = asked;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn parting_surplus(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { ask(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { ask(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { ask(listed_slot(k)); }
 }

@@ -26,9 +26,8 @@ fn open_iteration(on: bool) {
     pcg_extents[PCG_APART] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * (keep - joined);
     pcg_extents[PCG_JOINED] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * joined;
     pcg_extents[PCG_SINGLE] = vec4u(keep);
-    pcg_extents[PCG_LISTED] = vec4u(pcg.listed_wide, pcg.listed_high, 1u, 0u) * keep;
+    pcg_extents[PCG_NEAR] = vec4u(pcg.near_wide, pcg.near_high, 1u, 0u) * keep;
     pcg_extents[PCG_BLOCK] = vec4u(pcg.groups_block, 1u, 1u, 0u) * keep;
-    pcg_extents[PCG_FRONTIER] = vec4u(pcg.frontier_wide, pcg.frontier_high, 1u, 0u) * keep;
     for (var k = 0u; k < PCG_LEVELS; k++) { pcg_extents[PCG_LEVEL + k] = vec4u(pcg.level_groups[k], 1u, 1u, 0u) * keep; }
 }
 
@@ -45,8 +44,16 @@ fn first_unknowns(thread: u32) -> Octet { return first_octet(thread, pcg.groups_
 fn are_left(octet: Octet) -> bool { return octet.at.y * pcg.row < pcg.length; }
 fn unknown_in(octet: Octet, thread: u32) -> u32 { return element_in(octet, thread, pcg.row, pcg.length); }
 
+// What the block's own preconditioner has left in the product's place.
+fn of_block(i: u32) -> f32 {
+    let within = i - pcg.block_at;
+    var z = 0.0;
+    for (var turn = 0u; turn < when(i >= pcg.block_at && within < pcg.block_length); turn++) { z = product[i]; }
+    return z;
+}
+
 fn begin(i: u32) -> vec4f {
-    let z = inverse_diagonal[i] * residual[i];
+    let z = inverse_diagonal[i] * residual[i] + of_block(i);
     solution[i] = 0.0;
     direction[i] = z;
     return vec4f(z * residual[i], select(inverse_diagonal[i] * product[i] * product[i], 0.0, pcg.reference_at != 0u), 0.0, 0.0);
@@ -92,15 +99,11 @@ fn decide() {
     open_iteration(pcg.outcome == PCG_RUNNING);
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn pcg_alpha(@builtin(local_invocation_index) lane: u32) {
-    let sum = total(lane);
-    if lane != 0u { return; }
-    pcg.alpha = select(0.0, pcg.rho / sum.x, sum.x > 0.0);
-    // Joined: the new r . z is alpha^2 q . D^-1 q - rho, for z and q meet as p and q do. Sums of single precision make an error of
-    // 1e-7 in it, which matters as little as the old direction does then.
-    pcg.beta = max(pcg.alpha * sum.y / sum.x - 1.0, 0.0);
-}
+// Step length, and joined the weight of the old direction, from what the operator leaves. Every group finds them for itself: a kernel less.
+// Joined: the new r . z is alpha^2 q . D^-1 q - rho, for z and q meet as p and q do. Sums of single precision make an error of
+// 1e-7 in it, which matters as little as the old direction does then.
+fn step_length(dots: vec4f) -> f32 { return select(0.0, pcg.rho / dots.x, dots.x > 0.0); }
+fn weight_before(dots: vec4f) -> f32 { return max(step_length(dots) * dots.y / dots.x - 1.0, 0.0); }
 
 fn update(i: u32, alpha: f32) -> f32 {
     let r = residual[i] - alpha * product[i];
@@ -111,7 +114,7 @@ fn update(i: u32, alpha: f32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, lane);
-    let alpha = pcg.alpha;
+    let alpha = step_length(total_from(pcg.dots_at, lane));
     var sum = vec4f(0.0);
     for (var octet = first_unknowns(thread); are_left(octet); octet = next_octet(octet)) {
         let i = unknown_in(octet, thread);
@@ -123,11 +126,15 @@ fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 
 @compute @workgroup_size(WORKGROUP)
 fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
+    let dots = total_from(pcg.dots_at, lane);
     let sum = total(lane);
     if lane != 0u || pcg.outcome != PCG_RUNNING { return; } // dispatched always: it writes the table that gates the others
     let rho = sum.x + sum.z;
     if takes_joined() { pcg.alpha = 0.0; } // the solution has it
-    else { pcg.beta = select(0.0, rho / pcg.rho, pcg.rho > 0.0); }
+    else {
+        pcg.alpha = step_length(dots);
+        pcg.beta = select(0.0, rho / pcg.rho, pcg.rho > 0.0);
+    }
     pcg.size = sum.x;
     pcg.rho = rho;
     pcg.iterations += 1u;
@@ -137,7 +144,7 @@ fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
 fn turn(i: u32, alpha: f32, beta: f32) {
     let step = direction[i];
     solution[i] += alpha * step;
-    direction[i] = inverse_diagonal[i] * residual[i] + beta * step;
+    direction[i] = inverse_diagonal[i] * residual[i] + of_block(i) + beta * step;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -165,8 +172,9 @@ fn step(i: u32, alpha: f32, beta: f32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn pcg_step(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, lane);
-    let alpha = pcg.alpha;
-    let beta = pcg.beta;
+    let dots = total_from(pcg.dots_at, lane);
+    let alpha = step_length(dots);
+    let beta = weight_before(dots);
     var sum = vec4f(0.0);
     for (var octet = first_unknowns(thread); are_left(octet); octet = next_octet(octet)) {
         let i = unknown_in(octet, thread);

@@ -1,35 +1,86 @@
-// Which slot a thread has, and what is special there: gas that rests, obstacles that cut cells, open sides, entries of the ledger.
+// Which slots a thread has, and what is special there: gas that rests, obstacles that cut cells, open sides.
 // Needs the bindings cells and extra.
 #include "shared/index.wgsl"
 
 // -- Sweep --
 
-// Which slot has a thread? A kernel over slots is compiled once for each kind of slots that it goes over: deep inside the gas (INTERIOR), where
-// every stencil is the same, and over the list of the others, without those that periodic sides repeat. So no thread waits for a
-// neighbour's special case. Kernels whose results only listed slots read go over the frontier in place of the interior: slots deep inside
-// the gas whose nodes listed vertices rest on. Marches pass columns of slots of every kind: their kernels ask for INTERIOR themselves.
-// src/stage/sweep.rs binds the forms.
+// Which slots has a thread? Deep inside the gas (INTERIOR) every stencil is the same; the others stand in a list, without those that periodic
+// sides repeat. A kernel over both takes the slot deep inside that its thread has, then its slots of the list:
+//     let own = interior_slot(thread);
+//     if own < params.slots { .. }
+//     on_list = true;
+//     let next = one_listed(thread);   // and the same with it
+//     for (var k = first_listed(thread); k < among(); k = next_listed(k)) { let slot = listed_slot(k); .. }
+// A GPU runs both at once. For a CPU it is compiled once for each kind, as an octet of threads computes what any of them needs.
+// Kernels whose results only listed slots read go over the frontier in place of the interior: slots deep inside the gas whose nodes listed
+// vertices rest on. Marches pass columns of slots of every kind: their kernels ask for INTERIOR themselves.
+// src/stage/sweep.rs binds the forms. OVER_SLOTS: all; OVER_INTERIOR, OVER_LISTED, OVER_BOTH; OVER_FRONTIER, OVER_NEAR: it and the list;
+// OVER_MARCHES: columns of params.march slots, OVER_WHOLE: they and the list.
+override SWEEP: u32;
 
-override SWEEP: u32;    // OVER_SLOTS: all; OVER_INTERIOR, OVER_LISTED, OVER_FRONTIER; OVER_MARCHES: columns of params.march slots
+// Whether the slot in hand is one of the list: kernels over both say it before they call what differs.
+var<private> on_list: bool;
 
-// Threads of the sweep; beyond them none has a slot.
+fn is_listed() -> bool { return SWEEP == OVER_LISTED || on_list; }
+
+// The slot deep inside the gas that a thread has, or of the frontier; params.slots if none.
+fn interior_slot(thread: u32) -> u32 {
+    if SWEEP == OVER_NEAR || SWEEP == OVER_FRONTIER {
+        if thread >= extra[part(LENGTHS, LENGTH_FRONTIER)] { return params.slots; }
+        // The frontier fills the list of slots from its end, which is where the lengths begin.
+        return extra[part(LENGTHS, 0u) - 1u - thread];
+    }
+    if SWEEP == OVER_LISTED || thread >= params.slots { return params.slots; }
+    return select(params.slots, thread, has(cells[thread], INTERIOR));
+}
+
+fn listed() -> u32 {
+    if SWEEP == OVER_INTERIOR || SWEEP == OVER_FRONTIER || SWEEP == OVER_MARCHES { return 0u; }
+    return extra[part(LENGTHS, LENGTH_LISTED)];
+}
+
+fn listed_slot(place: u32) -> u32 { return extra[part(LISTED_SLOTS, place)]; }
+
+// The slot of the list that a thread has, where each has one; params.slots if none.
+fn one_listed(thread: u32) -> u32 {
+    if SWEEP == OVER_BOTH || SWEEP == OVER_WHOLE || thread >= listed() { return params.slots; }
+    return listed_slot(thread);
+}
+
+// Slots of the list that threads over both take in turns.
+fn among() -> u32 {
+    if SWEEP == OVER_BOTH || SWEEP == OVER_WHOLE { return listed(); }
+    return 0u;
+}
+
+// Places of the list that a thread over both takes. Groups far from each other take neighbouring ones: a CPU's threads have groups that lie
+// together, and each of them shall have its share of the list.
+fn first_listed(thread: u32) -> u32 {
+    let group = thread / WORKGROUP;
+    let apart = list_groups();
+    if group >= LIST_PARTS * apart { return NO_EXTRA; }
+    return (LIST_PARTS * (group % apart) + group / apart) * WORKGROUP + thread % WORKGROUP;
+}
+
+fn list_groups() -> u32 { return groups_apart(select(params.slots, marches(), SWEEP == OVER_WHOLE)); }
+
+fn next_listed(place: u32) -> u32 { return place + LIST_PARTS * list_groups() * WORKGROUP; }
+
+// Threads of a sweep over one kind; beyond them none has a slot.
 fn swept_threads() -> u32 {
-    if SWEEP == OVER_LISTED { return extra[part(LENGTHS, LENGTH_LISTED)]; }
-    if SWEEP == OVER_FRONTIER { return extra[part(LENGTHS, LENGTH_FRONTIER)]; }
+    if SWEEP == OVER_LISTED { return listed(); }
     return params.slots;
 }
 
 // Slot of a thread, of a column the first one; params.slots if it has none.
 fn swept_slot(thread: u32) -> u32 {
-    if SWEEP == OVER_MARCHES {
+    if SWEEP == OVER_MARCHES || SWEEP == OVER_WHOLE {
         let slot = corner_of(thread / COLUMN_BLOCK) + thread % COLUMN_BLOCK;
         let column = thread / COLUMN_BLOCK % blocks_across() * COLUMN_BLOCK + thread % COLUMN_BLOCK;
         return select(params.slots, slot, column < columns());
     }
     if thread >= swept_threads() { return params.slots; }
-    if SWEEP == OVER_LISTED { return extra[part(LISTED_SLOTS, thread)]; }
-    // The frontier fills the list of slots from its end, which is where the lengths begin.
-    if SWEEP == OVER_FRONTIER { return extra[part(LENGTHS, 0u) - 1u - thread]; }
+    if SWEEP == OVER_LISTED { return listed_slot(thread); }
     if SWEEP == OVER_INTERIOR && !has(cells[thread], INTERIOR) { return params.slots; }
     return thread;
 }
@@ -221,53 +272,6 @@ fn velocity_beyond(o: Opening, here: vec4f) -> vec3f {
     if prescribes(o) { return velocity_of(o.flow); }
     if follows(o, RULE_ATTENUATED) { return velocity_of(mix(here, o.flow, o.share)); }
     return velocity_of(here);
-}
-
-// -- Ledger --
-
-// Where owed_flow and owed_energy have the entry of a slot. With bodies or obstacles every slot has its own place. Else only slots of
-// the ring have one, in their order, and what the energy floor takes from gas goes to control.borrowed.
-override RING_LEDGER: bool;
-
-// Slots of the ring.
-fn ring_count() -> u32 { return params.slots - params.cells.x * params.cells.y * params.cells.z; }
-
-// Place of a slot, with RING_LEDGER of one in the ring.
-fn ledger_place(slot: u32) -> u32 {
-    if !RING_LEDGER { return slot; }
-    let c = cell_of(slot);
-    let n = params.cells;
-    let before = vec3u(clamp(c, vec3i(0), vec3i(n)));           // cells with a smaller index along each axis
-    let level = (c >= vec3i(0)) & (c < vec3i(n));
-    let in_row = select(0u, before.x, level.y);
-    let in_layer = select(0u, before.y * n.x + in_row, level.z);
-    return slot - before.z * n.y * n.x - in_layer;
-}
-
-// Where a part of owed_energy begins.
-fn ledger_part(k: u32) -> u32 { return k * select(params.slots, ring_count(), RING_LEDGER); }
-
-// Mass and momentum, and energy, that count as one in control.borrowed: about those of ambient gas in a cell.
-fn borrowed_unit() -> vec2f {
-    return cell_volume() * vec2f(sqrt(params.ambient_pressure * params.ambient_density), params.ambient_pressure);
-}
-
-// -- Whole units --
-
-// Density that goes from cell to cell in whole units of the last place of the denser one: what one gives up is then, to the last bit,
-// what the other takes.
-
-const LAST_PLACE = 1.1920928955078125e-7;   // 2^-23
-
-fn power_of_two(density: f32) -> f32 { return bitcast<f32>(bitcast<u32>(density) & 0x7f800000u); }
-
-// Of a power of two, exactly: a division may be off by some units in the last place.
-fn inverse_of_power(unit: f32) -> f32 { return bitcast<f32>(0x7f000000u - bitcast<u32>(unit)); }
-
-// A unit below the smallest normal number is none.
-fn whole(density: f32, unit: f32) -> f32 {
-    if bitcast<u32>(unit) < 0x00800000u { return density; }
-    return round(density * inverse_of_power(unit)) * unit;
 }
 
 // -- What carries the gas --

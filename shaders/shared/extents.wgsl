@@ -9,25 +9,26 @@ fn groups_for(threads: u32) -> vec4u {
     return vec4u(min(groups, MAX_GROUPS), (groups + MAX_GROUPS - 1u) / MAX_GROUPS, 1u, 0u);
 }
 
-// Threads that march along the last axis.
-fn marches() -> u32 { return blocks_across() * COLUMN_BLOCK * layers(); }
+// Of kernels that take the list, too [shared/domain.wgsl].
+fn groups_over_both(threads: u32) -> vec4u { return groups_for(LIST_PARTS * groups_apart(threads) * WORKGROUP); }
 
-fn surface_groups() -> vec4u {
-    let rows = min(control.extra, params.surface_rows);
-    return vec4u(min(groups_of(rows), params.groups), 1u, 1u, 0u);
-}
+fn surface_rows() -> u32 { return min(control.extra, params.surface_rows); }
+fn surface_groups() -> vec4u { return vec4u(min(groups_of(surface_rows()), params.groups), 1u, 1u, 0u); }
 
 // Switches the dispatches of one phase on or off.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);
     extents[first + OVER_SLOTS] = groups_for(params.slots) * keep;
     extents[first + OVER_INTERIOR] = groups_for(params.slots) * keep;
+    extents[first + OVER_BOTH] = groups_over_both(params.slots) * keep;
     extents[first + OVER_PARTICLES] = groups_for(params.particles) * keep;
     extents[first + OVER_REDUCE] = vec4u(params.groups, 1u, 1u, 0u) * keep;
     extents[first + OVER_LISTED] = groups_for(control.listed) * keep;
     extents[first + OVER_FRONTIER] = groups_for(control.frontier) * keep;
+    extents[first + OVER_NEAR] = groups_for(max(control.listed, control.frontier)) * keep;
     extents[first + OVER_SURFACE] = surface_groups() * keep;
     extents[first + OVER_MARCHES] = groups_for(marches()) * keep;
+    extents[first + OVER_WHOLE] = groups_over_both(marches()) * keep;
     extents[first + OVER_COLOR] = groups_for(color_marches()) * keep;
     extents[first + OVER_SINGLE] = vec4u(keep);
     for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + OVER_SCAN + k] = params.scan[k] * keep; }

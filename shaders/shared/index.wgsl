@@ -188,6 +188,11 @@ fn word_with_friction(word: u32, friction: f32) -> u32 {
     return (word & 0xffffu) | (u32(1e3 * min(friction, STICK) + 0.5) << 16u);
 }
 
+// -- Groups over both kinds of slots --
+
+// A kernel over both kinds of slots (shared/domain.wgsl) has LIST_PARTS times as many groups: enough for as many threads.
+fn groups_apart(threads: u32) -> u32 { return (groups_of(threads) + LIST_PARTS - 1u) / LIST_PARTS; }
+
 // -- Columns --
 
 // Blocks of columns along the last axis, COLUMN_BLOCK next to each other and params.march slots long: what a marching kernel takes one
@@ -198,6 +203,9 @@ fn columns() -> u32 { return params.slots / params.stride[DIM - 1u]; }
 fn blocks_across() -> u32 { return (columns() + COLUMN_BLOCK - 1u) / COLUMN_BLOCK; }
 
 fn layers() -> u32 { return (params.stride[DIM - 1u] + params.march - 1u) / params.march; }
+
+// Threads that march along the last axis.
+fn marches() -> u32 { return blocks_across() * COLUMN_BLOCK * layers(); }
 
 // Slot at the corner of a block.
 fn corner_of(block: u32) -> u32 {
@@ -224,3 +232,50 @@ fn color_marches() -> u32 {
 fn apart_h(place: u32) -> u32 { return part(APART, place); }
 fn apart_q(place: u32) -> u32 { return part(APART, params.extra_capacity + place); }
 fn unknowns() -> u32 { return part(APART, 2u * params.extra_capacity); }
+
+// -- Ledger --
+
+// Where owed_flow and owed_energy have the entry of a slot. With bodies or obstacles every slot has its own place. Else only slots of
+// the ring have one, in their order, and what the energy floor takes from gas goes to control.borrowed.
+override RING_LEDGER: bool;
+
+// Slots of the ring.
+fn ring_count() -> u32 { return params.slots - params.cells.x * params.cells.y * params.cells.z; }
+
+// Place of a slot, with RING_LEDGER of one in the ring.
+fn ledger_place(slot: u32) -> u32 {
+    if !RING_LEDGER { return slot; }
+    let c = cell_of(slot);
+    let n = params.cells;
+    let before = vec3u(clamp(c, vec3i(0), vec3i(n)));           // cells with a smaller index along each axis
+    let level = (c >= vec3i(0)) & (c < vec3i(n));
+    let in_row = select(0u, before.x, level.y);
+    let in_layer = select(0u, before.y * n.x + in_row, level.z);
+    return slot - before.z * n.y * n.x - in_layer;
+}
+
+// Where a part of owed_energy begins.
+fn ledger_part(k: u32) -> u32 { return k * select(params.slots, ring_count(), RING_LEDGER); }
+
+// Mass and momentum, and energy, that count as one in control.borrowed: about those of ambient gas in a cell.
+fn borrowed_unit() -> vec2f {
+    return cell_volume() * vec2f(sqrt(params.ambient_pressure * params.ambient_density), params.ambient_pressure);
+}
+
+// -- Whole units --
+
+// Density that goes from cell to cell in whole units of the last place of the denser one: what one gives up is then, to the last bit,
+// what the other takes.
+
+const LAST_PLACE = 1.1920928955078125e-7;   // 2^-23
+
+fn power_of_two(density: f32) -> f32 { return bitcast<f32>(bitcast<u32>(density) & 0x7f800000u); }
+
+// Of a power of two, exactly: a division may be off by some units in the last place.
+fn inverse_of_power(unit: f32) -> f32 { return bitcast<f32>(0x7f000000u - bitcast<u32>(unit)); }
+
+// A unit below the smallest normal number is none.
+fn whole(density: f32, unit: f32) -> f32 {
+    if bitcast<u32>(unit) < 0x00800000u { return density; }
+    return round(density * inverse_of_power(unit)) * unit;
+}

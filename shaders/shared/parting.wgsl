@@ -58,7 +58,7 @@ fn beyond_cap(v: vec3i, c: vec3i, slot: u32, n: u32) -> f32 {
     let far = slot_of(other);
     let at = slot_of(v);
     var kind = GAS;
-    if SWEEP == OVER_LISTED { kind = kind_of(cells[far]); }
+    if is_listed() { kind = kind_of(cells[far]); }
     if kind == GHOST { return 0.0; }
     var there = 0.0;
     var excess: f32;
@@ -82,7 +82,7 @@ fn beyond_caps(v: vec3i, c: vec3i, slot: u32) -> f32 {
 
 // Whether a cell takes part in what a vertex shares out: gas with gas beside it there. One that is alone pays for its faces itself.
 fn shares_at(v: vec3i, c: vec3i) -> bool {
-    if SWEEP != OVER_LISTED { return true; }
+    if !is_listed() { return true; }
     if kind_of(cells[slot_of(c)]) != GAS { return false; }
     for (var n = 0u; n < DIM; n++) {
         let other = select(c - axis(n), c + axis(n), v[n] > c[n]);

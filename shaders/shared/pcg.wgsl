@@ -11,20 +11,21 @@ struct Pcg {
     max_iterations: u32,        // Iterations after which the solve counts as stalled
     outcome: u32,               // PCG_RUNNING, PCG_CONVERGED, PCG_STALLED
     length: u32,                // Unknowns
-    listed_wide: u32,           // Groups of kernels over a list that the caller keeps, x
-    listed_high: u32,           // The same, y
-    frontier_wide: u32,         // Groups of kernels over a second list, x
-    frontier_high: u32,         // The same, y
+    near_wide: u32,             // Groups of kernels over a list that the caller keeps, x
+    near_high: u32,             // The same, y
     groups_wide: u32,           // Groups of the kernels with one thread per slot, x
     groups_high: u32,           // The same, y
     groups_partial: u32,        // Groups of the kernels that leave partial sums
     groups_block: u32,          // Groups, at most as many, of the kernels of Block
+    block_at: u32,              // Its first unknown
+    block_length: u32,          // Its unknowns, now
     size: f32,                  // r . D^-1 r, and r . z of Block: what the tolerance looks at
     most: f32,                  // A solve that begins with a larger one is not worth it: it ends with nothing done
     levels: u32,                // Coarse levels in use
     joined: u32,                // 1 for Dots::Both
     row: u32,                   // Unknowns of a row, as sums take them
     reference_at: u32,          // Place of the partial sums for the reference, 0 if pcg_begin makes them from product
+    dots_at: u32,               // Place of the partial sums that the operator leaves
     level_groups: array<u32, PCG_LEVELS>, // Groups, at most as many as leave partial sums, of the kernels of each level, the finest first; 0 without
 }
 // End of what is generated.

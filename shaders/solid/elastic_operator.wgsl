@@ -51,7 +51,7 @@ fn elastic_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
         sum += dot(x, own);
     }
     let part = workgroup_sum4(lane, vec4f(sum, 0.0, 0.0, 0.0));
-    if lane == 0u { partials[group_index(group)] = part; }
+    if lane == 0u { partials[PARTIALS * BLOCK_DOTS + group_index(group)] = part; }
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -137,9 +137,9 @@ fn cut_rows(v: vec3i) -> f32 {
 fn gather_rows(slot: u32, word: u32) -> Rows {
     var rows: Rows;
     let v = cell_of(slot);
-    let regular = SWEEP != OVER_LISTED || has(word, VERTEX_REGULAR);
+    let regular = !is_listed() || has(word, VERTEX_REGULAR);
     for (var turn = 0u; turn < when(regular); turn++) { rows.own = regular_rows(slot, v); }
-    if SWEEP != OVER_LISTED { return rows; }
+    if !is_listed() { return rows; }
     if CUT {
         if has(word, VERTEX_GAS) && !regular { rows.own = cut_rows(v); }
         return rows;

@@ -87,9 +87,8 @@ fn coarse_choose(@builtin(local_invocation_index) lane: u32) {
     }
     if on { pcg.levels = count; }
     let keep = u32(count > 0u);
-    let nodes = select(vec4u(pcg.frontier_wide, pcg.frontier_high, 1u, 0u), vec4u(pcg.groups_wide, pcg.groups_high, 1u, 0u), QUADRATIC);
-    coarse_extents[0] = nodes * keep;
-    coarse_extents[1] = vec4u(pcg.listed_wide, pcg.listed_high, 1u, 0u) * keep;
+    coarse_extents[0] = vec4u(pcg.groups_wide, pcg.groups_high, 1u, 0u) * keep;
+    coarse_extents[1] = vec4u(pcg.near_wide, pcg.near_high, 1u, 0u) * keep;
     coarse_extents[2] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
     let all = params.cells + vec3u(reach());
     var half = all;

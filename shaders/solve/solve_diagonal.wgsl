@@ -146,26 +146,23 @@ fn mixed_squares(v: vec3i, apart: bool, count: u32) -> Squares {
     return squares;
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn find_diagonal(slot: u32) {
     let word = cells[slot];
-    if SWEEP == OVER_LISTED && !has(word, VERTEX_GAS | VERTEX_SOLID) {
+    if is_listed() && !has(word, VERTEX_GAS | VERTEX_SOLID) {
         inverse_diagonal[slot] = 0.0;
         return;
     }
     let scale = control.dt * face_area() * control.dt * face_area();
     let v = cell_of(slot);
-    let regular = SWEEP != OVER_LISTED || has(word, VERTEX_REGULAR);
-    if CUT && SWEEP == OVER_LISTED && !regular {
+    let regular = !is_listed() || has(word, VERTEX_REGULAR);
+    if CUT && is_listed() && !regular {
         inverse_diagonal[slot] = inverse(stiffness[slot] + scale * cut_square(v));
         return;
     }
-    let deep = SOLIDS && SWEEP == OVER_LISTED && has(word, VERTEX_DEEP);
+    let deep = SOLIDS && is_listed() && has(word, VERTEX_DEEP);
     let apart = interface_index(slot) != slot;
     var squares: Squares;
-    if SWEEP == OVER_LISTED { squares = mixed_squares(v, apart, select(corner_count(), 0u, regular || deep)); }
+    if is_listed() { squares = mixed_squares(v, apart, select(corner_count(), 0u, regular || deep)); }
     for (var turn = 0u; turn < when(regular); turn++) { squares.own = regular_square(v); }
     for (var turn = 0u; turn < when(deep); turn++) { squares.own = wide_square(v, SOLID_NODE, true); }
     inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);
@@ -175,4 +172,15 @@ fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
         inverse_diagonal[interface_index(slot)] = select(0.0, inverse(scale * squares.h), alone);
         inverse_diagonal[ghost_index(slot)] = inverse(stiffness[ghost_index(slot)] + scale * squares.q);
     }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_diagonal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { find_diagonal(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { find_diagonal(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { find_diagonal(listed_slot(k)); }
 }

@@ -206,18 +206,16 @@ fn mixed_force(c: vec3i, count: u32, gas_reference: f32, solid_reference: f32) -
     return forces;
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn interior_forces(slot: u32) {
+    var inverse_mass = 0.0;
+    if QUADRATIC { inverse_mass = work[part(GAS_NODE, slot)].w; } else { inverse_mass = energy[part(INVERSE_MASS, slot)]; }
+    work[part(GAS_NODE, slot)] = vec4f(regular_force(slot, cell_of(slot)) * face_area() * inverse_mass, inverse_mass);
+}
+
+fn listed_forces(slot: u32) {
     let word = cells[slot];
     let c = cell_of(slot);
-    var inverse_mass = work[part(GAS_NODE, slot)].w;
-    if SWEEP != OVER_LISTED {
-        if !QUADRATIC { inverse_mass = energy[part(INVERSE_MASS, slot)]; }
-        work[part(GAS_NODE, slot)] = vec4f(regular_force(slot, c) * face_area() * inverse_mass, inverse_mass);
-        return;
-    }
+    let inverse_mass = work[part(GAS_NODE, slot)].w;
     let regular = !BODIES_ONLY && has(word, NODE_REGULAR);
     if CUT && !regular {
         var force = vec3f(0.0);
@@ -236,4 +234,15 @@ fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     for (var turn = 0u; turn < when(deep); turn++) { forces.solid = wide_force(slot, c, true, solid_reference); }
     let inverse = select(1.0 / inertia[slot], 0.0, DRIVEN && has(word, NODE_DRIVEN));
     work[part(SOLID_NODE, slot)] = vec4f(forces.solid * face_area() * inverse, inverse);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_forces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { interior_forces(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { listed_forces(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { listed_forces(listed_slot(k)); }
 }

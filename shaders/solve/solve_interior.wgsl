@@ -104,5 +104,5 @@ fn interior_operator(@builtin(workgroup_id) group: vec3u, @builtin(local_invocat
         if !SOLIDS { image += value * value * inverse_diagonal[slot]; }
     }
     let sum = workgroup_sum4(lane, vec4f(product, image, 0.0, 0.0));
-    if lane == 0u { partials[thread / WORKGROUP] += sum; }
+    if lane == 0u { partials[PARTIALS * BLOCK_DOTS + thread / WORKGROUP] += sum; }
 }

@@ -33,5 +33,5 @@ fn solve_reference(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
         sum += inverse * whole * whole;
     }
     let part = workgroup_sum4(lane, vec4f(0.0, sum, 0.0, 0.0));
-    if lane == 0u { partials[PARTIALS + group_index(group)] = part; }
+    if lane == 0u { partials[PARTIALS * BLOCK_REFERENCE + group_index(group)] = part; }
 }

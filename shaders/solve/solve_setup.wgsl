@@ -63,13 +63,10 @@ fn interior_mass(at: u32) -> f32 {
 }
 
 // Lumped mass of a gas node from the gas cells around it.
-@compute @workgroup_size(WORKGROUP)
-fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn find_mass(slot: u32) {
     var mass = 0.0;
     let c = cell_of(slot);
-    if SWEEP != OVER_LISTED { mass = interior_mass(slot); }
+    if !is_listed() { mass = interior_mass(slot); }
     else if beside_obstacle(cells[slot]) {
         if kind_of(cells[slot]) == GAS { mass = conserved[slot].x * cluster_share(slot); }
     } else if has(cells[slot], NODE_GAS) && !is_image(c) && !is_joined(c) {
@@ -83,8 +80,19 @@ fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
         mass = weighed(around);
     }
     let inverse = select(0.0, 1.0 / (mass * cell_volume()), mass > 0.0);
-    if SWEEP == OVER_LISTED || QUADRATIC { work[part(GAS_NODE, slot)] = vec4f(0.0, 0.0, 0.0, inverse); }
+    if is_listed() || QUADRATIC { work[part(GAS_NODE, slot)] = vec4f(0.0, 0.0, 0.0, inverse); }
     if kind_of(cells[slot]) != GHOST { energy[part(INVERSE_MASS, slot)] = inverse; }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_masses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { find_mass(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { find_mass(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { find_mass(listed_slot(k)); }
 }
 
 // A node that is not in the gas moves like the nearest gas cells: face neighbours, else edges, else corners.
@@ -119,16 +127,13 @@ fn gas_node_velocity(c: vec3i, slot: u32) -> vec3f {
 }
 
 // work: M^-1 C X* becomes V* - dt M^-1 C X*.
-@compute @workgroup_size(WORKGROUP)
-fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn interior_velocity(slot: u32) {
+    let gas = work[part(GAS_NODE, slot)];
+    work[part(GAS_NODE, slot)] = vec4f(velocity_of(in_space(conserved[slot])) - control.dt * gas.xyz, gas.w);
+}
+
+fn listed_velocities(slot: u32) {
     let word = cells[slot];
-    if SWEEP != OVER_LISTED {
-        let gas = work[part(GAS_NODE, slot)];
-        work[part(GAS_NODE, slot)] = vec4f(velocity_of(in_space(conserved[slot])) - control.dt * gas.xyz, gas.w);
-        return;
-    }
     if has(word, NODE_GAS) {
         let gas = work[part(GAS_NODE, slot)];
         work[part(GAS_NODE, slot)] = vec4f(gas_node_velocity(cell_of(slot), slot) - control.dt * gas.xyz, gas.w);
@@ -140,20 +145,39 @@ fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn solve_velocities(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { interior_velocity(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { listed_velocities(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { listed_velocities(listed_slot(k)); }
+}
+
+fn find_residual(slot: u32) {
     let word = cells[slot];
     let rows = gather_rows(slot, word);
     let scale = control.dt * face_area();
     var own = rows.own;
-    if SWEEP != OVER_LISTED { residual[slot] = scale * own; return; }
+    if !is_listed() { residual[slot] = scale * own; return; }
     let v = cell_of(slot);
     let at_side = any(((v == vec3i(0)) | (v == vec3i(params.cells))) & (reach() == vec3i(1)));
-    if at_side && has(word, VERTEX_GAS) { own -= residual[slot]; } // b, from solve_open
+    if RULES_USED != 0u && at_side && has(word, VERTEX_GAS) { own -= residual[slot]; } // b, from solve_open
     residual[slot] = scale * own;
     if SOLIDS && extra[slot] != NO_EXTRA {
         residual[apart_h(extra[slot])] = scale * rows.h;
         residual[apart_q(extra[slot])] = scale * rows.q;
     }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solve_residual(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { find_residual(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { find_residual(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { find_residual(listed_slot(k)); }
 }

@@ -22,7 +22,7 @@ struct Turn {
 @group(0) @binding(6) var<storage, read_write> bound: atomic<u32>;      // of the eigenvalues, bits of a float
 @group(0) @binding(7) var<storage, read> residual: array<f32>;
 @group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
-@group(0) @binding(9) var<storage, read_write> direction: array<f32>;
+@group(0) @binding(9) var<storage, read_write> product: array<f32>;
 @group(0) @binding(10) var<uniform> turn: Turn;
 
 // Between the largest eigenvalue and the least one that the polynomial takes care of.
@@ -161,50 +161,76 @@ fn image_at(first: u32, direction_place: u32) -> f32 {
     return image;
 }
 
-// One term of the polynomial; the last one adds z . r to the partial sums.
-@compute @workgroup_size(WORKGROUP)
-fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+// One term of the polynomial.
+struct Term { number: u32, last: bool, middle: f32, width: f32, last_weight: f32, weight: f32 }
+
+fn term(number: u32) -> Term {
     let high = 1.01 * bitcast<f32>(atomicLoad(&bound));
     let low = high / SPREAD;
     let middle = 0.5 * (high + low);
     let width = 0.5 * (high - low);
     var last_weight = 0.0;
     var weight = width / middle;
-    for (var k = 0u; k < turn.number; k++) {
+    for (var k = 0u; k < number; k++) {
         last_weight = weight;
         weight = 1.0 / (2.0 * middle / width - weight);
     }
-    let now = DIRECTION + (turn.number & 1u);
-    let then = DIRECTION + 1u - (turn.number & 1u);
-    let last = turn.number + 1u == turn.count;
-    var product = 0.0;
-    for (var at = thread_index(group, lane); at < row_count(); at += striding_threads()) {
-        let first = at * row_length();
-        let inverse = rows[first + INVERSE];
-        let given = residual[apart_h(at)];
-        var step = given * inverse / middle;
-        var result = 0.0;
-        var left = given;
-        for (var once = 0u; once < when(turn.number > 0u); once++) {
-            let old = rows[first + then];
-            result = rows[first + RESULT] + old;
-            left = rows[first + RESIDUAL] - image_at(first, then);
-            step = weight * last_weight * old + 2.0 * weight / width * inverse * left;
-        }
-        rows[first + RESIDUAL] = left;
-        rows[first + now] = step;
-        rows[first + RESULT] = result + select(0.0, step, last);
-        product += select(0.0, (result + step) * given, last);
+    return Term(number, number + 1u == turn.count, middle, width, last_weight, weight);
+}
+
+// The term at a row; the last one leaves z where the image of the direction was. Returns its share of z . r.
+fn add_term(at: u32, t: Term) -> f32 {
+    let now = DIRECTION + (t.number & 1u);
+    let then = DIRECTION + 1u - (t.number & 1u);
+    let first = at * row_length();
+    let inverse = rows[first + INVERSE];
+    let given = residual[apart_h(at)];
+    var step = given * inverse / t.middle;
+    var result = 0.0;
+    var left = given;
+    for (var once = 0u; once < when(t.number > 0u); once++) {
+        let old = rows[first + then];
+        result = rows[first + RESULT] + old;
+        left = rows[first + RESIDUAL] - image_at(first, then);
+        step = t.weight * t.last_weight * old + 2.0 * t.weight / t.width * inverse * left;
     }
-    if !last { return; }
-    let sum = workgroup_sum4(lane, vec4f(product, 0.0, 0.0, 0.0));
+    rows[first + RESIDUAL] = left;
+    rows[first + now] = step;
+    rows[first + RESULT] = result;
+    if !t.last { return 0.0; }
+    product[apart_h(at)] = result + step;
+    return (result + step) * given;
+}
+
+// One dispatch per term, where there are many rows; the last one adds z . r to the partial sums.
+@compute @workgroup_size(WORKGROUP)
+fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let now = term(turn.number);
+    var share = 0.0;
+    for (var at = thread_index(group, lane); at < row_count(); at += striding_threads()) { share += add_term(at, now); }
+    if turn.number + 1u < turn.count { return; }
+    let sum = workgroup_sum4(lane, vec4f(share, 0.0, 0.0, 0.0));
     if lane == 0u { partials[group_index(group)] += sum; }
 }
 
-// The new direction's share of h, whose inverse diagonal is 0.
-@compute @workgroup_size(WORKGROUP)
-fn surface_direction(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    for (var at = thread_index(group, lane); at < row_count(); at += striding_threads()) {
-        direction[apart_h(at)] += rows[at * row_length() + RESULT];
+var<workgroup> shares: array<f32, SURFACE_THREADS>;
+
+// All terms at once, where there are few rows: one workgroup, whose threads see after each barrier what the others have written. Adds
+// z . r to the first of the partial sums.
+@compute @workgroup_size(SURFACE_THREADS)
+fn surface_terms(@builtin(local_invocation_index) lane: u32) {
+    var share = 0.0;
+    for (var number = 0u; number < turn.count; number++) {
+        let now = term(number);
+        for (var at = lane; at < row_count(); at += SURFACE_THREADS) { share += add_term(at, now); }
+        storageBarrier();
     }
+    shares[lane] = share;
+    for (var stride = 1u; stride < SURFACE_THREADS; stride *= 16u) {
+        workgroupBarrier();
+        if lane % (16u * stride) == 0u {
+            for (var k = 1u; k < 16u; k++) { shares[lane] += shares[lane + k * stride]; }
+        }
+    }
+    if lane == 0u { partials[0].x += shares[0]; }
 }

@@ -125,14 +125,7 @@ fn meets_free_node(v: vec3i) -> bool {
     return false;
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
-    if SWEEP != OVER_LISTED {
-        interior_vertex(slot);
-        return;
-    }
+fn listed_vertex(slot: u32) {
     let word = cells[slot];
     if CUT && !has(word, VERTEX_REGULAR) {
         cut_vertex(slot);
@@ -172,4 +165,15 @@ fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     let s = s_gas + s_solid;
     pressure[slot] = select(q, gas_pressure + s_solid / s * (q - gas_pressure), s > 0.0);
     stiffness[slot] = s;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn vertex_pressure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    let own = interior_slot(thread);
+    if own < params.slots { interior_vertex(own); }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { listed_vertex(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { listed_vertex(listed_slot(k)); }
 }

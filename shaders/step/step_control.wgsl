@@ -22,16 +22,16 @@ fn control_listed() {
     control.listed = extra[part(LENGTHS, LENGTH_LISTED)];
     control.frontier = extra[part(LENGTHS, LENGTH_FRONTIER)];
     let listed = groups_for(control.listed);
-    let frontier = groups_for(control.frontier);
-    pcg.listed_wide = listed.x;
-    pcg.listed_high = listed.y;
-    pcg.frontier_wide = frontier.x;
-    pcg.frontier_high = frontier.y;
+    let near = groups_for(max(control.listed, control.frontier));
+    pcg.near_wide = near.x;
+    pcg.near_high = near.y;
     pcg.groups_block = surface_groups().x;
+    pcg.block_length = surface_rows();
     let keep = extents[PHASE_BEGIN_EXTENTS + OVER_SINGLE].x;
     extents[PHASE_BEGIN_EXTENTS + OVER_SURFACE] = surface_groups() * keep;
     extents[PHASE_BEGIN_EXTENTS + OVER_LISTED] = listed * keep;
-    extents[PHASE_BEGIN_EXTENTS + OVER_FRONTIER] = frontier * keep;
+    extents[PHASE_BEGIN_EXTENTS + OVER_FRONTIER] = groups_for(control.frontier) * keep;
+    extents[PHASE_BEGIN_EXTENTS + OVER_NEAR] = near * keep;
 }
 
 // After an advection stage: did the limiter act?

@@ -70,26 +70,31 @@ fn burn_rate_at(slot: u32) -> f32 {
     return params.cfl / max(energy[part(BURN_TIME, slot)] - control.time, MOST_BURNED / params.burn_rate);
 }
 
+// Rate and speed of sound.
+fn bound_at(slot: u32) -> vec2f {
+    let gas = gas_at(slot);
+    let p = pressure_of(gas);
+    var rate: f32;
+    if is_listed() { rate = listed_rate(cell_of(slot), gas, p); } else { rate = interior_rate(slot, gas, p); }
+    if PRODUCTS && gas.unburned > 1.0001 * params.fuel * max(gas.species.x, 0.0) { rate = max(rate, burn_rate_at(slot)); }
+    return vec2f(rate, sound_speed(stiffness_ratio(gas, p), gas.flow.x, p));
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn time_step_gas(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var bound = vec2f(0.0);
-    for (var k = thread_index(group, lane); k < swept_threads(); k += striding_threads()) {
-        let slot = swept_slot(k);
-        if slot >= params.slots { continue; }
-        let c = cell_of(slot);
-        if SWEEP == OVER_LISTED && (kind_of(cells[slot]) != GAS || !inside(c)) { continue; }
-        let gas = gas_at(slot);
-        let p = pressure_of(gas);
-        var rate: f32;
-        if SWEEP == OVER_LISTED { rate = listed_rate(c, gas, p); } else { rate = interior_rate(slot, gas, p); }
-        if PRODUCTS && gas.unburned > 1.0001 * params.fuel * max(gas.species.x, 0.0) { rate = max(rate, burn_rate_at(slot)); }
-        bound = max(bound, vec2f(rate, sound_speed(stiffness_ratio(gas, p), gas.flow.x, p)));
+    let thread = thread_index(group, lane);
+    for (var k = thread; k < params.slots; k += striding_threads()) {
+        let slot = interior_slot(k);
+        if slot < params.slots { bound = max(bound, bound_at(slot)); }
+    }
+    on_list = true;
+    for (var k = thread; k < listed(); k += striding_threads()) {
+        let slot = listed_slot(k);
+        if kind_of(cells[slot]) == GAS && inside(cell_of(slot)) { bound = max(bound, bound_at(slot)); }
     }
     let largest = workgroup_max4(lane, vec4f(bound, 0.0, 0.0));
-    if lane != 0u { return; }
-    // The listed form comes first; the plain one adds to what it left.
-    let at = group_index(group);
-    if SWEEP == OVER_LISTED { maxima[at] = largest; } else { maxima[at] = max(maxima[at], largest); }
+    if lane == 0u { maxima[group_index(group)] = largest; }
 }
 
 // What limits the elastic sub-steps at a particle, as a speed: the wave in the deformed body, and the velocity gradient, since a
@@ -161,11 +166,11 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     control.longest_round = 0u;
     control.substep = 0u;
     atomicStore(&control.limited, 0u);
+    control.limited_before = 0u;
     atomicStore(&control.floored, 0u);
     atomicStore(&control.raised, 0u);
     atomicStore(&control.dense, 0u);
     atomicStore(&control.clamped, 0u);
-    control.limited_before = 0u;
     control.extra = 0u;
     control.phase = PHASE_SOLVE;
 }

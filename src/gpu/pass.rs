@@ -1,5 +1,6 @@
 //! Recording: one submission of dispatches, in stages that carry names and, on request, times.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::buffer::Buffer;
@@ -21,6 +22,7 @@ pub struct Pass {
     label: String,
     /// Whether each stage is a submission of its own.
     cut: bool,
+    launches: Vec<Arc<str>>,
 }
 
 /// What a stopwatch tells apart.
@@ -73,6 +75,7 @@ impl Pass {
             clock: None,
             label: label.to_owned(),
             cut: false,
+            launches: Vec::new(),
         }
     }
 
@@ -146,6 +149,7 @@ impl Pass {
             Ok(pipeline) => pipeline,
             Err(error) => return self.gpu.note(error),
         };
+        self.launches.push(Arc::clone(&bound.name));
         let pass = self.compute(&bound.name);
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &bound.group, &[]);
@@ -164,6 +168,12 @@ impl Pass {
             self.open = None;
             self.wait_for_span(Some(&bound.name));
         }
+    }
+
+    /// Kernels of all dispatches so far, in order, with those that the device may close.
+    #[must_use]
+    pub fn launches(&self) -> &[Arc<str>] {
+        &self.launches
     }
 
     /// Sets a buffer to zero.

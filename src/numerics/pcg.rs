@@ -2,7 +2,7 @@
 //! all scalars on the device.
 //!
 //! The operator is given as dispatches that turn `direction` into `product` and leave the partial sums of their dot product
-//! in the first component of `partials`. Iterations beyond convergence are dispatches of no groups. [Saad 2003, algorithm 9.1]
+//! in the first component of `partials`, at [`Layout::dots_at`]. Iterations beyond convergence are dispatches of no groups. [Saad 2003, algorithm 9.1]
 //! An operator that leaves [`Dots::Both`] lets an iteration without block and levels do with one kernel besides it.
 
 use bytemuck::{Pod, Zeroable};
@@ -25,9 +25,7 @@ numbers! {
         /// One group.
         Single,
         /// One thread per entry of the caller's list.
-        Listed,
-        /// One thread per entry of the caller's second list.
-        Frontier,
+        Near,
         /// [`super::Block`].
         Block,
         /// Residual and direction, one after the other.
@@ -98,13 +96,9 @@ structure! {
         /// Unknowns.
         length: u32,
         /// Groups of kernels over a list that the caller keeps, x.
-        listed_wide: u32,
+        near_wide: u32,
         /// The same, y.
-        listed_high: u32,
-        /// Groups of kernels over a second list, x.
-        frontier_wide: u32,
-        /// The same, y.
-        frontier_high: u32,
+        near_high: u32,
         /// Groups of the kernels with one thread per slot, x.
         groups_wide: u32,
         /// The same, y.
@@ -113,6 +107,10 @@ structure! {
         groups_partial: u32,
         /// Groups, at most as many, of the kernels of [`Block`].
         groups_block: u32,
+        /// Its first unknown.
+        block_at: u32,
+        /// Its unknowns, now.
+        block_length: u32,
         /// r . D^-1 r, and r . z of [`Block`]: what the tolerance looks at.
         size: f32,
         /// A solve that begins with a larger one is not worth it: it ends with nothing done.
@@ -125,6 +123,8 @@ structure! {
         row: u32,
         /// Place of the partial sums for the reference, 0 if `pcg_begin` makes them from `product`.
         reference_at: u32,
+        /// Place of the partial sums that the operator leaves.
+        dots_at: u32,
         /// Groups, at most as many as leave partial sums, of the kernels of each level, the finest first; 0 without.
         level_groups: [u32; PCG_LEVELS],
     }
@@ -138,7 +138,6 @@ pub struct Pcg {
     /// Group counts of an iteration: per slot, partial sums, single.
     extents: Buffer<u32>,
     begin: [Bound; 2],
-    alpha: Bound,
     update: Bound,
     beta: Bound,
     direction: Bound,
@@ -167,18 +166,22 @@ pub struct Layout {
     /// Place above 0 in the partial sums where the caller leaves, in the second component, those of the squared norm that the
     /// tolerance refers to; with 0 the first kernel makes them from [`PcgVectors::product`].
     pub reference_at: u32,
+    /// Place in the partial sums, behind those of the other kernels, where the operator leaves its own.
+    pub dots_at: u32,
+    /// The first unknown of a [`Block`].
+    pub block_at: u32,
     /// Unknowns of a row, as sums take them (`shaders/shared/pcg.wgsl`); all make one row without it.
     pub row: Option<u32>,
 }
 
 /// A block of unknowns with a preconditioner of its own; their inverse diagonal is 0. The caller sets
-/// [`PcgControl::groups_block`]; the kernels stride over what their groups do not cover.
-#[derive(Debug, Default)]
+/// [`PcgControl::groups_block`] and [`PcgControl::block_length`]; the kernels stride over what their groups do not cover.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Block<'a> {
-    /// Turn the residual into z, in order; the last one adds z . r to the partial sums.
-    pub terms: Vec<&'a Bound>,
-    /// Adds z to the direction.
-    pub direction: Option<&'a Bound>,
+    /// Turn the residual into z, in order; the last one leaves z in [`PcgVectors::product`] and adds z . r to the partial sums.
+    pub terms: &'a [Bound],
+    /// Whether there is a single one, of one group.
+    pub together: bool,
 }
 
 /// Coarse levels, which add to what the diagonal gives. The caller sets [`PcgControl::level_groups`] before the iteration begins.
@@ -237,6 +240,8 @@ impl Pcg {
             joined: u32::from(dots == Dots::Both),
             row: layout.row.unwrap_or(length as u32),
             reference_at: layout.reference_at,
+            dots_at: layout.dots_at,
+            block_at: layout.block_at,
             ..PcgControl::default()
         };
         control.write(gpu, 0, &[start]);
@@ -261,7 +266,6 @@ impl Pcg {
         };
         Ok(Self {
             begin: [bound("pcg_begin")?, bound("pcg_begin_choose")?],
-            alpha: bound("pcg_alpha")?,
             update: bound("pcg_update")?,
             beta: bound("pcg_beta")?,
             direction: bound("pcg_direction")?,
@@ -280,17 +284,14 @@ impl Pcg {
         block: &Block<'_>,
         levels: &Levels<'_>,
     ) {
-        pass.dispatch(&self.begin[0], partial);
-        for term in &block.terms {
-            pass.dispatch(term, own);
+        for term in block.terms {
+            pass.dispatch(term, if block.together { single } else { own });
         }
+        pass.dispatch(&self.begin[0], partial);
         if let Some((table, first)) = levels.opened {
             levels.record_down(pass, table, first);
         }
         pass.dispatch(&self.begin[1], single);
-        if let Some(direction) = block.direction {
-            pass.dispatch(direction, own);
-        }
         if let Some((table, first)) = levels.opened {
             levels.record_up(pass, table, first);
         }
@@ -302,7 +303,6 @@ impl Pcg {
         for (kernel, groups) in operator {
             pass.dispatch(kernel, &extent(*groups));
         }
-        pass.dispatch(&self.alpha, &extent(Groups::Single));
         if let Some(step) = &self.step {
             pass.dispatch(step, &extent(Groups::Joined));
         }
@@ -310,16 +310,13 @@ impl Pcg {
         if apart {
             pass.dispatch(&self.update, &extent(Groups::Apart));
         }
-        for term in &block.terms {
-            pass.dispatch(term, &extent(Groups::Block));
+        for term in block.terms {
+            pass.dispatch(term, &extent(if block.together { Groups::Single } else { Groups::Block }));
         }
         levels.record_down(pass, &self.extents, Groups::Level as u64);
         pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
         if apart {
             pass.dispatch(&self.direction, &extent(Groups::Apart));
-        }
-        if let Some(direction) = block.direction {
-            pass.dispatch(direction, &extent(Groups::Block));
         }
         levels.record_up(pass, &self.extents, Groups::Level as u64);
     }

@@ -30,8 +30,8 @@ impl Simulation {
             elastic_solve.record_balance(pass, &self.state);
             return;
         }
-        for substep in 0..self.recorded.substeps {
-            self.record_substep(pass, substep);
+        if self.state.has_solids() {
+            (0..self.recorded.substeps).for_each(|substep| self.record_substep(pass, substep));
         }
     }
 

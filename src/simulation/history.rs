@@ -1,6 +1,7 @@
 //! What the device recorded of the latest steps, as the host reads it.
 
 use super::Simulation;
+use super::recorded::Recorded;
 use crate::diagnostics::{Load, PointRecord, StepRecord};
 use crate::error::Result;
 use crate::gpu::{Buffer, Pass, readback};
@@ -34,6 +35,18 @@ impl Rings {
 }
 
 impl Simulation {
+    /// Kernels of all dispatches of a recording, in order, with so many iterations of each solve; none of them is run.
+    #[doc(hidden)]
+    pub fn launches(&mut self, iterations: u32) -> Vec<String> {
+        let recorded = Recorded { iterations, ..self.recorded };
+        let before = std::mem::replace(&mut self.recorded, recorded);
+        let mut pass = Pass::new(&self.gpu, "counted");
+        self.record_step(&mut pass);
+        self.record_totals(&mut pass);
+        self.recorded = before;
+        pass.launches().iter().map(|name| name.to_string()).collect()
+    }
+
     /// Sums, loads, gauges and maps of the step.
     pub(super) fn record_totals(&self, pass: &mut Pass) {
         self.totals.record(pass, &self.state);

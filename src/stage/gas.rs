@@ -16,5 +16,6 @@ pub use dust::Dust;
 pub use fluid_update::FluidUpdate;
 pub use gas_advection::GasAdvection;
 pub use intermediate_pressure::IntermediatePressure;
+pub(super) use intermediate_pressure::open_sides;
 pub use odd_even::OddEven;
 pub use still::Still;

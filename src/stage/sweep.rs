@@ -1,7 +1,8 @@
 //! Kernels over slots in their forms: one source, told by the override `SWEEP` which slots it goes over (`shaders/shared/domain.wgsl`).
 
 use crate::error::Result;
-use crate::gpu::{Bound, Pass};
+use crate::gpu::{Bound, Pass, Settings};
+use crate::numerics::Groups;
 use crate::state::{Over, Phase, State};
 
 /// A kernel in one form.
@@ -32,40 +33,54 @@ impl Form {
         Self::new(state, Over::Listed, [shader, entry], &[], &[])
     }
 
+    /// Its groups in an iteration of a solve.
+    pub(super) fn groups(&self) -> Groups {
+        if matches!(self.over, Over::Listed | Over::Frontier | Over::Near) { Groups::Near } else { Groups::Slots }
+    }
+
     /// Runs in a phase.
     pub(super) fn record(&self, pass: &mut Pass, state: &State, phase: Phase) {
         pass.dispatch(&self.kernel, &state.extent(phase, self.over));
     }
 }
 
-/// A kernel in two forms: plain, as a rule over the slots deep inside the gas, where every stencil is the same, and over the list of the
-/// others.
+/// A kernel over both kinds of slots: those deep inside the gas, where every stencil is the same, and the list of the others.
 #[derive(Clone, Debug)]
 pub(super) struct Sweep {
-    pub(super) plain: Form,
-    pub(super) listed: Form,
+    /// In order.
+    pub(super) forms: Vec<Form>,
 }
 
 impl Sweep {
-    /// Binds both forms.
+    /// Binds.
     pub(super) fn new(state: &State, shader: &str, entry: &str) -> Result<Self> {
-        Self::over(state, Over::Interior, [shader, entry], &[])
+        Self::over(state, Over::Both, [shader, entry], &[])
     }
 
-    /// The same with what the plain form goes over, and with other names of buffers.
+    /// The same over both, or over frontier and list, with other names of buffers. One form for a GPU, which a launch costs
+    /// as much as a small kernel; two on a CPU, where a thread would prepare for both kinds.
     pub(super) fn over(
         state: &State,
         over: Over,
         source: [&str; 2],
         renamed: &[(&str, &wgpu::Buffer)],
     ) -> Result<Self> {
-        let form = |over: Over| Form::new(state, over, source, renamed, &[]);
-        Ok(Self { plain: form(over)?, listed: form(Over::Listed)? })
+        let overs: &[Over] = match (state.gpu.settings, over) {
+            (Settings::Hardware, _) => &[over],
+            (Settings::Software, Over::Both) => &[Over::Interior, Over::Listed],
+            (Settings::Software, _) => &[Over::Frontier, Over::Listed],
+        };
+        let form = |over: &Over| Form::new(state, *over, source, renamed, &[]);
+        Ok(Self { forms: overs.iter().map(form).collect::<Result<_>>()? })
     }
 
-    /// Runs both in a phase.
+    /// The two forms, for those who dispatch them in different phases.
+    pub(super) fn apart(state: &State, source: [&str; 2]) -> Result<[Form; 2]> {
+        Ok([Form::new(state, Over::Interior, source, &[], &[])?, Form::new(state, Over::Listed, source, &[], &[])?])
+    }
+
+    /// Runs in a phase.
     pub(super) fn record(&self, pass: &mut Pass, state: &State, phase: Phase) {
-        self.plain.record(pass, state, phase);
-        self.listed.record(pass, state, phase);
+        self.forms.iter().for_each(|form| form.record(pass, state, phase));
     }
 }

@@ -45,7 +45,7 @@ const COARSENS: [[u32; 3]; SPACES] = [[1, 1, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]
 pub(super) const SPACES: usize = 4;
 /// Vertices along the shortest axis that are not worth a coarser level.
 const FEWEST: u32 = 4;
-/// Numbers of the table of group counts before the first iteration: nodes, listed slots, all unknowns, levels.
+/// Numbers of the table of group counts before the first iteration: nodes, those near the list, all unknowns, levels.
 pub(crate) const EXTENTS: usize = 4 * (3 + pcg::LEVELS);
 
 /// Courant number of the gas below which the diagonal alone is quicker (measured on the software driver), infinite where it is not known.

@@ -28,6 +28,10 @@ pub const PARTIALS: u32 = 1024;
 pub const HISTORY_WIDTH: u32 = 15;
 /// Blocks of partial results that the totals of a step take.
 pub const BLOCKS: u32 = 12;
+/// The block of the size of the right-hand side of a solve.
+pub const BLOCK_REFERENCE: u32 = 1;
+/// The block of what the operator of a solve leaves.
+pub const BLOCK_DOTS: u32 = 2;
 /// The block of what walls, films and gravity give to bodies.
 pub const BLOCK_GIVEN: u32 = 9;
 /// Rounds of Newton's method at most in a step: what is left then is kept, and shows in diagnostics.csv.
@@ -38,6 +42,8 @@ pub const NO_FAULT: u32 = u32::MAX;
 pub const SCAN_DISPATCHES: usize = 6;
 /// Columns of a marching kernel that are still together: as many as one instruction of a CPU takes, or a part of a GPU's.
 pub const COLUMN_BLOCK: u32 = 8;
+/// Parts of the groups of a kernel over both kinds of slots that take neighbouring places of the list: a multiple of the threads of small CPUs.
+pub const LIST_PARTS: u32 = 16;
 /// Number on the device of one of names that count from 0, such as [`RULES`].
 ///
 /// # Panics
@@ -57,7 +63,7 @@ const COUNTED: [(&str, &[&str]); 3] =
     [("RULE", &RULES), ("INTERFACE", &INTERFACES), ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP", "ELASTIC"])];
 
 /// Single numbers.
-const NUMBERS: [(&str, u32); 22] = [
+const NUMBERS: [(&str, u32); 26] = [
     ("GAS", GAS),
     ("SOLID", SOLID),
     ("WALL", WALL),
@@ -69,11 +75,15 @@ const NUMBERS: [(&str, u32); 22] = [
     ("PARTIALS", PARTIALS),
     ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),
     ("COLUMN_BLOCK", COLUMN_BLOCK),
+    ("LIST_PARTS", LIST_PARTS),
     ("SPACES", super::coarse::SPACES as u32),
+    ("SURFACE_THREADS", super::surface::THREADS),
     ("COUPLINGS", super::surface::COUPLINGS as u32),
     ("STRENGTH_UNIT", super::particles::STRENGTH_UNIT),
     ("HISTORY_WIDTH", HISTORY_WIDTH),
     ("BLOCKS", BLOCKS),
+    ("BLOCK_REFERENCE", BLOCK_REFERENCE),
+    ("BLOCK_DOTS", BLOCK_DOTS),
     ("BLOCK_GIVEN", BLOCK_GIVEN),
     ("LOAD_NUMBERS", super::loads::LOAD_NUMBERS),
     ("GAUGE_WIDTH", super::gauges::GAUGE_WIDTH),

@@ -258,6 +258,11 @@ impl State {
         self.interface.cells.write(gpu, 0, &cells);
     }
 
+    /// Whether something may flow through sides.
+    pub fn is_open(&self) -> bool {
+        self.overrides.iter().any(|(name, value)| *name == "RULES_USED" && *value > 0.0)
+    }
+
     /// Whether the scene has bodies.
     pub fn has_solids(&self) -> bool {
         self.particles.count > 0

@@ -172,6 +172,11 @@ fn even_march(rows: u32, longest: u32) -> u32 {
 }
 
 impl Params {
+    /// Groups of a kernel over both kinds of slots (`shaders/shared/domain.wgsl`).
+    pub(crate) fn groups_over_both(&self) -> u32 {
+        self.slots.div_ceil(WORKGROUP).next_multiple_of(constants::LIST_PARTS)
+    }
+
     /// Parameters of a scene on its grid.
     pub fn new(scene: &Scene, grid: &Grid, solids: &SolidLimits, limits: &DeviceLimits) -> Params {
         let (time, numerics) = (&scene.time, &scene.numerics);

@@ -46,10 +46,16 @@ numbers! {
         Interior,
         /// One thread per slot that is not deep inside the gas, without those that periodic sides repeat.
         Listed,
+        /// Both: one thread per slot at least, and among them the list.
+        Both,
         /// One thread per slot deep inside the gas whose node listed vertices rest on.
         Frontier,
+        /// Frontier and list: as many threads as the longer of the two.
+        Near,
         /// One thread per march of [`super::Params::march`] slots.
         Marches,
+        /// The same, and among them the list.
+        Whole,
         /// One thread per march over a column of one color: every third column of cells along each axis but the last.
         Color,
         /// One thread per particle.

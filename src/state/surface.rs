@@ -7,6 +7,15 @@ pub(crate) const TERMS: u32 = 12;
 const SHARE: usize = 64;
 const LEAST: usize = 768;
 
+/// Threads of the workgroup that has all rows, and rows that it has at most.
+pub(super) const THREADS: u32 = 256;
+const FEW: usize = 2048;
+
+/// Dispatches of the polynomial.
+pub(crate) const fn dispatches(rows: usize) -> u32 {
+    if rows > FEW { TERMS } else { 1 }
+}
+
 /// Numbers of a row before its couplings.
 pub(super) const COUPLINGS: usize = 6;
 

@@ -33,6 +33,7 @@ mod hardware;
 mod images;
 mod kernels;
 mod keys;
+mod launches;
 mod layering;
 mod layouts;
 mod least_step;

@@ -1,7 +1,7 @@
 //! `carrier`: which velocity carries the gas through its faces? One that compresses only what the pressure solve can see.
 
 use crate::error::Result;
-use crate::gpu::Pass;
+use crate::gpu::{Pass, Settings};
 use crate::stage::sweep::Form;
 use crate::state::stages::Stage;
 use crate::state::{Over, Phase, State};
@@ -46,12 +46,18 @@ impl CarrierVelocity {
                 )
             };
             let [average, divergence] = ["carrier_average", "carrier_divergence"];
-            let march = state.grid.dimension == 2;
-            let plain = |entry: &str| (!march).then(|| form(Over::Interior, entry)).transpose();
-            let first = if march { Some(form(Over::Marches, "carrier_march")?) } else { plain(average)? };
-            let kernels =
-                [first, Some(form(Over::Listed, average)?), plain(divergence)?, Some(form(Over::Listed, divergence)?)];
-            Ok((*carried, kernels.into_iter().flatten().collect()))
+            let kernels: &[(Over, &str)] = match (state.gpu.settings, state.grid.dimension) {
+                (Settings::Hardware, 2) => &[(Over::Whole, "carrier_march"), (Over::Listed, divergence)],
+                (Settings::Hardware, _) => &[(Over::Both, average), (Over::Both, divergence)],
+                (_, 2) => &[(Over::Marches, "carrier_march"), (Over::Listed, average), (Over::Listed, divergence)],
+                _ => &[
+                    (Over::Interior, average),
+                    (Over::Listed, average),
+                    (Over::Interior, divergence),
+                    (Over::Listed, divergence),
+                ],
+            };
+            Ok((*carried, kernels.iter().map(|(over, entry)| form(*over, entry)).collect::<Result<_>>()?))
         };
         let carrying: &[Carried] = match (wanted, solves) {
             (false, _) => &[],

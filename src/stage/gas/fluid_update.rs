@@ -19,7 +19,7 @@ pub struct FluidUpdate {
     energy: Sweep,
     /// What faces of bodies, obstacles and walls bear.
     loads: Option<Form>,
-    floor: Sweep,
+    floor: [Form; 2],
 }
 
 impl FluidUpdate {
@@ -35,7 +35,7 @@ impl FluidUpdate {
             parting: state.has_solids().then(parting).transpose()?,
             loads: (state.load_count != [0; 3]).then(loads).transpose()?,
             energy: Sweep::new(state, "gas/fluid_update.wgsl", "fluid_energy")?,
-            floor: Sweep::new(state, "gas/fluid_floor.wgsl", "fluid_floor")?,
+            floor: Sweep::apart(state, ["gas/fluid_floor.wgsl", "fluid_floor"])?,
         })
     }
 
@@ -56,7 +56,8 @@ impl FluidUpdate {
             loads.record(pass, state, Phase::Update);
         }
         time_step.decide(pass, Decision::Cold);
-        self.floor.plain.record(pass, state, Phase::Floor);
-        self.floor.listed.record(pass, state, Phase::Update);
+        let [interior, listed] = &self.floor;
+        interior.record(pass, state, Phase::Floor);
+        listed.record(pass, state, Phase::Update);
     }
 }

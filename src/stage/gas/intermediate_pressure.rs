@@ -7,22 +7,30 @@ use crate::stage::sweep::{Form, Sweep};
 use crate::state::stages::Stage;
 use crate::state::{Over, Phase, State};
 
+/// A kernel of `shaders/solve/solve_open.wgsl`, in scenes with open sides.
+pub(in crate::stage) fn open_sides(state: &State, entry: &str) -> Result<Option<Form>> {
+    state.is_open().then(|| Form::listed(state, "solve/solve_open.wgsl", entry)).transpose()
+}
+
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct IntermediatePressure {
     cells: Sweep,
-    open_faces: Form,
-    clear: Bound,
+    /// With open sides.
+    open_faces: Option<Form>,
+    /// In scenes with bodies.
+    clear: Option<Bound>,
     vertices: Sweep,
 }
 
 impl IntermediatePressure {
     /// Binds.
     pub fn new(state: &State) -> Result<Self> {
+        let clear = || state.bind("solve/vertex_pressure.wgsl", "vertex_clear", &[], &[]);
         Ok(Self {
             cells: Sweep::new(state, "gas/intermediate_pressure.wgsl", "pressure_star")?,
-            open_faces: Form::listed(state, "solve/solve_open.wgsl", "open_faces")?,
-            clear: state.bind("solve/vertex_pressure.wgsl", "vertex_clear", &[], &[])?,
+            open_faces: open_sides(state, "open_faces")?,
+            clear: state.has_solids().then(clear).transpose()?,
             vertices: Sweep::new(state, "solve/vertex_pressure.wgsl", "vertex_pressure")?,
         })
     }
@@ -31,8 +39,12 @@ impl IntermediatePressure {
     pub fn record(&self, pass: &mut Pass, state: &State, phase: Phase) {
         pass.stage(Stage::IntermediatePressure.name());
         self.cells.record(pass, state, phase);
-        self.open_faces.record(pass, state, phase);
-        pass.dispatch(&self.clear, &state.extent(phase, Over::Reduce));
+        if let Some(open_faces) = &self.open_faces {
+            open_faces.record(pass, state, phase);
+        }
+        if let Some(clear) = &self.clear {
+            pass.dispatch(clear, &state.extent(phase, Over::Reduce));
+        }
         self.vertices.record(pass, state, phase);
     }
 }

@@ -7,6 +7,7 @@ use crate::gpu::{Bound, Extent, Pass};
 use crate::numerics::{Block, Dots, Groups, Layout, Levels, Pcg, PcgVectors};
 use crate::scene::{Elasticity, Scene};
 use crate::stage::Transfer;
+use crate::state::constants::{BLOCK_DOTS, PARTIALS};
 use crate::state::stages::Stage;
 use crate::state::{Over, Phase, State};
 
@@ -43,7 +44,8 @@ impl ElasticSolve {
         };
         let limits = (scene.numerics.expert.elastic_tolerance as f32, MAX_ITERATIONS);
         let (threads, groups) = (state.grid.slots(), state.params.groups);
-        let layout = Layout { threads, groups, dots: Dots::Product, reference_at: 0, row: None };
+        let dots_at = PARTIALS * BLOCK_DOTS;
+        let layout = Layout { threads, groups, dots: Dots::Product, reference_at: 0, dots_at, block_at: 0, row: None };
         let pcg = Pcg::new(gpu, &own.vectors, &state.partials, limits, &layout)?;
         let PcgVectors { solution, residual, direction, product, inverse_diagonal } = &own.vectors;
         let renamed = [

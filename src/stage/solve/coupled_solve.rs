@@ -8,11 +8,12 @@ mod surface;
 pub(in crate::stage) use surface::Turn;
 
 use crate::error::Result;
-use crate::gpu::{Bound, Pass};
+use crate::gpu::{Bound, Pass, WORKGROUP};
 use crate::numerics::{Block, Dots, Groups, Layout, Levels, Pcg};
 use crate::scene::{Scene, SolidUpdate};
+use crate::stage::gas::open_sides;
 use crate::stage::sweep::{Form, Sweep};
-use crate::state::constants::PARTIALS;
+use crate::state::constants::{BLOCK_DOTS, BLOCK_REFERENCE, PARTIALS};
 use crate::state::stages::Stage;
 use crate::state::{Over, Phase, State};
 use coarse::Coarse;
@@ -26,7 +27,7 @@ pub struct CoupledSolve {
     film: Vec<Bound>,
     predictor: Vec<Bound>,
     masses: Sweep,
-    open: Form,
+    open: Option<Form>,
     forces_of_pressure: Sweep,
     forces_on_bodies: Option<Form>,
     velocities: Sweep,
@@ -45,9 +46,9 @@ pub struct CoupledSolve {
 #[derive(Debug)]
 struct Vertices {
     setup: Vec<Form>,
-    /// The plain and the listed form.
-    operator: [Bound; 2],
-    /// Nodes whose velocities the plain forms compute: all for B2B1; for B1B0, whose operator deep inside the gas stores none,
+    /// One after the other: the first leaves its partial sums, the other adds to them.
+    operator: Vec<Bound>,
+    /// Nodes whose velocities are computed: all for B2B1; for B1B0, whose operator deep inside the gas stores none, listed ones and
     /// those that listed vertices rest on.
     nodes: Over,
 }
@@ -55,22 +56,24 @@ struct Vertices {
 impl Vertices {
     fn new(state: &State) -> Result<Self> {
         let direction = [("x", state.pcg.direction.raw()), ("y", state.pcg.product.raw())];
-        let residual = Sweep::new(state, "solve/solve_setup.wgsl", "solve_residual")?;
-        let diagonal = Sweep::new(state, "solve/solve_diagonal.wgsl", "solve_diagonal")?;
-        let operator = Sweep::over(state, Over::Interior, ["solve/solve_operator.wgsl", "solve_operator"], &direction)?;
-        let listed = [residual.listed, diagonal.listed];
+        let over = if state.quadratic { Over::Both } else { Over::Listed };
+        let operator = ["solve/solve_operator.wgsl", "solve_operator"];
+        let operator = Form::new(state, over, operator, &direction, &[])?.kernel;
+        let [residual, diagonal] =
+            [["solve/solve_setup.wgsl", "solve_residual"], ["solve/solve_diagonal.wgsl", "solve_diagonal"]];
         if state.quadratic {
-            let setup = [residual.plain, diagonal.plain].into_iter().chain(listed).collect();
-            let operator = [operator.plain.kernel, operator.listed.kernel];
-            return Ok(Self { setup, operator, nodes: Over::Interior });
+            let setup = [residual, diagonal].map(|[shader, entry]| Sweep::new(state, shader, entry));
+            let setup = setup.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flat_map(|sweep| sweep.forms);
+            return Ok(Self { setup: setup.collect(), operator: vec![operator], nodes: Over::Both });
         }
+        let [residual, diagonal] = [residual, diagonal].map(|[shader, entry]| Form::listed(state, shader, entry));
         let interior = |entry: &str, vectors: &[(&str, &wgpu::Buffer)]| {
             Form::new(state, Over::Interior, ["solve/solve_interior.wgsl", entry], vectors, &[])
         };
         let right = [("x", state.pressure.raw()), ("y", state.pcg.residual.raw())];
-        let setup = [interior("interior_setup", &right)?].into_iter().chain(listed).collect();
-        let operator = [interior("interior_operator", &direction)?.kernel, operator.listed.kernel];
-        Ok(Self { setup, operator, nodes: Over::Frontier })
+        let setup = vec![interior("interior_setup", &right)?, residual?, diagonal?];
+        let operator = vec![operator, interior("interior_operator", &direction)?.kernel];
+        Ok(Self { setup, operator, nodes: Over::Near })
     }
 }
 
@@ -82,10 +85,12 @@ impl CoupledSolve {
         // Interface pressures have a preconditioner of their own, and the B2B1 operator has no room for another buffer.
         let dots = if state.has_solids() || state.quadratic { Dots::Product } else { Dots::Both };
         let layout = Layout {
-            threads: state.grid.slots(),
+            threads: (state.params.groups_over_both() * WORKGROUP) as usize,
             groups: state.params.groups,
             dots,
-            reference_at: PARTIALS,
+            reference_at: PARTIALS * BLOCK_REFERENCE,
+            dots_at: PARTIALS * BLOCK_DOTS,
+            block_at: state.params.slots,
             row: (state.params.row < state.params.slots).then_some(state.params.row),
         };
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, limits, &layout)?;
@@ -110,7 +115,7 @@ impl CoupledSolve {
             .concat(),
             predictor: solid("solid/solid_predictor.wgsl", &["solid_predictor"])?,
             masses: Sweep::new(state, "solve/solve_setup.wgsl", "solve_masses")?,
-            open: Form::listed(state, "solve/solve_open.wgsl", "solve_open")?,
+            open: open_sides(state, "solve_open")?,
             forces_of_pressure: forces(state.pressure.raw())?,
             forces_on_bodies: state.has_solids().then(on_bodies).transpose()?,
             velocities: over_nodes("solve/solve_setup.wgsl", "solve_velocities", &[])?,
@@ -148,7 +153,9 @@ impl CoupledSolve {
             pass.dispatch(kernel, &state.extent(phase, Over::Reduce));
         }
         pass.stage(Stage::CoupledSolve.name());
-        self.open.record(pass, state, phase);
+        if let Some(open) = &self.open {
+            open.record(pass, state, phase);
+        }
         self.masses.record(pass, state, phase);
         self.forces_of_pressure.record(pass, state, phase);
     }
@@ -182,22 +189,12 @@ impl CoupledSolve {
     /// Iterations; those after convergence do nothing.
     pub fn record_iterations(&self, pass: &mut Pass, count: u32) {
         pass.stage(Stage::CoupledSolve.name());
-        let nodes = if self.vertices.nodes == Over::Frontier { Groups::Frontier } else { Groups::Slots };
-        let [operator, listed_operator] = &self.vertices.operator;
+        let operator = self.vertices.operator.iter().map(|kernel| (kernel, Groups::Partial));
+        let forces = self.forces.forms.iter().map(|form| (&form.kernel, form.groups()));
+        let applied: Vec<_> = forces.chain(operator).collect();
         let (block, levels) = (self.block(), self.levels());
         for _ in 0..count {
-            self.pcg.iterate(
-                pass,
-                &[
-                    (&self.forces.plain.kernel, nodes),
-                    (&self.forces.listed.kernel, Groups::Listed),
-                    // The listed form leaves its partial sums first, the plain form adds to them.
-                    (listed_operator, Groups::Partial),
-                    (operator, Groups::Partial),
-                ],
-                &block,
-                &levels,
-            );
+            self.pcg.iterate(pass, &applied, &block, &levels);
         }
     }
 

@@ -3,14 +3,13 @@
 use crate::error::Result;
 use crate::gpu::{Bound, Extent, Pass};
 use crate::scene::Scene;
-use crate::stage::sweep::Sweep;
 use crate::state::stages::Stage;
 use crate::state::{Over, Phase, State};
 
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct TimeStep {
-    gas: Sweep,
+    gas: Bound,
     particles: Bound,
     choose: Bound,
     openings: Option<Bound>,
@@ -54,7 +53,7 @@ impl TimeStep {
         let filtered = [("FILTER_COURANT", scene.filter().map_or(f64::from(f32::MAX), |filter| filter.least_courant))];
         let control = |entry: &str| state.bind("step/step_control.wgsl", entry, &[("pcg", pcg)], &filtered);
         Ok(Self {
-            gas: Sweep::over(state, Over::Interior, ["step/time_step.wgsl", "time_step_gas"], &maxima)?,
+            gas: time("time_step_gas")?,
             particles: time("time_step_particles")?,
             choose: time("time_step_choose")?,
             openings: if state.knots.is_empty() {
@@ -69,10 +68,7 @@ impl TimeStep {
     /// Chooses dt and opens the step, if one is due.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::TimeStep.name());
-        // The listed form leaves its maxima first, the plain form adds to them.
-        for form in [&self.gas.listed, &self.gas.plain] {
-            pass.dispatch(&form.kernel, &Extent::Groups([state.params.groups, 1, 1]));
-        }
+        pass.dispatch(&self.gas, &Extent::Groups([state.params.groups, 1, 1]));
         if state.has_solids() {
             pass.dispatch(&self.particles, &Extent::Groups([state.params.groups, 1, 1]));
         }

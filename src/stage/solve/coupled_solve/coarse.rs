@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Extent, Pass};
-use crate::numerics::Levels;
+use crate::numerics::{Groups, Levels};
 use crate::scene::Scene;
 use crate::stage::sweep::{Form, Sweep};
 use crate::state::coarse::{self, EXTENTS, Level};
@@ -10,7 +10,7 @@ use crate::state::{Over, Phase, State};
 
 /// Entries of the table of group counts.
 const NODES: u64 = 0;
-const LISTED: u64 = 1;
+const NEAR: u64 = 1;
 const ALL: u64 = 2;
 const FINEST: u64 = 3;
 
@@ -98,7 +98,7 @@ impl Coarse {
         Extent::Indirect(&self.extents, 16 * entry)
     }
 
-    /// Chooses the levels and finds their diagonals; the diagonal must be there. `forces`: those of the direction, plain and listed.
+    /// Chooses the levels and finds their diagonals; the diagonal must be there. `forces`: those of the direction.
     pub(super) fn record_setup(&self, pass: &mut Pass, state: &State, phase: Phase, forces: &Sweep) {
         pass.dispatch(&self.measure, &state.extent(phase, Over::Reduce));
         for (_, choose) in self.choose.iter().filter(|(own, _)| *own == phase) {
@@ -106,8 +106,9 @@ impl Coarse {
         }
         for [ones, sums] in &self.sums {
             pass.dispatch(ones, &self.extent(ALL));
-            pass.dispatch(&forces.plain.kernel, &self.extent(NODES));
-            pass.dispatch(&forces.listed.kernel, &self.extent(LISTED));
+            for form in &forces.forms {
+                pass.dispatch(&form.kernel, &self.extent(if form.groups() == Groups::Near { NEAR } else { NODES }));
+            }
             pass.dispatch(&self.operator.kernel, &self.extent(ALL));
             pass.dispatch(sums, &self.extent(FINEST + 1));
         }

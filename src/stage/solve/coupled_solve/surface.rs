@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::gpu::{Bound, Buffer, Pass};
 use crate::numerics::Block;
 use crate::stage::sweep::Form;
-use crate::state::surface::{TERMS, row_length};
+use crate::state::surface::{TERMS, dispatches, row_length};
 use crate::state::{Over, Phase, State};
 use crate::structure::structure;
 
@@ -26,8 +26,8 @@ structure! {
 pub(super) struct Surface {
     begin: Bound,
     rows: Form,
+    /// One per term, or a single one.
     terms: Vec<Bound>,
-    direction: Bound,
     _buffers: Buffers,
 }
 
@@ -48,10 +48,12 @@ impl Surface {
             return Ok(None);
         }
         let length = count * row_length(state.grid.dimension as usize);
+        let turns = dispatches(count);
+        let entry = if turns > 1 { "surface_term" } else { "surface_terms" };
         let buffers = Buffers {
             rows: Buffer::new(gpu, "surface rows", length)?,
             bound: Buffer::new(gpu, "surface bound", 1)?,
-            turns: (0..TERMS).map(|_| Buffer::uniform(gpu, "turn", 1)).collect::<Result<_>>()?,
+            turns: (0..turns).map(|_| Buffer::uniform(gpu, "turn", 1)).collect::<Result<_>>()?,
         };
         let shared = [("rows", buffers.rows.raw()), ("bound", buffers.bound.raw())];
         let bind = |entry: &str, more: &[(&str, &wgpu::Buffer)]| {
@@ -60,13 +62,12 @@ impl Surface {
         };
         let term = |(number, turn): (u32, &Buffer<Turn>)| {
             turn.write(gpu, 0, &[Turn { number, count: TERMS }]);
-            bind("surface_term", &[("turn", turn.raw())])
+            bind(entry, &[("turn", turn.raw())])
         };
         Ok(Some(Self {
             begin: bind("surface_begin", &[])?,
             rows: Form::new(state, Over::Listed, ["solve/solve_surface.wgsl", "surface_rows"], &shared, &[])?,
             terms: (0..).zip(&buffers.turns).map(term).collect::<Result<_>>()?,
-            direction: bind("surface_direction", &[])?,
             _buffers: buffers,
         }))
     }
@@ -79,6 +80,6 @@ impl Surface {
 
     /// The block that it preconditions.
     pub(super) fn block(&self) -> Block<'_> {
-        Block { terms: self.terms.iter().collect(), direction: Some(&self.direction) }
+        Block { terms: &self.terms, together: self.terms.len() == 1 }
     }
 }
