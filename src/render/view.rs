@@ -332,6 +332,19 @@ mod tests {
         assert_eq!(floor(&CUBE, Vec3::X), [-1.0, 0.0, 0.0, -2.0]);
     }
 
+    /// What is open is cut off; the floor is not, though it is open to gas here.
+    #[test]
+    fn gas_fades_before_open_sides_alone() {
+        let text = "title = \"open\"\ndomain = { dimension = 3, cells = [8, 8, 8], size = [1.0, 1.0, 1.0] }\n\
+             gas.ambient = { density = 1.0, pressure = 1.0 }\ntime.until = 1.0\nrender.ground = true\n\
+             boundary = { x_min = \"outlet\", z_min = \"outlet\", z_max = \"outlet\" }";
+        let scene = Scene::parse(text, "open.toml", &[]).unwrap();
+        let grid = Grid::of(&scene.domain);
+        let eye = Eye::of_camera(&crate::render::camera::fitting_camera(&grid, [64, 64]), [0.0; 3]);
+        let view = View::new(&scene, &grid, &eye, &scene.render, [64, 64]);
+        assert_eq!([view.far_from_low, view.far_from_high], [[0.0, FAR, FAR, 0.0], [FAR, FAR, 0.0, 0.0]]);
+    }
+
     /// Points appear where the rays through their pixels pass, for both kinds of camera.
     #[test]
     fn projection_is_the_inverse_of_rays() {
