@@ -48,8 +48,9 @@ impl Simulation {
         }
         if recorded == 0 {
             p2g.record_substep(pass, state, true);
+        } else {
+            particle_sort.record(pass, state); // before the first recorded one the step did
         }
-        particle_sort.record(pass, state);
         p2g.record_substep(pass, state, false);
         self.record_held(pass, Phase::Again);
         if let Some(elastic_reaction) = &self.elastic_reaction {
