@@ -118,6 +118,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "solid/spread_impulse.wgsl",
     "solid/supports.wgsl",
     "solid/transfer.wgsl",
+    "solid/wall_faces.wgsl",
     "solve/coarse.wgsl",
     "solve/gather.wgsl",
     "solve/interior_mass.wgsl",

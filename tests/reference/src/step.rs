@@ -162,10 +162,12 @@ fn elastic_substeps(
         if let Some(spread) = spread {
             spread.kick(problem, nodes, sub_dt);
         }
-        if !problem.numerics.coupling_last {
+        if problem.numerics.coupling_last {
+            mpm_grid_update::walls(problem, cells, &mut nodes.velocity);
+        } else {
             mpm_grid_update::add_forces(&mut nodes.velocity, &nodes.mass, &nodes.force, sub_dt);
+            mpm_grid_update::wall_faces(problem, cells, &nodes.mass, &mut nodes.velocity);
         }
-        mpm_grid_update::walls(problem, cells, &mut nodes.velocity);
         let whole = if index == 0 { 1.0 } else { 0.0 };
         let share = if problem.numerics.shared_volume { 1.0 / substeps as f64 } else { whole };
         g2p::g2p(problem, &nodes.velocity, change, share, sub_dt, &mut state.particles);

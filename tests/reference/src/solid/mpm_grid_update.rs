@@ -46,23 +46,57 @@ pub fn add_gravity(problem: &Problem, nodes: &mut Nodes, dt: f64) {
 pub fn walls(problem: &Problem, cells: &[u32], velocity: &mut [[f64; 3]]) {
     let grid = &problem.grid;
     for c in grid.all() {
+        for axis in 0..grid.dimension {
+            let v = &mut velocity[grid.slot(c)][axis];
+            if (c[axis] < 0 || c[axis] >= grid.cells[axis]) && is_wall(problem, axis, c[axis] >= 0) {
+                *v = if c[axis] >= 0 { v.min(0.0) } else { v.max(0.0) };
+            }
+        }
+    }
+    obstacles(problem, cells, velocity);
+}
+
+/// Walls of the sub-steps: at a wall side the mean of the nodes on both sides of it does not go outward, in an obstacle no node.
+pub fn wall_faces(problem: &Problem, cells: &[u32], mass: &[f64], velocity: &mut [[f64; 3]]) {
+    let grid = &problem.grid;
+    for (axis, upper) in (0..grid.dimension).flat_map(|axis| [(axis, false), (axis, true)]) {
+        if !is_wall(problem, axis, upper) {
+            continue;
+        }
+        let (last, way) = if upper { (grid.cells[axis] - 1, 1) } else { (0, -1) };
+        for c in grid.all().into_iter().filter(|c| c[axis] == last) {
+            let pair = [c, shift(c, axis, way)].map(|at| grid.slot(at));
+            let outward: f64 =
+                pair.iter().filter(|at| mass[**at] > 0.0).map(|at| f64::from(way) * velocity[*at][axis]).sum();
+            if outward <= 0.0 || mass[pair[1]] <= 0.0 {
+                continue;
+            }
+            let mobility = pair.map(|at| if mass[at] > 0.0 { 1.0 / mass[at] } else { 0.0 });
+            let impulse = -f64::from(way) * outward / (mobility[0] + mobility[1]);
+            pair.into_iter().zip(mobility).for_each(|(at, mobility)| velocity[at][axis] += impulse * mobility);
+        }
+    }
+    obstacles(problem, cells, velocity);
+}
+
+fn is_wall(problem: &Problem, axis: usize, upper: bool) -> bool {
+    matches!(problem.sides[2 * axis + usize::from(upper)], Side::Wall)
+}
+
+/// No node moves into an obstacle.
+fn obstacles(problem: &Problem, cells: &[u32], velocity: &mut [[f64; 3]]) {
+    let grid = &problem.grid;
+    for c in grid.all().into_iter().filter(|c| grid.contains(*c)) {
         let slot = grid.slot(c);
         let wall = |at: [i32; 3]| grid.stored(at) && cells[grid.slot(at)] == WALL;
         let surface = (0..grid.dimension).any(|axis| !wall(shift(c, axis, -1)) || !wall(shift(c, axis, 1)));
-        for axis in 0..grid.dimension {
+        for axis in (0..grid.dimension).filter(|_| wall(c)) {
             let v = &mut velocity[slot][axis];
-            if c[axis] < 0 || c[axis] >= grid.cells[axis] {
-                let upper = c[axis] >= 0;
-                if matches!(problem.sides[2 * axis + usize::from(upper)], Side::Wall) {
-                    *v = if upper { v.min(0.0) } else { v.max(0.0) };
-                }
-            } else if grid.contains(c) && wall(c) {
-                match (wall(shift(c, axis, -1)), wall(shift(c, axis, 1))) {
-                    (false, true) => *v = v.min(0.0),
-                    (true, false) => *v = v.max(0.0),
-                    (true, true) if !surface => *v = 0.0,
-                    _ => {}
-                }
+            match (wall(shift(c, axis, -1)), wall(shift(c, axis, 1))) {
+                (false, true) => *v = v.min(0.0),
+                (true, false) => *v = v.max(0.0),
+                (true, true) if !surface => *v = 0.0,
+                _ => {}
             }
         }
     }
