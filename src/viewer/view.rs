@@ -346,8 +346,10 @@ fn tag(ui: &Ui, pointer: Pos2, text: &str) {
     let visuals = ui.visuals();
     let text =
         ui.painter().layout_no_wrap(text.to_owned(), egui::FontId::proportional(14.0), visuals.strong_text_color());
-    let corner = pointer + Vec2::new(18.0, 16.0);
-    let around = Rect::from_min_size(corner, text.size()).expand2(Vec2::new(8.0, 5.0));
+    let border = Vec2::new(8.0, 5.0);
+    let room = ui.clip_rect().shrink2(border);
+    let corner = (pointer + Vec2::new(18.0, 16.0)).min(room.max - text.size()).max(room.min);
+    let around = Rect::from_min_size(corner, text.size()).expand2(border);
     let stroke = visuals.window_stroke;
     ui.painter().rect(around, 4.0, visuals.window_fill, stroke, egui::StrokeKind::Inside);
     ui.painter().galley(corner, text, visuals.strong_text_color());
