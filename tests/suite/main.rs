@@ -77,6 +77,7 @@ mod verify;
 mod viewer;
 mod walls;
 mod warnings;
+#[cfg(feature = "viewer")]
 mod window;
 mod words;
 #[cfg(unix)]
