@@ -204,6 +204,12 @@ fn scaled(c: Change, share: f32) -> Change {
         share * c.lost_density, share * c.lost_energy, share * c.slip, share * c.heat, c.phi, share * c.lost_species);
 }
 
+// What a change is relative to.
+fn relate(change: ptr<function, Change>, here: Gas) {
+    (*change).velocity = velocity_of(here.flow);
+    (*change).phi = here.species.y;
+}
+
 // Adds what a face passes. `share`: of the high-order part, that the cells of the face allow; below 0 there is none of it, and 1 + share of
 // the first-order flux. `sign`: 1 where the flux along +axis enters the cell, -1 where it leaves, times the open share of the face.
 fn add_face(change: ptr<function, Change>, f: Fluxes, share: f32, sign: f32) {

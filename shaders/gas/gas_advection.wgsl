@@ -15,7 +15,6 @@
 #include "gas/flux.wgsl"
 #include "gas/faces.wgsl"
 #include "gas/cut_carrier.wgsl"
-#include "gas/stage_result.wgsl"
 
 // Stage of the scheme: 0, 1, and with ARS 2; or BY_UNIFORM: one kernel for all, which costs little where slots are few.
 override RUNGE_KUTTA: u32;
@@ -24,10 +23,9 @@ const BY_UNIFORM = 3u;
 // What a dispatch of such a kernel does: a stage, or (limited: 1) its correction by the limiter.
 struct Advection { stage: u32, limited: u32 }
 
-fn in_stage(stage: u32) -> bool { return RUNGE_KUTTA == BY_UNIFORM && advection.stage == stage; }
-fn in_first() -> bool { return RUNGE_KUTTA == 0u || in_stage(0u); }
-fn in_second() -> bool { return RUNGE_KUTTA == 1u || in_stage(1u); }
-fn in_third() -> bool { return RUNGE_KUTTA == 2u || in_stage(2u); }
+fn in_first() -> bool { return RUNGE_KUTTA == 0u || (RUNGE_KUTTA == BY_UNIFORM && advection.stage == 0u); }
+fn in_second() -> bool { return RUNGE_KUTTA == 1u || (RUNGE_KUTTA == BY_UNIFORM && advection.stage == 1u); }
+fn in_third() -> bool { return RUNGE_KUTTA == 2u || (RUNGE_KUTTA == BY_UNIFORM && advection.stage == 2u); }
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -45,10 +43,7 @@ fn species_at(density: u32, volume: u32, slot: u32) -> vec2f {
     return vec2f(energy[part(density, slot)], energy[part(volume, slot)]);
 }
 
-fn unburned_at(which: u32, slot: u32) -> f32 {
-    if !PRODUCTS { return 0.0; }
-    return energy[part(which, slot)];
-}
+fn unburned_at(which: u32, slot: u32) -> f32 { if PRODUCTS { return energy[part(which, slot)]; } return 0.0; }
 
 // What velocity carries of the internal energy at one pressure: G rho c^2 - p.
 fn carried_heat(gas: Gas) -> f32 {
@@ -75,11 +70,6 @@ fn change_of(slot: u32, limited: bool) -> Change {
     for (var at = cluster_first(slot); at != NO_EXTRA; at = cluster_next(at)) { add_faces(&change, at, limited, at == slot); }
     if CUT { change = scaled(change, 1.0 / cluster_share(slot)); }
     return change;
-}
-
-fn relate(change: ptr<function, Change>, here: Gas) {
-    (*change).velocity = velocity_of(here.flow);
-    (*change).phi = here.species.y;
 }
 
 // Adds what passes the faces of a slot if it is GAS, else those that it shares with GAS cells. `gives`: and gives slots of the ring what passes
@@ -134,18 +124,62 @@ fn axis_change(slot: u32, word: u32, n: u32, here: Gas) -> Change {
     var change: Change;
     relate(&change, here);
     let s = step_of(n);
-    let last = params.slots - 1u;
     let a = source(max(slot, 3u * s) - 3u * s);
     let b = source(slot - 2u * s);
     let c = source(slot - s);
     let e = source(slot + s);
     let f = source(slot + 2u * s);
-    let g = source(min(slot + 3u * s, last));
+    let g = source(min(slot + 3u * s, params.slots - 1u));
     let low = stencil_inside(n, is_wide(word, n, false), ends_in_image(word, n, false), false, a, b, c, here, e, f);
     let high = stencil_inside(n, is_wide(word, n, true), false, ends_in_image(word, n, true), b, c, here, e, f, g);
     add_face(&change, interior_fluxes(n, slot - s, low), 1.0, 1.0);
     add_face(&change, interior_fluxes(n, slot, high), 1.0, -1.0);
     return change;
+}
+
+// The state that the change of this stage is added to.
+fn start_of(slot: u32, here: Gas) -> Gas {
+    if !ARS || in_first() { return here; }
+    // Density is never the solve's: it starts from that of U0 to the last bit.
+    let factor = select(ARS_MIDDLE, ARS_RETURNED, in_third());
+    let gained = in_space(conserved[slot]) - in_space(work[part(KEPT_FLOW, slot)]);
+    return Gas(in_space(work[part(START_FLOW, slot)]) + factor * gained,
+        energy[part(START_ENERGY, slot)] + factor * (energy[slot] - energy[part(KEPT_ENERGY, slot)]), species_at(START_SPECIES_DENSITY, START_SPECIES_VOLUME, slot),
+        unburned_at(START_UNBURNED, slot));
+}
+
+fn write_species(density: u32, volume: u32, unburned: u32, slot: u32, species: vec3f) {
+    if !SPECIES { return; }
+    energy[part(density, slot)] = species.x;
+    energy[part(volume, slot)] = species.y;
+    if PRODUCTS { energy[part(unburned, slot)] = species.z; }
+}
+
+fn write_result(slot: u32, before: Gas, all: Change) {
+    let change = all.high_order;
+    let species = vec3f(before.species + change.species, before.unburned + change.unburned);
+    if ARS && !in_second() {
+        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, ADVECTED_UNBURNED, slot, species);
+        work[part(ADVECTED_FLOW, slot)] = before.flow + change.flow;
+        energy[part(ADVECTED_ENERGY, slot)] = before.energy + change.energy;
+        energy[part(COLD_ENERGY, slot)] = before.energy + change.energy - all.heat;
+        if in_third() { return; }
+        write_species(START_SPECIES_DENSITY, START_SPECIES_VOLUME, START_UNBURNED, slot, vec3f(before.species, before.unburned));
+        work[part(START_FLOW, slot)] = before.flow;
+        work[part(KEPT_FLOW, slot)] = before.flow + change.flow;
+        energy[part(START_ENERGY, slot)] = before.energy;
+        energy[part(KEPT_ENERGY, slot)] = before.energy + change.energy - all.heat;
+        energy[part(START_HEAT, slot)] = carried_heat(before);
+    } else if !ARS && in_second() {
+        let start = vec3f(species_at(SPECIES_DENSITY, SPECIES_VOLUME, slot), unburned_at(UNBURNED, slot));
+        write_species(ADVECTED_SPECIES_DENSITY, ADVECTED_SPECIES_VOLUME, ADVECTED_UNBURNED, slot, 0.5 * (start + species));
+        work[part(ADVECTED_FLOW, slot)] = 0.5 * (in_space(conserved[slot]) + before.flow + change.flow);
+        energy[part(ADVECTED_ENERGY, slot)] = 0.5 * (energy[slot] + before.energy + change.energy);
+    } else {
+        write_species(HALFWAY_SPECIES_DENSITY, HALFWAY_SPECIES_VOLUME, HALFWAY_UNBURNED, slot, species);
+        work[part(HALFWAY_FLOW, slot)] = before.flow + change.flow;
+        energy[part(HALFWAY_ENERGY, slot)] = before.energy + change.energy;
+    }
 }
 
 // Ends the stage for a slot: says how much of the change the limiter allows unless it is `limited` already, and writes what follows.
@@ -165,10 +199,7 @@ fn finish(slot: u32, here: Gas, change: Change, limited: bool) {
 fn stays(slot: u32) -> bool { return !CUT && !(ARS && !in_first()) && is_still(slot); }
 
 // Ends the stage for a slot that nothing passes.
-fn stay(slot: u32) {
-    theta[slot] = 1.0;
-    write_result(slot, start(slot), Change());
-}
+fn stay(slot: u32) { theta[slot] = 1.0; write_result(slot, start(slot), Change()); }
 
 // Whether a slot of the ring gets what passes through the side from the cell before it.
 fn is_served(c: vec3i) -> bool {
@@ -226,8 +257,7 @@ fn advect_interior(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     if first > last { return; }
     let moving = moving_rows(thread, CUT || (ARS && !in_first()));
     for (var k = 0u; k < params.march; k++) {
-        let slot = first + k * s;
-        if slot <= last && (k < moving.x || k >= moving.y) { stay(slot); }
+        if first + k * s <= last && (k < moving.x || k >= moving.y) { stay(first + k * s); }
     }
     if moving.x == moving.y { return; }
     let begin = first + moving.x * s;

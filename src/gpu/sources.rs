@@ -25,7 +25,6 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "gas/late_share.wgsl",
     "gas/odd_even.wgsl",
     "gas/openings.wgsl",
-    "gas/stage_result.wgsl",
     "gas/still.wgsl",
     "interface/interface.wgsl",
     "interface/interface_mark.wgsl",
