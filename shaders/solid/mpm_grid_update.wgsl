@@ -68,9 +68,9 @@ fn move_block(slot: u32, ways: vec3i) -> vec4f {
 fn mpm_grid_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var given = vec4f(0.0);
     for (var slot = thread_index(group, lane); slot < params.slots; slot += striding_threads()) {
-        let here = node[slot];
         let c = cell_of(slot);
-        if is_beyond_wall(c) { continue; }
+        if is_beyond_wall(c) { continue; } // the thread of the node before the wall moves it
+        let here = node[slot];
         let ways = ways_to_walls(c);
         let beside = any(ways != vec3i(0));
         for (var turn = 0u; turn < when(beside); turn++) { given += move_block(slot, ways); }
