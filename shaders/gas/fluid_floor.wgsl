@@ -64,10 +64,7 @@ fn ledger_loss(slot: u32, phi: f32, momentum: vec3f, heat: f32) {
     borrow(3u, heat / unit.y);
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = swept_slot(thread_index(group, lane));
-    if slot >= params.slots { return; }
+fn floor_slot(slot: u32) {
     let kind = kind_of(cells[slot]);
     // Between two solves of a step the second still builds upon what the first collected.
     if (kind == GHOST || kind == WALL) && !(ARS && control.stage == 0u) { keep_crossed(slot); }
@@ -93,4 +90,17 @@ fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     ledger_loss(slot, phi, (flow.yzw - left) * counted, min(total - least, 0.0) * counted);
     energy[slot] = max(total, least) + silent;
     conserved[slot] = vec4f(flow.x, left);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn fluid_floor(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let thread = thread_index(group, lane);
+    if SWEEP != OVER_LISTED && atomicLoad(&control.cold) == 1u {
+        let own = interior_slot(thread);
+        if own < params.slots { floor_slot(own); }
+    }
+    on_list = true;
+    let next = one_listed(thread);
+    if next < params.slots { floor_slot(next); }
+    for (var k = first_listed(thread); k < among(); k = next_listed(k)) { floor_slot(listed_slot(k)); }
 }

@@ -1,4 +1,4 @@
-// gas_advection: where does the gas carry itself?
+// gas_advection: where does the gas carry itself? [docs/method/gas_advection.md]
 // Reads gas, cells, node velocities. Writes the advected state. On return mass is conserved; no pressure work has been done yet.
 // TVD-RK2: U1 = U0 + dt L(U0); U* = (U0 + U1 + dt L(U1)) / 2. [Cao et al. 2022, eqs. 10-12 and section 2.3; Shu & Osher 1988]
 // What the stages of the Runge-Kutta scheme do. With ARS (shared/state.wgsl) one comes before the first of two solves, two before the second:
@@ -8,7 +8,6 @@
 //   ARS, 0                U0: conserved                  U0                              ADVECTED, KEPT, COLD_ENERGY; of U0 START
 //   ARS, 1                U1, after a solve: conserved   START + 1.71 (U1 - KEPT)        V: HALFWAY
 //   ARS, 2                V: HALFWAY                     START + 2.41 (U1 - KEPT)        ADVECTED, COLD_ENERGY
-// The method: docs/method/gas_advection.md.
 // Slots that are not GAS collect what passes through their faces: owed gas in SOLID cells, outflow in GHOST slots. So the sum
 // over all slots is conserved. A closed face passes R v_n U + (1 - R) (flux with everything behind it copied from this side).
 #include "shared/domain.wgsl"
@@ -26,6 +25,7 @@ struct Advection { stage: u32, limited: u32 }
 fn in_first() -> bool { return RUNGE_KUTTA == 0u || (RUNGE_KUTTA == BY_UNIFORM && advection.stage == 0u); }
 fn in_second() -> bool { return RUNGE_KUTTA == 1u || (RUNGE_KUTTA == BY_UNIFORM && advection.stage == 1u); }
 fn in_third() -> bool { return RUNGE_KUTTA == 2u || (RUNGE_KUTTA == BY_UNIFORM && advection.stage == 2u); }
+fn this_stage() -> u32 { return select(select(0u, 1u, in_second()), 2u, in_third()); }
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -189,7 +189,7 @@ fn finish(slot: u32, here: Gas, change: Change, limited: bool) {
         var share = 1.0;
         if kind_of(cells[slot]) == GAS { share = allowed_share(before, change); }
         theta[slot] = share;
-        if share < 1.0 { atomicAdd(&control.limited, 1u); }
+        if share < 1.0 { atomicAdd(&control.limited[this_stage()], 1u); }
     }
     write_result(slot, before, change);
 }
@@ -221,13 +221,13 @@ fn carries_less(slot: u32) -> bool {
     return least < 1.0;
 }
 
-// One slot of the list. Limited, where the limiter acted somewhere: any slot whose faces carry less than the full flux, once more.
+// One slot of the list. Limited, if the limiter acted somewhere: any slot whose faces carry less than the full flux, once more.
 @compute @workgroup_size(WORKGROUP)
 fn advect_listed(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let limited = advection.limited == 1u;
     var slot = thread_index(group, lane);
     if !limited { slot = swept_slot(slot); }
-    if slot >= params.slots { return; }
+    if slot >= params.slots || (limited && atomicLoad(&control.limited[this_stage()]) == 0u) { return; }
     let c = cell_of(slot);
     let beyond = !inside(c);
     let still = stays(slot);

@@ -90,14 +90,14 @@ fn rows_along(block: u32) -> u32 {
     return rows;
 }
 
-// Behind the first part of busy: rows to be computed, as far as one line tells.
+// Rows to be computed, as far as one line tells; in space behind the first part of busy.
 @compute @workgroup_size(WORKGROUP)
 fn still_along(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let total = striding_threads();
     for (var block = thread_index(group, lane); block < blocks(); block += total) {
         var moving = all_rows();
         if params.still == 1u { moving = rows_along(block); }
-        busy[blocks() + block] = moving;
+        if DIM == 3u { busy[blocks() + block] = moving; } else { extra[params.still_at + block] = moving; }
     }
 }
 
@@ -115,12 +115,11 @@ fn rows_across(block: u32) -> u32 {
     return rows;
 }
 
+// In space.
 @compute @workgroup_size(WORKGROUP)
 fn still_spread(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let total = striding_threads();
     for (var block = thread_index(group, lane); block < blocks(); block += total) {
-        var rows = busy[blocks() + block];
-        if DIM == 3u { rows = rows_across(block); }
-        extra[params.still_at + block] = rows;
+        extra[params.still_at + block] = rows_across(block);
     }
 }

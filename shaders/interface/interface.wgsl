@@ -19,10 +19,7 @@ fn volume_of(p: u32) -> f32 {
     return velocity[p].w * (1.0 + swelling(deformation_of(p)));
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, lane);
-    if slot >= params.slots || !inside(cell_of(slot)) { return; } // the ring keeps what open faces know
+fn find_fill(slot: u32) {
     let first = cell_start[slot];
     let end = cell_start[slot + 1u];
     var volume = 0.0;
@@ -42,9 +39,7 @@ fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
 }
 
 // A march along the last axis over the four cells around each vertex: particles are read four times, not eight.
-@compute @workgroup_size(WORKGROUP)
-fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let thread = thread_index(group, lane);
+fn find_ghost(thread: u32) {
     let n = DIM - 1u;
     let step = step_of(n);
     let first = thread / step * params.march;
@@ -76,4 +71,16 @@ fn interface_ghost(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
         }
         if k >= first && is_vertex(v) { ghost[slot_of(v)] = select(0.0, params.ambient_pressure + sum.y / sum.x, sum.x > 0.0); }
     }
+}
+
+// One slot per thread, and of every so many groups the threads march.
+@compute @workgroup_size(WORKGROUP)
+fn interface_fill(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
+    if slot < params.slots && inside(cell_of(slot)) { find_fill(slot); } // the ring keeps what open faces know
+    let n = DIM - 1u;
+    let marching = step_of(n) * ((params.stride[n] + params.march - 1u) / params.march);
+    let every = groups_of(params.slots) / groups_of(marching);
+    let own = group_index(group);
+    if own % every == 0u { find_ghost(own / every * WORKGROUP + lane); }
 }

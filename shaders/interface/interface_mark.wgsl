@@ -162,7 +162,7 @@ fn shares_pressure(v: vec3i) -> bool {
     return volume >= select(select(0.5, 2.0, DIM == 2u), 8.0, DIM == 3u) * cell_volume();
 }
 
-// After the scan of `wanted`.
+// After the scan of `wanted`, of which each thread then makes the next one.
 @compute @workgroup_size(WORKGROUP)
 fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
@@ -175,15 +175,13 @@ fn interface_extra(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     }
     atomicStore(&extra[slot], at);
     if slot == params.slots - 1u { control.extra = wanted_place[slot] + wanted[slot]; }
+    find_edge(slot);
 }
 
 // INTERIOR: every stencil of cell, node and vertex stays deep inside the gas. The nodes of the vertex have only gas around them,
 // so do the next ones up: gas in the 4^DIM cells around the vertex and two cells along each axis.
 // `wanted` from here on: the slots whose stencils take by far the longest, those between gas and body or obstacle.
-@compute @workgroup_size(WORKGROUP)
-fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, lane);
-    if slot >= params.slots { return; }
+fn find_edge(slot: u32) {
     let c = cell_of(slot);
     // Of the six cells around a face only the outermost may be an image.
     var interior = inside(c) && (!MIRRORED || within(c, 2 * reach(), vec3i(params.cells) - 2 * reach())) && away_from_seam(c, -3, 3);
@@ -195,6 +193,13 @@ fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     }
     edge[slot] = u32(!interior && !is_alias(c));
     wanted[slot] = u32(!is_alias(c) && is_mixed(cells[slot]));
+}
+
+// At the start, where `interface_extra` does not run.
+@compute @workgroup_size(WORKGROUP)
+fn interface_edge(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
+    if slot < params.slots { find_edge(slot); }
 }
 
 // What an INTERIOR slot knows of the cells around its faces, see cell.wgsl.

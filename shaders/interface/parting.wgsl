@@ -47,7 +47,7 @@ fn ask(slot: u32) {
     var asked = 0.0;
     let most = max(pressure[slot], pressure[interface_index(slot)]);
     for (var turn = 0u; turn < when(least >= 0.0 && most > 2.0 * least); turn++) { asked = surplus(v); }
-    if asked > most_asked() { atomicAdd(&control.limited, 1u); }
+    if asked > most_asked() { atomicAdd(&control.limited[3], 1u); }
     pressure[surplus_index(slot)] = asked;
 }
 

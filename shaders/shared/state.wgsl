@@ -1,7 +1,6 @@
 // What every kernel knows of a run: switches, parameters and control, what lies beyond sides, the parts of arrays, and the state of the gas.
-// Mirror of src/state.
-// Two things are declared in no file of this folder: constants such as GAS or NO_EXTRA are written by src/state/constants.rs, and
-// thread_index() and when() stand in src/gpu/head.wgsl. Both go before every shader.
+// Mirror of src/state. Declared elsewhere: constants such as GAS or NO_EXTRA by src/state/constants.rs, thread_index() and when() in
+// src/gpu/head.wgsl. Both go before every shader.
 
 // -- Switches and parameters --
 
@@ -98,8 +97,8 @@ struct Control {
     stage: u32,                 // Solves of this step that are done
     step: u32,                  // Finished steps
     fault: atomic<u32>,         // Smallest stage << 27 | slot that met an impossible value; NO_FAULT if none
-    limited: atomic<u32>,       // Cells where the flux limiter acted, and vertices whose gas could not pay for all that they asked, this step
-    limited_before: u32,        // The same when the first advection stage ended
+    limited: array<atomic<u32>, 4>, // Cells where the flux limiter acted in each stage of the advection; last vertices whose gas could not pay for all that they asked, this step
+    limited_before: u32,        // Sum of the first three when a stage ended
     floored: atomic<u32>,       // Cells where the energy floor acted, this step
     cold: atomic<u32>,          // 1 if the energy floor may have to act deep inside the gas
     raised: atomic<u32>,        // Cells whose pressure had to be raised before one of two solves, this step
@@ -112,6 +111,7 @@ struct Control {
     residual: f32,              // Relative residual of the last solve
     listed: u32,                // Slots that are not INTERIOR
     frontier: u32,              // INTERIOR slots whose nodes listed vertices rest on
+    surface_bound: atomic<u32>, // Of the eigenvalues of the preconditioner of interface pressures an upper bound, bits of a number
     sound: f32,                 // Largest speed of sound at the end of the step [m s^-1]
     time: f32,                  // Simulated time at the start of the step [s]
     time_error: f32,            // What rounding has taken from it so far [s]

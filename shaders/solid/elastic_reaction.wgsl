@@ -9,6 +9,7 @@
 // particles again; elastic: see below.
 #include "solid/grid_wall.wgsl"
 #include "solid/spread_impulse.wgsl"
+#include "solid/light_node.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> cells: array<u32>;
@@ -118,14 +119,16 @@ fn reaction_aside(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     work[part(SOLID_NODE, slot)] -= vec4f(e, 0.0);
 }
 
-// After the kick of the solve: what is not elastic of the acceleration, and the velocity of the particles. Explicit sub-steps start from
-// it. An implicit step looks for its own from there, where no particle is turned inside out; it keeps the kicked velocity.
+// After the kick of the solve, with what light nodes around have left of it: what is not elastic of the acceleration, and the velocity of
+// the particles. Explicit sub-steps start from it. An implicit step looks for its own from there, where no particle is turned inside out;
+// it keeps the kicked velocity.
 @compute @workgroup_size(WORKGROUP)
 fn reaction_after(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
     if slot >= params.slots { return; }
     let start = elastic[part(START_VELOCITY, slot)];
-    let here = node[slot];
+    let gain = gain_around(slot, select(0u, block_size(), is_free(slot)));
+    let here = node[slot] + vec4f(gain, 0.0);
     elastic[part(PASSED_ON, slot)] = vec4f(0.0);
     if !is_free(slot) || control.dt <= 0.0 {
         elastic[part(select(TO_SPREAD, KICKED_VELOCITY, IMPLICIT), slot)] = vec4f(select(vec3f(0.0), here.xyz, IMPLICIT), 0.0);

@@ -26,10 +26,8 @@ fn solid_kick(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     if has(word, VERTEX_SOLID) { ghost[slot] = pressure[ghost_index(slot)] - ghost[slot]; }
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, lane);
-    if slot >= params.slots { return; }
+// What a light node leaves of its kick.
+fn leave(slot: u32) {
     var left = vec3f(0.0);
     if has(cells[slot], NODE_SOLID) {
         var kick = work[part(SOLID_NODE, slot)].xyz;
@@ -39,6 +37,7 @@ fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     work[part(LEFT_KICK, slot)] = vec4f(left, 0.0);
 }
 
+// Where the elastic step comes first; else the same is part of `reaction_after` [elastic_reaction.wgsl].
 @compute @workgroup_size(WORKGROUP)
 fn solid_kick_share(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
@@ -54,10 +53,8 @@ fn has_particles_near(v: vec3i) -> bool {
 }
 
 // Particles in GAS cells: a vertex without a solid cell takes the mean change of the solid vertices in its 5^DIM block.
-@compute @workgroup_size(WORKGROUP)
-fn solid_kick_spread(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let slot = thread_index(group, lane);
-    if slot >= params.slots || has(cells[slot], VERTEX_SOLID) { return; }
+fn spread_change(slot: u32) {
+    if has(cells[slot], VERTEX_SOLID) { return; }
     let v = cell_of(slot);
     if !is_vertex(v) { return; }
     var sum = 0.0;
@@ -74,4 +71,12 @@ fn solid_kick_spread(@builtin(workgroup_id) group: vec3u, @builtin(local_invocat
         }
     }
     ghost[slot] = select(0.0, sum / count, count > 0.0);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn solid_kick_left(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let slot = thread_index(group, lane);
+    if slot >= params.slots { return; }
+    leave(slot);
+    spread_change(slot);
 }

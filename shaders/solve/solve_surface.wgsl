@@ -19,7 +19,6 @@ struct Turn {
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
 @group(0) @binding(4) var<storage, read> work: array<vec4f>;            // w: inverse masses of gas and solid nodes
 @group(0) @binding(5) var<storage, read_write> rows: array<f32>;
-@group(0) @binding(6) var<storage, read_write> bound: atomic<u32>;      // of the eigenvalues, bits of a float
 @group(0) @binding(7) var<storage, read> residual: array<f32>;
 @group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(9) var<storage, read_write> product: array<f32>;
@@ -114,9 +113,6 @@ fn coupling(v: vec3i, w: vec3i, kinds: u32) -> f32 {
     return scale * scale * sum;
 }
 
-@compute @workgroup_size(1)
-fn surface_begin() { atomicStore(&bound, 0u); }
-
 @compute @workgroup_size(WORKGROUP)
 fn surface_rows(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = swept_slot(thread_index(group, lane));
@@ -140,7 +136,7 @@ fn surface_rows(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     let inverse = select(0.0, 1.0 / diagonal, diagonal > 0.0);
     rows[first + VERTEX] = bitcast<f32>(slot);
     rows[first + INVERSE] = inverse;
-    atomicMax(&bound, bitcast<u32>(1.0 + beside * inverse));
+    atomicMax(&control.surface_bound, bitcast<u32>(1.0 + beside * inverse));
 }
 
 // The block times one of the directions, at a row.
@@ -165,7 +161,7 @@ fn image_at(first: u32, direction_place: u32) -> f32 {
 struct Term { number: u32, last: bool, middle: f32, width: f32, last_weight: f32, weight: f32 }
 
 fn term(number: u32) -> Term {
-    let high = 1.01 * bitcast<f32>(atomicLoad(&bound));
+    let high = 1.01 * bitcast<f32>(atomicLoad(&control.surface_bound));
     let low = high / SPREAD;
     let middle = 0.5 * (high + low);
     let width = 0.5 * (high - low);

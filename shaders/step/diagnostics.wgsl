@@ -199,7 +199,9 @@ fn totals_record(@builtin(local_invocation_index) lane: u32) {
     history[base + 5u].y += unit.y * borrowed(3u);
     history[base + 10u] = vec4f(history[base + 10u].x, bitcast<vec3f>(vec3u(control.rounds, control.elastic_iterations, control.longest_round)));
     history[base] = vec4f(control.duration, control.residual, bitcast<f32>(control.step), bitcast<f32>(control.iterations));
-    history[base + 1u] = vec4f(bitcast<f32>(control.substeps), bitcast<f32>(atomicLoad(&control.limited)),
+    var limited = 0u;
+    for (var k = 0u; k < 4u; k++) { limited += atomicLoad(&control.limited[k]); }
+    history[base + 1u] = vec4f(bitcast<f32>(control.substeps), bitcast<f32>(limited),
         bitcast<f32>(atomicLoad(&control.floored)), bitcast<f32>(atomicLoad(&control.clamped)));
 }
 

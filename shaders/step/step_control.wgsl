@@ -34,18 +34,19 @@ fn control_listed() {
     extents[PHASE_BEGIN_EXTENTS + OVER_NEAR] = near * keep;
 }
 
-// After an advection stage: did the limiter act?
+// After an advection stage, on a CPU: did the limiter act? A GPU launches the correction always, which sees for itself.
 @compute @workgroup_size(1)
 fn control_limiter() {
-    let now = atomicLoad(&control.limited);
+    let now = atomicLoad(&control.limited[0]) + atomicLoad(&control.limited[1]) + atomicLoad(&control.limited[2]);
     open_phase(PHASE_LIMIT_EXTENTS, now > control.limited_before);
     control.limited_before = now;
 }
 
-// After the energies: may the floor have to act deep inside the gas?
+// After the energies, on a CPU: may the floor have to act deep inside the gas? A GPU launches it always, and it sees for itself.
 @compute @workgroup_size(1)
 fn control_cold() {
-    open_phase(PHASE_FLOOR_EXTENTS, atomicExchange(&control.cold, 0u) == 1u);
+    let updated = extents[PHASE_UPDATE_EXTENTS + OVER_SINGLE].x == 1u;
+    open_phase(PHASE_FLOOR_EXTENTS, updated && atomicLoad(&control.cold) == 1u);
 }
 
 // After the recorded iterations: has the solve finished?
@@ -67,6 +68,8 @@ fn control_second() {
     let due = control.phase == PHASE_BETWEEN && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_SECOND_EXTENTS, due);
     if !due { return; }
+    atomicStore(&control.cold, 0u);
+    atomicStore(&control.surface_bound, 0u);
     control.stage = 1u;
     control.phase = PHASE_SOLVE;
 }

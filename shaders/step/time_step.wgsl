@@ -166,7 +166,9 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     control.elastic_iterations = 0u;
     control.longest_round = 0u;
     control.substep = 0u;
-    atomicStore(&control.limited, 0u);
+    for (var k = 0u; k < 4u; k++) { atomicStore(&control.limited[k], 0u); }
+    atomicStore(&control.cold, 0u);
+    atomicStore(&control.surface_bound, 0u);
     control.limited_before = 0u;
     atomicStore(&control.floored, 0u);
     atomicStore(&control.raised, 0u);

@@ -4,12 +4,12 @@ use super::Simulation;
 use crate::gpu::Pass;
 use crate::stage::Decision;
 use crate::state::Phase;
+use crate::state::stages::Stage;
 
 impl Simulation {
-    /// Elastic force of the present stress, for what the pressure solve knows of it.
+    /// Keeps what the pressure solve knows of the elastic force of the present stress.
     pub(super) fn record_force(&self, pass: &mut Pass) {
-        let Some(p2g) = &self.p2g else { return };
-        p2g.record_force(pass, &self.state);
+        pass.stage(Stage::ElasticForce.name());
         if let Some(elastic_reaction) = &self.elastic_reaction {
             elastic_reaction.record_start(pass, &self.state);
         }

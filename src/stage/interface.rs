@@ -22,9 +22,9 @@ pub struct InterfaceStage {
 #[derive(Debug)]
 struct Solids {
     fill: Bound,
-    ghost: Bound,
     walls: Bound,
     kind: Bound,
+    /// And `edge`.
     extra: Bound,
     start: Bound,
     ledger: [Bound; 3],
@@ -44,7 +44,6 @@ impl InterfaceStage {
         let solids = if state.has_solids() {
             Some(Solids {
                 fill: fill("interface_fill")?,
-                ghost: fill("interface_ghost")?,
                 walls: mark("interface_walls")?,
                 kind: mark("interface_kind")?,
                 extra: mark("interface_extra")?,
@@ -72,12 +71,12 @@ impl InterfaceStage {
             }
         }
         pass.dispatch(&self.flags, &state.extent(Phase::Begin, Over::Slots));
+        pass.dispatch(&self.edge, &state.extent(Phase::Begin, Over::Slots));
         self.record_list(pass, state);
     }
 
-    /// The list that follows from the flags.
+    /// The list that follows from what is marked.
     fn record_list(&self, pass: &mut Pass, state: &State) {
-        pass.dispatch(&self.edge, &state.extent(Phase::Begin, Over::Slots));
         for scan in [&self.edge_scan, &self.scan] {
             scan.record_with(pass, &state.scan_extents(Phase::Begin));
         }
@@ -89,7 +88,6 @@ impl InterfaceStage {
         let Some(solids) = &self.solids else { return };
         pass.stage(Stage::Interface.name());
         pass.dispatch(&solids.fill, &state.extent(Phase::Begin, Over::Slots));
-        pass.dispatch(&solids.ghost, &state.extent(Phase::Begin, Over::Marches));
         pass.dispatch(&solids.walls, &state.extent(Phase::Begin, Over::Slots));
         pass.dispatch(&solids.kind, &state.extent(Phase::Begin, Over::Slots));
         pass.dispatch(&self.flags, &state.extent(Phase::Begin, Over::Slots));

@@ -74,11 +74,6 @@ impl Sweep {
         Ok(Self { forms: overs.iter().map(form).collect::<Result<_>>()? })
     }
 
-    /// The two forms, for those who dispatch them in different phases.
-    pub(super) fn apart(state: &State, source: [&str; 2]) -> Result<[Form; 2]> {
-        Ok([Form::new(state, Over::Interior, source, &[], &[])?, Form::new(state, Over::Listed, source, &[], &[])?])
-    }
-
     /// Runs in a phase.
     pub(super) fn record(&self, pass: &mut Pass, state: &State, phase: Phase) {
         self.forms.iter().for_each(|form| form.record(pass, state, phase));

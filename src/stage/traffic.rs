@@ -50,13 +50,14 @@ const fn quadratic(stage: Stage, per: Per, slot_with_quadratic: u32) -> Traffic 
 
 /// The bytes of all stages; stages with several parts have several lines. Of the sort it is what one takes where it is due. Particle transfers are those of the gather form in
 /// 3D, whose nine colors each read and write the nodes.
-pub const TRAFFIC: [Traffic; 23] = [
+pub const TRAFFIC: [Traffic; 24] = [
     row(Stage::TimeStep, Per::Step, 24, 0, 128),
     row(Stage::ParticleSort, Per::Step, 0, 16, 88),
     row(Stage::ParticleSort, Per::Substep, 0, 16, 88),
     row(Stage::P2g, Per::Substep, 0, 640, 108),
     row(Stage::Interface, Per::Step, 0, 360, 264),
-    row(Stage::ElasticForce, Per::Step, 0, 368, 68),
+    row(Stage::P2g, Per::Step, 0, 304, 68),
+    row(Stage::ElasticForce, Per::Step, 0, 64, 0),
     row(Stage::Still, Per::Step, 20, 0, 0),
     row(Stage::GasAdvection, Per::Step, 116, 32, 0),
     carrier(Stage::Carrier, 128),

@@ -246,7 +246,7 @@ pub const USES: &[Use] = &[
         "velocity change of gas nodes per time, of the right-hand side their velocity; w: inverse mass"),
     Use::new("work", Name::Part(0, "FILTER_FLOW"), (At(OddEven), At(OddEven)), "kg m^-3, kg m^-2 s^-1",
         "what the filter changes"),
-    Use::new("work", Name::Part(1, "ELASTIC_FORCE"), (At(ElasticForce), At(ElasticForce)), "N",
+    Use::new("work", Name::Part(1, "ELASTIC_FORCE"), (At(P2g), At(ElasticForce)), "N",
         "elastic force of nodes at the start of the step").of(Scenes::Bodies),
     Use::new("work", Name::Part(1, "ADVECTED_FLOW"), (At(GasAdvection), At(IntermediatePressure)),
         "kg m^-3, kg m^-2 s^-1", "density and momentum of the advected state"),

@@ -29,9 +29,10 @@ structure! {
         step: u32,
         /// Smallest stage << 27 | slot that met an impossible value; NO_FAULT if none.
         fault: atomic_u32,
-        /// Cells where the flux limiter acted, and vertices whose gas could not pay for all that they asked, this step.
-        limited: atomic_u32,
-        /// The same when the first advection stage ended.
+        /// Cells where the flux limiter acted in each stage of the advection; last vertices whose gas could not pay for all that they
+        /// asked, this step.
+        limited: [atomic_u32; 4],
+        /// Sum of the first three when a stage ended.
         limited_before: u32,
         /// Cells where the energy floor acted, this step.
         floored: atomic_u32,
@@ -57,6 +58,8 @@ structure! {
         listed: u32,
         /// INTERIOR slots whose nodes listed vertices rest on.
         frontier: u32,
+        /// Of the eigenvalues of the preconditioner of interface pressures an upper bound, bits of a number.
+        surface_bound: atomic_u32,
         /// Largest speed of sound at the end of the step \[m s^-1\].
         sound: f32,
         /// Simulated time at the start of the step \[s\].

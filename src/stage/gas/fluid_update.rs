@@ -1,12 +1,12 @@
 //! `fluid_update`: what does the solved pressure do to the gas? Local gradients, flux form. [Kwatra et al. 2009; eqs. 3, 14]
 
 use crate::error::Result;
-use crate::gpu::Pass;
+use crate::gpu::{Pass, Settings};
 use crate::scene::Scene;
 use crate::stage::sweep::{Form, Sweep};
 use crate::stage::{Carried, CarrierVelocity, Decision, TimeStep};
 use crate::state::stages::Stage;
-use crate::state::{Phase, State};
+use crate::state::{Over, Phase, State};
 
 /// Kernels of the stage.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub struct FluidUpdate {
     energy: Sweep,
     /// What faces of bodies, obstacles and walls bear.
     loads: Option<Form>,
-    floor: [Form; 2],
+    floor: Sweep,
 }
 
 impl FluidUpdate {
@@ -35,7 +35,7 @@ impl FluidUpdate {
             parting: state.has_solids().then(parting).transpose()?,
             loads: (state.load_count != [0; 3]).then(loads).transpose()?,
             energy: Sweep::new(state, "gas/fluid_update.wgsl", "fluid_energy")?,
-            floor: Sweep::apart(state, ["gas/fluid_floor.wgsl", "fluid_floor"])?,
+            floor: Sweep::new(state, "gas/fluid_floor.wgsl", "fluid_floor")?,
         })
     }
 
@@ -55,9 +55,12 @@ impl FluidUpdate {
         if let Some(loads) = &self.loads {
             loads.record(pass, state, Phase::Update);
         }
+        if state.gpu.settings == Settings::Hardware {
+            return self.floor.record(pass, state, Phase::Update);
+        }
         time_step.decide(pass, Decision::Cold);
-        let [interior, listed] = &self.floor;
-        interior.record(pass, state, Phase::Floor);
-        listed.record(pass, state, Phase::Update);
+        for form in &self.floor.forms {
+            form.record(pass, state, if form.over == Over::Interior { Phase::Floor } else { Phase::Update });
+        }
     }
 }

@@ -2,7 +2,7 @@
 //! [Cao et al. 2022, eqs. 10-12] The form over marches runs first: the form over the list overwrites what it writes into listed slots.
 
 use crate::error::Result;
-use crate::gpu::{Bound, Buffer, Pass};
+use crate::gpu::{Bound, Buffer, Pass, Settings};
 use crate::stage::sweep::Form;
 use crate::stage::{Decision, TimeStep};
 use crate::state::stages::Stage;
@@ -49,12 +49,16 @@ impl GasAdvection {
         Ok(Self { stages: (0..=solves).map(|stage| RungeKuttaStage::new(state, stage)).collect::<Result<_>>()? })
     }
 
-    /// One Runge-Kutta stage, from 0, in a phase, and its correction, which `time_step` opens where the limiter has acted.
+    /// One Runge-Kutta stage, from 0, in a phase, and its correction, which does nothing unless the limiter has acted: on a CPU
+    /// `time_step` opens it then, on a GPU its groups end at once.
     pub fn record(&self, pass: &mut Pass, state: &State, time_step: &TimeStep, runge_kutta: usize, phase: Phase) {
         pass.stage(Stage::GasAdvection.name());
         let kernels = &self.stages[runge_kutta];
         for form in &kernels.forms {
             form.record(pass, state, phase);
+        }
+        if state.gpu.settings == Settings::Hardware {
+            return pass.dispatch(&kernels.limited, &state.extent(phase, Over::Slots));
         }
         time_step.decide(pass, Decision::Limiter);
         pass.dispatch(&kernels.limited, &state.extent(Phase::Limit, Over::Slots));

@@ -8,14 +8,16 @@ use crate::state::{Over, Phase, State};
 /// Kernels of the stage.
 #[derive(Debug)]
 pub struct Still {
-    mark: [Bound; 3],
+    mark: Vec<Bound>,
 }
 
 impl Still {
     /// Binds.
     pub fn new(state: &State) -> Result<Self> {
-        let bind = |entry: &str| state.bind("gas/still.wgsl", entry, &[], &[]);
-        Ok(Self { mark: [bind("still_find")?, bind("still_along")?, bind("still_spread")?] })
+        let bind = |entry: &&str| state.bind("gas/still.wgsl", entry, &[], &[]);
+        let entries = ["still_find", "still_along", "still_spread"];
+        let count = if state.grid.dimension == 3 { 3 } else { 2 };
+        Ok(Self { mark: entries[..count].iter().map(bind).collect::<Result<_>>()? })
     }
 
     /// Marks the rows in which there is something to do.

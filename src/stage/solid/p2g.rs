@@ -26,10 +26,9 @@ impl Transfer {
     }
 }
 
-/// What one transfer by nodes gives: mass and momentum, the elastic force, or both at once.
+/// What one transfer by nodes gives: the elastic force, or mass and momentum with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Carry {
-    Mass,
     Force,
     Both,
 }
@@ -46,10 +45,9 @@ enum Kernels {
     Nodes(Bound),
 }
 
-/// Kernels of the stage: mass and momentum, the elastic force, and all of it after the particles have moved.
+/// Kernels of the stage: the elastic force, and mass and momentum with it: at the start of a step, and after the particles have moved.
 #[derive(Debug)]
 pub struct P2g {
-    mass: Kernels,
     force: Force,
     all: Vec<Kernels>,
 }
@@ -103,10 +101,11 @@ impl Kernels {
     }
 
     fn nodes(state: &State, carry: Carry, stress: &wgpu::Buffer) -> Result<Self> {
-        let force = carry != Carry::Mass;
-        let driver = force && driver(state, stress);
-        let switches =
-            [("WITH_MASS", flag(carry != Carry::Force)), ("WITH_FORCE", flag(force)), ("WITH_DRIVER", flag(driver))];
+        let switches = [
+            ("WITH_MASS", flag(carry == Carry::Both)),
+            ("WITH_FORCE", 1.0),
+            ("WITH_DRIVER", flag(driver(state, stress))),
+        ];
         Ok(Self::Nodes(state.bind("solid/p2g_nodes.wgsl", "p2g_nodes", &[("stress", stress)], &switches)?))
     }
 
@@ -134,28 +133,19 @@ impl P2g {
     pub fn new(state: &State, transfer: Transfer) -> Result<Self> {
         let stress = state.particles.stress.raw();
         let force = Force::new(state, transfer, stress)?;
-        let (mass, all) = match transfer {
-            Transfer::Columns => {
-                let mass = Kernels::columns(state, false, stress)?;
-                (mass.clone(), vec![mass, force.0.clone()])
-            }
-            Transfer::Nodes => {
-                (Kernels::nodes(state, Carry::Mass, stress)?, vec![Kernels::nodes(state, Carry::Both, stress)?])
-            }
+        let all = match transfer {
+            Transfer::Columns => vec![Kernels::columns(state, false, stress)?, force.0.clone()],
+            Transfer::Nodes => vec![Kernels::nodes(state, Carry::Both, stress)?],
         };
-        Ok(Self { mass, force, all })
+        Ok(Self { force, all })
     }
 
-    /// Mass and velocity at the start of a step.
+    /// Mass, velocity and elastic force at the start of a step.
     pub fn record(&self, pass: &mut Pass, state: &State) {
         pass.stage(Stage::P2g.name());
-        self.mass.record(pass, state, Phase::Begin);
-    }
-
-    /// Elastic force at the start of a step.
-    pub fn record_force(&self, pass: &mut Pass, state: &State) {
-        pass.stage(Stage::ElasticForce.name());
-        self.force.record(pass, state, Phase::Begin);
+        for kernels in &self.all {
+            kernels.record(pass, state, Phase::Begin);
+        }
     }
 
     /// Elastic force for the next sub-step; mass and velocity again if the particles have moved since.

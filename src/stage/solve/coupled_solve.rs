@@ -10,7 +10,7 @@ pub(in crate::stage) use surface::Turn;
 use crate::error::Result;
 use crate::gpu::{Bound, Pass, WORKGROUP};
 use crate::numerics::{Block, Dots, Groups, Layout, Levels, Pcg};
-use crate::scene::{Scene, SolidUpdate};
+use crate::scene::{Coupling, Scene, SolidUpdate};
 use crate::stage::gas::open_sides;
 use crate::stage::sweep::{Form, Sweep};
 use crate::state::constants::{BLOCK_DOTS, BLOCK_REFERENCE, PARTIALS};
@@ -139,8 +139,9 @@ impl CoupledSolve {
             return Ok(Vec::new());
         }
         let aside = f64::from(u8::from(scene.late_flux()));
-        let entries = ["solid_kick", "solid_kick_left", "solid_kick_share", "solid_kick_spread"];
-        entries.iter().map(|entry| state.bind("solid/solid_kick.wgsl", entry, &[], &[("ASIDE", aside)])).collect()
+        let entries = ["solid_kick", "solid_kick_left", "solid_kick_share"];
+        let own = if scene.numerics.paper.coupling == Coupling::Last { &entries[..] } else { &entries[..2] };
+        own.iter().map(|entry| state.bind("solid/solid_kick.wgsl", entry, &[], &[("ASIDE", aside)])).collect()
     }
 
     /// What the nodes bear before the solve: films, gravity, forces of the pressure so far. In a phase.

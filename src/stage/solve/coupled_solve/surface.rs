@@ -24,7 +24,6 @@ structure! {
 /// Kernels of the preconditioner.
 #[derive(Debug)]
 pub(super) struct Surface {
-    begin: Bound,
     rows: Form,
     /// One per term, or a single one.
     terms: Vec<Bound>,
@@ -35,7 +34,6 @@ pub(super) struct Surface {
 #[derive(Debug)]
 struct Buffers {
     rows: Buffer<f32>,
-    bound: Buffer<u32>,
     turns: Vec<Buffer<Turn>>,
 }
 
@@ -52,10 +50,9 @@ impl Surface {
         let entry = if turns > 1 { "surface_term" } else { "surface_terms" };
         let buffers = Buffers {
             rows: Buffer::new(gpu, "surface rows", length)?,
-            bound: Buffer::new(gpu, "surface bound", 1)?,
             turns: (0..turns).map(|_| Buffer::uniform(gpu, "turn", 1)).collect::<Result<_>>()?,
         };
-        let shared = [("rows", buffers.rows.raw()), ("bound", buffers.bound.raw())];
+        let shared = [("rows", buffers.rows.raw())];
         let bind = |entry: &str, more: &[(&str, &wgpu::Buffer)]| {
             let named = [&shared[..], more].concat();
             state.bind("solve/solve_surface.wgsl", entry, &named, &[])
@@ -65,7 +62,6 @@ impl Surface {
             bind(entry, &[("turn", turn.raw())])
         };
         Ok(Some(Self {
-            begin: bind("surface_begin", &[])?,
             rows: Form::new(state, Over::Listed, ["solve/solve_surface.wgsl", "surface_rows"], &shared, &[])?,
             terms: (0..).zip(&buffers.turns).map(term).collect::<Result<_>>()?,
             _buffers: buffers,
@@ -74,7 +70,6 @@ impl Surface {
 
     /// The rows of a solve, in a phase; masses of the nodes must be there.
     pub(super) fn record_rows(&self, pass: &mut Pass, state: &State, phase: Phase) {
-        pass.dispatch(&self.begin, &state.extent(phase, Over::Single));
         self.rows.record(pass, state, phase);
     }
 
