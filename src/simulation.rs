@@ -19,15 +19,16 @@ use crate::gpu::{Allocation, Detail, Gpu, Pass, Settings, Times, readback, watch
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, Decision, Detonate, Dust, ElasticFirst, ElasticReaction, ElasticSolve,
-    FluidUpdate, G2p, GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven,
-    P2g, ParticleSort, Still, Supports, TimeStep, Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, Decision, Dust, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate,
+    G2p, GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven, P2g,
+    ParticleSort, Still, Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::NO_FAULT;
 use crate::state::{Control, Phase, State};
 pub use charges::Released;
 use least_step::LeastStep;
 pub use live::Blast;
+use live::ByHand;
 use pace::Pace;
 use recorded::Recorded;
 #[doc(hidden)]
@@ -64,7 +65,7 @@ pub struct Simulation {
     loads: Option<Loads>,
     gauges: Option<Gauges>,
     maps: Option<Maps>,
-    detonate: Option<Detonate>,
+    by_hand: ByHand,
     gases: crate::scene::EquationOfState,
     fire: crate::scene::Fire,
     /// Momentum and energy that bodies were given from outside since the start, and gas by blasts.
@@ -135,7 +136,7 @@ impl Simulation {
             loads: Loads::new(&state)?,
             gauges: Gauges::new(&state)?,
             maps: Maps::new(&state)?,
-            detonate: None,
+            by_hand: ByHand::default(),
             gases: scene.gas.equation_of_state(),
             fire: crate::scene::Fire::of(scene),
             given: [0.0; 4],
@@ -357,7 +358,7 @@ impl Simulation {
         Ok(readback::read(&self.gpu, &self.state.control)?[0])
     }
 
-    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films and gravity have given to bodies, and blasts to gas, since the start.
+    /// Momentum \[kg m s^-1\] and energy \[J\] that walls, films, gravity and pushes have given to bodies, and blasts to gas, since the start.
     #[must_use]
     pub fn given(&self) -> [f64; 4] {
         self.given

@@ -110,6 +110,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "solid/p2g_nodes.wgsl",
     "solid/particle_sort.wgsl",
     "solid/place.wgsl",
+    "solid/push.wgsl",
     "solid/solid_gradient.wgsl",
     "solid/solid_inertia.wgsl",
     "solid/solid_kick.wgsl",

@@ -71,6 +71,14 @@ impl Eye {
         };
         Ray { origin: (self.frame + origin.as_dvec3()).into(), direction: direction.as_dvec3().into() }
     }
+
+    /// Where a point appears in such a picture; none behind the eye.
+    pub(super) fn place(&self, size: Vec2, point: [f64; 3]) -> Option<Vec2> {
+        let relative = (DVec3::from(point) - self.frame).as_vec3() - self.position;
+        let depth = if self.parallel { 1.0 } else { relative.dot(self.forward) };
+        let offset = Vec2::new(relative.dot(self.forward.cross(self.up)), -relative.dot(self.up)) / depth;
+        (depth > 0.0).then(|| 0.5 * size + offset / self.half_height * 0.5 * size.y)
+    }
 }
 
 /// Middle of the domain in the device's coordinates \[m\].
@@ -142,6 +150,18 @@ mod tests {
         let eye = Eye::of_camera(&camera, [0.0; 3]);
         let (middle, top) = (eye.ray(size, 0.5 * size), eye.ray(size, Vec2::new(320.0, 0.0)));
         assert_eq!(middle.direction, top.direction);
+        for camera in [camera, Camera { height: None, ..camera }] {
+            let (eye, pixel) = (Eye::of_camera(&camera, [1.0, 2.0, 3.0]), Vec2::new(411.0, 77.0));
+            let ray = eye.ray(size, pixel);
+            let point = DVec3::from(ray.origin) + 2.5 * DVec3::from(ray.direction);
+            assert!(
+                eye.place(size, point.into()).unwrap().distance(pixel) < 1e-2,
+                "{:?}",
+                eye.place(size, point.into())
+            );
+            let behind = DVec3::from(ray.origin) - 2.5 * DVec3::from(ray.direction);
+            assert_eq!(eye.place(size, behind.into()).is_some(), camera.height.is_some());
+        }
         let apart = DVec3::from(middle.origin).distance(top.origin.into());
         assert!((apart - 1.0).abs() < 1e-6, "{apart}");
     }

@@ -24,6 +24,7 @@ mod paper;
 mod particles;
 mod plane;
 mod plot;
+mod pointing;
 mod quantity;
 mod screen;
 mod sheets;
@@ -203,16 +204,6 @@ impl Renderer {
     pub fn camera(&self, look: &RenderSettings, time: f64) -> Camera {
         let still = look.camera.unwrap_or_else(|| camera::fitting_camera(&self.sources.grid, look.size));
         look.path.as_ref().map_or(still, |path| path.at(time, &still))
-    }
-
-    /// The line of sight at a time \[s\] through a place of the picture, in pixels from the top left corner of the frame. In 2D it
-    /// meets the plane of the domain at the point shown there.
-    #[must_use]
-    pub fn ray(&self, look: &RenderSettings, time: f64, pixel: [f64; 2]) -> Ray {
-        let plot = self.layout(look).plot;
-        let size = glam::Vec2::new(plot.width as f32, plot.height as f32);
-        let place = glam::DVec2::from(pixel) - glam::DVec2::new(plot.x.into(), plot.y.into());
-        self.eye(look, time).ray(size, place.as_vec2())
     }
 
     /// The range that a picture without a given one shows: that of the values in the gas now.

@@ -1,10 +1,10 @@
-//! What may change while a simulation runs: parameters, the gas beyond open sides, and blasts. All of it happens between two steps.
+//! What may change while a simulation runs: parameters, the gas beyond open sides, blasts, and pushes. All of it happens between two steps.
 
 use super::Simulation;
 use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
 use crate::scene::{Boundary, Scene};
-use crate::stage::Detonate;
+use crate::stage::{Detonate, Push};
 use crate::state::Openings;
 
 /// Energy to be set free in a ball of gas.
@@ -16,6 +16,13 @@ pub struct Blast {
     pub radius: f64,
     /// Energy \[J\]; per metre of depth in 2D, per square metre in 1D.
     pub energy: f64,
+}
+
+/// Kernels of what a user does between two steps, once it is done.
+#[derive(Debug, Default)]
+pub(super) struct ByHand {
+    detonate: Option<Detonate>,
+    push: Option<Push>,
 }
 
 impl Simulation {
@@ -82,14 +89,55 @@ impl Simulation {
             )));
         }
         self.settle(records)?;
-        if self.detonate.is_none() {
-            self.detonate = Some(Detonate::new(&self.state)?);
+        if self.by_hand.detonate.is_none() {
+            self.by_hand.detonate = Some(Detonate::new(&self.state)?);
         }
-        let Some(kernels) = &self.detonate else { return Ok(0.0) };
+        let Some(kernels) = &self.by_hand.detonate else { return Ok(0.0) };
         let energy = kernels.run(&self.gpu, &self.state, center, radius, energy)?;
         self.given[3] += energy;
         self.blasts += energy;
         Ok(energy)
+    }
+
+    /// Momentum \[kg m s^-1\] and mass \[kg\] of what of a body is inside the domain and moves by itself.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there is no such body; driver errors.
+    pub fn moving(&mut self, body: usize, records: &mut Vec<StepRecord>) -> Result<[f64; 4]> {
+        self.get_ready_to_push(body, records)?;
+        self.by_hand.push.as_ref().map_or(Ok([0.0; 4]), |push| push.moving(&self.state, body as u32))
+    }
+
+    /// Changes the velocity of a body by so much \[m s^-1\], everywhere alike: it is pushed and does not turn. What of it is clamped or driven
+    /// stays as it is. The budgets count momentum \[kg m s^-1\] and energy \[J\] among what was given from outside; both are returned.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there is no such body or the change is not finite; driver errors.
+    pub fn push(&mut self, body: usize, change: [f64; 3], records: &mut Vec<StepRecord>) -> Result<[f64; 4]> {
+        let axes = self.scene.domain.axes();
+        if !change.iter().all(|part| (*part as f32).is_finite()) || change[axes..].iter().any(|part| *part != 0.0) {
+            let text = format!("a push by {change:?} m/s: {axes} finite numbers are wanted, and 0 across the domain");
+            return Err(Error::Usage(text));
+        }
+        self.get_ready_to_push(body, records)?;
+        let Some(push) = &self.by_hand.push else { return Ok([0.0; 4]) };
+        let given = push.change(&self.state, body as u32, change)?;
+        for (sum, part) in self.given.iter_mut().zip(given) {
+            *sum += part;
+        }
+        Ok(given)
+    }
+
+    /// Finishes the step that is under way, and compiles what a push wants.
+    fn get_ready_to_push(&mut self, body: usize, records: &mut Vec<StepRecord>) -> Result<()> {
+        if body >= self.scene.bodies.len() {
+            return Err(Error::Usage(format!("body {body}: this scene has {}", self.scene.bodies.len())));
+        }
+        self.settle(records)?;
+        if self.by_hand.push.is_none() {
+            self.by_hand.push = Some(Push::new(&self.state)?);
+        }
+        Ok(())
     }
 }
 

@@ -19,7 +19,7 @@ pub use gas::{
 };
 pub use interface::InterfaceStage;
 pub use solid::{
-    ElasticFirst, ElasticReaction, ElasticSolve, G2p, MAX_ELASTIC_ITERATIONS, MpmGridUpdate, P2g, ParticleSort,
+    ElasticFirst, ElasticReaction, ElasticSolve, G2p, MAX_ELASTIC_ITERATIONS, MpmGridUpdate, P2g, ParticleSort, Push,
     Supports, Transfer,
 };
 pub use solve::CoupledSolve;

@@ -7,6 +7,7 @@ mod g2p;
 mod mpm_grid_update;
 mod p2g;
 mod particle_sort;
+mod push;
 mod supports;
 
 pub use elastic_first::ElasticFirst;
@@ -16,4 +17,6 @@ pub use g2p::G2p;
 pub use mpm_grid_update::MpmGridUpdate;
 pub use p2g::{P2g, Transfer};
 pub use particle_sort::ParticleSort;
+pub use push::Push;
+pub(super) use push::Shove;
 pub use supports::Supports;

@@ -1,6 +1,7 @@
 //! Structures that Rust and WGSL share. Each is declared once, in Rust; `scripts/generate` writes it into a shader.
 
 use super::gas::Ball;
+use super::solid::Shove;
 use super::solve::Turn;
 use crate::material::MaterialParams;
 use crate::numerics::PcgControl;
@@ -22,5 +23,6 @@ pub fn all() -> Vec<(&'static str, &'static str, Vec<Shared>)> {
         ("solid/motions.wgsl", "solid/motions.wgsl", vec![MotionAt::shared(), Support::shared()]),
         ("solve/solve_surface.wgsl", "solve/solve_surface.wgsl", vec![Turn::shared()]),
         ("gas/detonate.wgsl", "gas/detonate.wgsl", vec![Ball::shared()]),
+        ("solid/push.wgsl", "solid/push.wgsl", vec![Shove::shared()]),
     ]
 }

@@ -2,6 +2,7 @@
 
 mod ask;
 mod files;
+mod hand;
 mod pace;
 mod rewind;
 
@@ -10,13 +11,12 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::budget::{Budget, Haste, Rate};
-use super::model::{Command, Look, Note, Opened, Outbox, Pace, Phase, Request, Shown, Status, Strike, Weight};
+use super::model::{Command, Look, Note, Opened, Outbox, Pace, Phase, Request, Shown, Status, Weight};
 use super::record::Recording;
 use super::session::Session;
 use super::worker::lock;
 use crate::diagnostics::StepRecord;
 use crate::gpu::{Gpu, GpuOptions};
-use crate::math::plain;
 use crate::scene::{Scene, stem};
 use crate::{Error, Result};
 use pace::LONGEST_LAG;
@@ -152,6 +152,12 @@ impl Desk {
             Command::Change(scene) => self.change(*scene),
             Command::Rewind(time) => self.rewind(time),
             Command::Detonate(strike) => self.strike(&strike),
+            Command::Hold(at) => self.hold(at),
+            Command::Lead(at) => {
+                self.lead(at);
+                Ok(())
+            }
+            Command::LetGo => self.let_go(),
             Command::Ask(at) => self.ask(at),
             Command::SaveScene => self.save_scene(),
             Command::Screenshot => self.screenshot(),
@@ -314,16 +320,6 @@ impl Desk {
         Ok(())
     }
 
-    fn strike(&mut self, strike: &Strike) -> Result<()> {
-        let (Some(session), Some(look)) = (&mut self.session, &self.look) else { return Ok(()) };
-        let (place, energy) = session.strike(strike, look, &mut self.records)?;
-        self.replay = false;
-        (self.stale, self.news) = (true, true);
-        let place = place.map(plain)[..session.scene().domain.axes()].join(", ");
-        self.note(Weight::Fine, format!("{} J at ({place}) m", plain(energy)));
-        Ok(())
-    }
-
     fn note(&self, weight: Weight, text: String) {
         lock(&self.outbox).notes.push(Note { weight, text });
     }
@@ -369,6 +365,8 @@ impl Desk {
             picture_seconds: self.budget.picture_seconds(),
             recorded: self.recording.as_ref().map(Recording::count),
             kept: session.map_or_else(Vec::new, Session::kept),
+            touched: session.is_some_and(Session::is_touched),
+            held: session.zip(self.look.as_ref()).and_then(|(session, look)| session.held_at(look)),
             warnings: session.map_or_else(Vec::new, Session::unexpected),
         };
         let mut outbox = lock(&self.outbox);

@@ -73,8 +73,9 @@ pub const HELP: [(&str, &str); 19] = [
 ];
 
 /// What the help says about the mouse.
-pub const MOUSE: [(&str, &str); 8] = [
+pub const MOUSE: [(&str, &str); 9] = [
     ("Left drag", "turn (3D) or shift (2D)"),
+    ("Shift+left drag", "on a body: push it, and throw it by letting go; elsewhere: shift"),
     ("Right or middle drag", "shift"),
     ("Wheel", "nearer or farther, towards the pointer"),
     ("Double click", "fit everything into the picture"),

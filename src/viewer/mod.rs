@@ -4,7 +4,7 @@
 //! interface and nothing else. So the window answers however long a step takes, and outlives a lost device. It shows the bytes of
 //! [`crate::render::Picture`]s: what is seen is what `run` writes.
 //!
-//! What can be tested without a window knows none: [`session`], [`camera`], [`pick`], [`budget`], [`charge`], [`keys`].
+//! What can be tested without a window knows none: [`session`], [`camera`], [`pick`], [`budget`], [`charge`], [`hold`], [`keys`].
 
 mod app;
 mod bars;
@@ -14,8 +14,10 @@ pub mod charge;
 mod clipboard;
 mod desk;
 mod gallery;
+mod grab;
 mod help;
 mod history;
+pub mod hold;
 pub mod keys;
 pub mod model;
 mod panel;

@@ -140,6 +140,12 @@ pub enum Command {
     Rewind(f64),
     /// Set energy free at a point of the picture.
     Detonate(Strike),
+    /// Hold the body at a place of the picture, in shares of its width and height from the top left corner.
+    Hold([f64; 2]),
+    /// Lead the body that is held to a place of the picture.
+    Lead([f64; 2]),
+    /// Let go of it.
+    LetGo,
     /// What lies at a place of the picture, in shares of its width and height from the top left corner.
     Ask([f64; 2]),
     /// Save the scene as it is now, with what pictures show.
@@ -193,6 +199,10 @@ pub struct Status {
     pub recorded: Option<u32>,
     /// Times of the states to go back to \[s\].
     pub kept: Vec<f64>,
+    /// Whether the state was changed by hand since the last step.
+    pub touched: bool,
+    /// Where the body that is held is held, in shares of the picture's width and height.
+    pub held: Option<[f64; 2]>,
     /// What the run is warned of so far; expected warnings are left out.
     pub warnings: Vec<String>,
 }
@@ -279,6 +289,8 @@ pub struct Outbox {
     pub changed: Option<Arc<Scene>>,
     /// What lies where the window asked.
     pub spot: Option<Spot>,
+    /// Whether there was a body where one was to be held.
+    pub holds: Option<bool>,
     /// Lines for the user.
     pub notes: Vec<Note>,
 }

@@ -125,6 +125,11 @@ impl Past {
         }
     }
 
+    /// Whether the state at a time \[s\] and step is kept.
+    pub(super) fn has(&self, time: f64, step: u64) -> bool {
+        self.kept.iter().any(|one| one.time == time && one.step == step)
+    }
+
     /// The last state up to a time \[s\]; the first one where there is none.
     pub(super) fn latest(&self, time: f64) -> Option<&Kept> {
         let reached = |one: &&Kept| one.time <= time * (1.0 + ROUNDING);

@@ -28,14 +28,14 @@ pub fn point(ray: &Ray, grid: &Grid, particles: &[ParticleSample]) -> Option<[f6
     Some((origin + middle.clamp(enters, leaves) * direction).into())
 }
 
-/// The body whose nearest particle holds a point.
-pub fn body(point: [f64; 3], grid: &Grid, particles: &[ParticleSample]) -> Option<usize> {
+/// The nearest particle, where it holds a point: the point belongs to its body.
+pub fn particle<'a>(point: [f64; 3], grid: &Grid, particles: &'a [ParticleSample]) -> Option<&'a ParticleSample> {
     let near = particles.iter().filter_map(|particle| {
         let away = DVec3::from(grid.in_scene(particle.position)).distance(point.into());
         let edge = f64::from(particle.volume0).powf(1.0 / f64::from(grid.dimension));
-        (away < HELD * edge).then_some((away, particle.body as usize))
+        (away < HELD * edge).then_some((away, particle))
     });
-    near.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, body)| body)
+    near.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, particle)| particle)
 }
 
 /// Distance along a ray to the ball of a particle's volume; none if it misses it.
@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn a_point_belongs_to_the_body_of_the_nearest_particle() {
         let two = [particle([0.3, 0.5, 0.5]), ParticleSample { body: 1, ..particle([0.4, 0.5, 0.5]) }];
-        let at = |x: f64| body([x, 0.5, 0.5], &GRID, &two);
+        let at = |x: f64| super::particle([x, 0.5, 0.5], &GRID, &two).map(|found| found.body);
         assert_eq!([at(0.34), at(0.36), at(0.47), at(0.49)], [Some(0), Some(1), Some(1), None]);
     }
 

@@ -1,20 +1,22 @@
 //! One open scene: simulation and renderer on one device. No thread and no window: tests drive it as the worker does.
 
+mod hand;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::model::{Look, Source, Spot, Strike};
+use super::model::Look;
 use super::past::{self, Found, Kept, Past, Recorded};
-use super::pick;
 use crate::diagnostics::StepRecord;
 use crate::expect::{self, Budget, Ending, Summary, Warning};
 use crate::export::states;
 use crate::gpu::{Detail, Gpu};
-use crate::render::{Picture, Ray, Renderer, SceneBuffers, Stored};
+use crate::render::{Picture, Renderer, SceneBuffers, Stored};
 use crate::scene::{Camera, Changes, Field, RenderSettings, Scene};
-use crate::simulation::{Blast, Saved, Simulation};
+use crate::simulation::{Saved, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
+use hand::Held;
 
 /// Time to run towards when the end of the scene's run has been passed \[s\].
 const NEVER: f64 = 1e30;
@@ -38,6 +40,10 @@ pub struct Session {
     light: Option<(f64, u64)>,
     /// Whether there is more of it on the disk.
     of_a_run: bool,
+    /// Whether a blast or a push has changed the state since the last step.
+    touched: bool,
+    /// The body that the mouse holds.
+    held: Option<Held>,
 }
 
 impl Session {
@@ -84,7 +90,7 @@ impl Session {
         let (start, summary, warnings) = (Budget::read(&simulation, &scene, 0.0)?, Summary::default(), Vec::new());
         let past = Past::new(scene.time.until, simulation.saved_bytes(), kept);
         let scene = Arc::new(scene);
-        let (finished, dt, light, of_a_run) = (false, 0.0, None, false);
+        let (finished, dt, light, of_a_run, touched, held) = (false, 0.0, None, false, false, None);
         Ok(Self {
             scene,
             simulation,
@@ -98,6 +104,8 @@ impl Session {
             past,
             light,
             of_a_run,
+            touched,
+            held,
         })
     }
 
@@ -161,7 +169,9 @@ impl Session {
         self.whole()?;
         self.past.forget_after(self.time());
         let before = records.len();
+        self.pull(records)?;
         let outcome = self.simulation.advance_batch_of(records, steps);
+        self.touched = false;
         self.note(&records[before..]);
         self.finished = outcome?;
         self.keep()?;
@@ -171,9 +181,14 @@ impl Session {
     /// Keeps the state where one is due, unless a step is under way.
     fn keep(&mut self) -> Result<()> {
         if self.past.is_due(self.time()) && self.simulation.is_settled()? {
-            let saved = self.simulation.save()?;
-            self.past.keep(Kept::of(saved, self.summary.clone()));
+            self.keep_this()?;
         }
+        Ok(())
+    }
+
+    fn keep_this(&mut self) -> Result<()> {
+        let saved = self.simulation.save()?;
+        self.past.keep(Kept::of(saved, self.summary.clone()));
         Ok(())
     }
 
@@ -183,7 +198,7 @@ impl Session {
     /// [`Error::Io`] if a checkpoint cannot be read; [`Error::Usage`] if it is none of this scene; driver errors.
     pub fn rewind(&mut self, time: f64) -> Result<f64> {
         let Some(kept) = self.past.latest(time) else { return Ok(self.time()) };
-        if kept.step != self.step_count() || kept.time != self.time() {
+        if self.touched || kept.step != self.step_count() || kept.time != self.time() {
             let read = self.read(kept)?;
             self.take(read)?;
         }
@@ -218,6 +233,7 @@ impl Session {
 
     /// Takes a state from where it lay.
     fn take(&mut self, (state, summary, path): (Found, Summary, Option<PathBuf>)) -> Result<()> {
+        (self.touched, self.held) = (false, None);
         let taken = match state {
             Found::Whole(saved) => self.set(&saved, summary),
             Found::Light(stored) => self.show(&stored),
@@ -343,46 +359,6 @@ impl Session {
         self.start.start_entropy = self.simulation.state.start_entropy[0];
         self.scene = Arc::new(to);
         Ok(())
-    }
-
-    /// Sets energy free where a click on a picture of this look points; the place \[m\], and the energy \[J\] as it was.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] if the click misses the domain or its gas, or there is no room for the charge.
-    pub fn strike(&mut self, strike: &Strike, look: &Look, records: &mut Vec<StepRecord>) -> Result<([f64; 3], f64)> {
-        self.whole()?;
-        let ray = self.ray(strike.at, look);
-        let grid = self.simulation.state.grid;
-        let particles = if grid.dimension == 3 { self.simulation.snapshot()?.particles } else { Vec::new() };
-        let center = pick::point(&ray, &grid, &particles)
-            .ok_or_else(|| Error::Usage("the click is beside the domain; nothing was detonated".to_owned()))?;
-        let before = records.len();
-        let energy = match strike.source {
-            Source::Energy(energy, radius) => self.simulation.detonate(&Blast { center, radius, energy }, records)?,
-            Source::Tnt(mass) => self.simulation.set_off(&self.scene.clicked(mass, center), records)?,
-        };
-        self.summary.add(&records[before..]);
-        Ok((center, energy))
-    }
-
-    /// The line of sight through a place of a picture, in shares of its width and height.
-    fn ray(&self, at: [f64; 2], look: &Look) -> Ray {
-        let [width, height] = look.settings.size.map(f64::from);
-        self.renderer.ray(&look.settings, self.time(), [at[0] * width, at[1] * height])
-    }
-
-    /// What lies at a place of the picture drawn last.
-    ///
-    /// # Errors
-    /// What the device reports.
-    pub fn spot(&self, at: [f64; 2], look: &Look) -> Result<Spot> {
-        let (grid, particles) = (self.simulation.state.grid, self.simulation.snapshot()?.particles);
-        let Some(point) = pick::point(&self.ray(at, look), &grid, &particles) else {
-            return Ok(Spot { at, point: Vec::new(), value: None, body: None });
-        };
-        let body = pick::body(point, &grid, &particles).map(|index| self.scene.bodies[index].name.clone());
-        let value = if grid.dimension == 2 && body.is_none() { self.renderer.value_at(point)? } else { None };
-        Ok(Spot { at, point: point[..grid.dimension as usize].to_vec(), value, body })
     }
 
     /// The simulation.

@@ -8,6 +8,7 @@ use egui::{ColorImage, Event, Pos2, Rect, Response, Sense, TextureHandle, Textur
 
 use super::camera;
 use super::charge::Charge;
+use super::grab::Grab;
 use super::history::History;
 use super::keys::Action;
 use super::model::{Command, Look, Opened, Outbox, Pace, Shown, Spot, Status, Strike};
@@ -47,6 +48,8 @@ pub(super) struct View {
     moves_until: Instant,
     dragging: bool,
     charge: Charge,
+    grab: Grab,
+    held: Option<[f64; 2]>,
     /// What lies under the pointer, and for which place and time that was asked.
     spot: Option<Spot>,
     asked: Option<([f64; 2], f64)>,
@@ -72,6 +75,8 @@ impl View {
             moves_until: Instant::now(),
             dragging: false,
             charge: Charge::default(),
+            grab: Grab::default(),
+            held: None,
             spot: None,
             asked: None,
             again: 0.0,
@@ -90,6 +95,8 @@ impl View {
         }
         self.history.add(&outbox.records);
         self.spot = outbox.spot.or(self.spot.take());
+        self.grab.answer(outbox.holds);
+        self.held = outbox.status.held;
         if let Some(stages) = outbox.stages {
             self.stages = stages;
         }
@@ -157,7 +164,9 @@ impl View {
             Action::Step(steps) => self.commands.push(Command::Steps(steps)),
             Action::Rewind(time) => self.rewind(time),
             Action::Undo => {
-                let before = status.kept.iter().rev().find(|kept| **kept < status.time * (1.0 - 1e-9));
+                let earlier =
+                    |kept: &&f64| **kept < status.time * (1.0 - 1e-9) || status.touched && **kept <= status.time;
+                let before = status.kept.iter().rev().find(earlier);
                 before.into_iter().for_each(|kept| self.rewind(*kept));
             }
             Action::Again => {
@@ -240,7 +249,9 @@ impl View {
         let (modifiers, scroll) = ui.input(|input| (input.modifiers, input.smooth_scroll_delta.y));
         let height = f64::from(place.height().max(1.0));
         let struck = modifiers.command || clicked_with_command(ui) || self.panel.detonates;
-        if response.dragged() && !struck {
+        self.commands.extend(self.grab.hear(ui, response, place, !struck));
+        self.grab.paint(ui, place, self.held);
+        if response.dragged() && !struck && !self.grab.holds() {
             let delta = response.drag_delta();
             let drag = [f64::from(delta.x) / height, f64::from(delta.y) / height];
             if drag != [0.0; 2] {

@@ -29,6 +29,7 @@ mod gallery;
 mod gauges;
 mod generated;
 mod gpu;
+mod hand;
 mod hardware;
 mod images;
 mod kernels;

@@ -8,10 +8,10 @@ impl Desk {
     pub(super) fn rewind(&mut self, time: f64) -> Result<()> {
         let Some(session) = &mut self.session else { return Ok(()) };
         self.replay = session.is_of_a_run();
-        let before = session.step_count();
+        let before = (session.step_count(), session.is_touched());
         let time = session.rewind(time)?;
         (self.playing, self.steps_left) = (false, 0);
-        if session.step_count() == before {
+        if (session.step_count(), false) == before {
             return Ok(());
         }
         (self.stale, self.news) = (true, true);

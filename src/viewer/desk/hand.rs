@@ -1,0 +1,50 @@
+//! What the mouse does to the scene: blasts, and bodies that are held and let go.
+
+use super::super::model::{Strike, Weight};
+use super::super::worker::lock;
+use super::Desk;
+use crate::Result;
+use crate::math::plain;
+
+impl Desk {
+    pub(super) fn strike(&mut self, strike: &Strike) -> Result<()> {
+        let (Some(session), Some(look)) = (&mut self.session, &self.look) else { return Ok(()) };
+        let (place, energy) = session.strike(strike, look, &mut self.records)?;
+        self.replay = false;
+        (self.stale, self.news) = (true, true);
+        let place = place.map(plain)[..session.scene().domain.axes()].join(", ");
+        self.note(Weight::Fine, format!("{} J at ({place}) m", plain(energy)));
+        Ok(())
+    }
+
+    /// Holds the body at a place of the picture, if there is one.
+    pub(super) fn hold(&mut self, at: [f64; 2]) -> Result<()> {
+        let (Some(session), Some(look)) = (&mut self.session, &self.look) else { return Ok(()) };
+        let held = session.hold(at, look, &mut self.records);
+        let found = held.as_ref().is_ok_and(Option::is_some);
+        // a run that is looked at goes on from here
+        self.replay &= !found;
+        lock(&self.outbox).holds = Some(found);
+        held.map(|_| ())
+    }
+
+    /// Leads it to another place.
+    pub(super) fn lead(&mut self, at: [f64; 2]) {
+        if let (Some(session), Some(look)) = (&mut self.session, &self.look) {
+            session.lead(at, look);
+        }
+    }
+
+    /// Lets go of it.
+    pub(super) fn let_go(&mut self) -> Result<()> {
+        let Some(session) = &mut self.session else { return Ok(()) };
+        if let Some(thrown) = session.let_go(&mut self.records)? {
+            let axes = session.scene().domain.axes();
+            let short = |value: f64| plain(format!("{value:.2e}").parse().unwrap_or(value));
+            let thrown = thrown.map(short)[..axes].join(", ");
+            (self.stale, self.news) = (true, true);
+            self.note(Weight::Fine, format!("thrown with a momentum of ({thrown}) kg m/s"));
+        }
+        Ok(())
+    }
+}
