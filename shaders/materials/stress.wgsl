@@ -100,10 +100,16 @@ fn whole_lambda(m: MaterialParams) -> f32 { return m.elastic_lambda + m.ghost_mo
 
 fn sum_of(v: vec3f) -> f32 { return v.x + v.y + v.z; }
 
+// Energy per volume at rest of law and ghost pressure, less what the ambient pressure gives.
+fn whole_energy(m: MaterialParams, h: mat3x3f, q: f32) -> f32 {
+    let grown = swelling_of(m, h, q);
+    return elastic_energy(m.kind, h, elastic_part(m)) + ghost_energy(m, grown) + params.ambient_pressure * grown;
+}
+
 // The tension in a stress: its positive principal values, their axes, and the elastic energy per volume at rest that they hold.
 struct Tension { pull: vec3f, axes: mat3x3f, energy: f32 }
 
-// `tau`: of elastic_stress.
+// `tau`: of elastic_stress. The share of the energy is that of small strains: where all axes pull, tension holds all, however large they are.
 fn tension_of(m: MaterialParams, h: mat3x3f, q: f32, tau: mat3x3f) -> Tension {
     let volume = 1.0 + swelling_of(m, h, q);
     let eigen = symmetric_eigen(tau - volume * (q - params.ambient_pressure) * IDENTITY);
@@ -111,7 +117,8 @@ fn tension_of(m: MaterialParams, h: mat3x3f, q: f32, tau: mat3x3f) -> Tension {
     let lambda = whole_lambda(m);
     let strain = (eigen.values - vec3f(lambda * sum / (3.0 * lambda + 2.0 * m.mu))) / (2.0 * m.mu);
     let pull = max(eigen.values, vec3f(0.0));
-    return Tension(pull, eigen.vectors, 0.5 * dot(pull, strain));
+    let share = dot(pull, strain) / max(dot(eigen.values, strain), 1e-30);
+    return Tension(pull, eigen.vectors, share * whole_energy(m, h, q));
 }
 
 // What damage leaves of the stress.

@@ -25,6 +25,9 @@ pub struct Body {
     /// Angular velocity about the centre of mass at the start `[rad s^-1]`: a number about z, or three.
     #[serde(default, with = "vector::Spin")]
     pub spin: [f64; 3],
+    /// Rate at which it grows from its centre of mass at the start, along every axis `[s^-1]`: the velocity over the distance from there.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    pub expansion: f64,
     /// Particles per cell along each axis, so that 2 makes 8 per cell in 3D; 4 in 1D and 2 otherwise when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 1, "maximum" = 8))]

@@ -247,6 +247,7 @@ impl Body {
             density: None,
             velocity: [0.0; 3],
             spin: [0.0; 3],
+            expansion: 0.0,
             particles_per_cell: None,
             color: None,
             sampling: Sampling::default(),

@@ -75,10 +75,11 @@ impl ParticleStart {
             let word = if seed.driven { 2.0 } else { 1.0 };
             let ghost = scene.gas.equation_of_state().pressure_in_single(&scene.gas.ambient);
             let [x, y, z] = seed.spin.map(|rate| rate as f32);
+            let grows = [0, 1, 2].map(|d| if d < scene.domain.axes() { seed.expansion as f32 } else { 0.0 });
             start.affine.extend([
-                [0.0, z, -y, ghost],
-                [-z, 0.0, x, 0.0],
-                [y, -x, 0.0, bits(seed.material | strength_bits(seed.strength))],
+                [grows[0], z, -y, ghost],
+                [-z, grows[1], x, 0.0],
+                [y, -x, grows[2], bits(seed.material | strength_bits(seed.strength))],
             ]);
             start.deformation.extend([
                 [0.0, 0.0, 0.0, bits(seed.body)],

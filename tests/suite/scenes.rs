@@ -146,6 +146,11 @@ scenes! {
     blasted_strip: "validation/blasted_strip.toml", "domain.cells=[120, 48]", "time.until=1e-5";
     blasted_plate: "validation/blasted_plate.toml", "time.until=2e-6";
     broken_pane: "validation/broken_pane.toml", "time.until=1e-5", "expect.bodies=[]";
+    spall: "validation/spall.toml";
+    notched_plate: "validation/notched_plate.toml", "domain.cells=[48, 48]", "time.until=0.5", "expect.bodies=[]";
+    brazilian_disc: "validation/brazilian_disc.toml", "domain.cells=[34, 34]", "time.until=0.5", "expect.bodies=[]";
+    breaking_ring: "validation/breaking_ring.toml", "domain.cells=[70, 70]", "time.until=0.5", "expect.bodies=[]";
+    kalthoff_winkler: "validation/kalthoff_winkler.toml", "domain.cells=[110, 54]", "time.until=2e-6";
     shocked_panel: "validation/shocked_panel.toml", "domain.cells=[300, 68]", "time.until=1e-6";
     blasted_ellipse: "paper/fig14_ordering.toml", "domain.cells=[32, 32]";
     blasted_ellipse_coupling_first: "paper/fig14_ordering.toml" [small, coupling_first];

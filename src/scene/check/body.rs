@@ -95,8 +95,8 @@ impl Check<'_> {
     fn held(&mut self, path: &str, body: &Body) {
         let Some(motion) = &body.motion else { return };
         let path = format!("{path}.motion");
-        if body.clamped.is_none() && (body.velocity != [0.0; 3] || body.spin != [0.0; 3]) {
-            let help = "the whole body moves as `motion` says from the start: remove `velocity` and `spin` of the body";
+        if body.clamped.is_none() && (body.velocity != [0.0; 3] || body.spin != [0.0; 3] || body.expansion != 0.0) {
+            let help = "the whole body moves as `motion` says from the start: remove `velocity`, `spin` and `expansion` of the body";
             self.add(&path, "the body has a velocity of its own", help);
         }
         self.turning(format!("{path}.spin"), motion.spin);

@@ -27,6 +27,8 @@ pub struct Seed {
     pub velocity: [f64; 3],
     /// Angular velocity `[rad s^-1]`.
     pub spin: [f64; 3],
+    /// Rate at which it moves away from the centre of its body, over the distance `[s^-1]`.
+    pub expansion: f64,
     /// Volume `[m^3]`, with unit thickness along inactive axes.
     pub volume: f64,
     /// Density `[kg m^-3]`.
@@ -112,6 +114,7 @@ impl Scene {
             },
             velocity: body.velocity,
             spin: body.spin,
+            expansion: body.expansion,
             volume: volume * if outer { ratio } else { 1.0 },
             density: density.unwrap_or_default(), // a scene without one is refused
             driven: false,
@@ -287,14 +290,14 @@ pub(crate) fn random(number: usize) -> f64 {
     (x ^ (x >> 31)) as f64 / u64::MAX as f64 * 2.0 - 1.0
 }
 
-/// Adds what a body's spin gives to the velocities of its particles: spin x (position - centre).
+/// Adds what a body's spin and expansion give to the velocities of its particles: spin x arm + expansion arm, arm = position - centre.
 fn turn(seeds: &mut [Seed]) {
     let count = seeds.len() as f64;
     let center: [f64; 3] = std::array::from_fn(|d| seeds.iter().map(|seed| seed.position[d]).sum::<f64>() / count);
     for seed in seeds {
         let arm: [f64; 3] = std::array::from_fn(|d| seed.position[d] - center[d]);
         for (d, (a, b)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
-            seed.velocity[d] += seed.spin[a] * arm[b] - seed.spin[b] * arm[a];
+            seed.velocity[d] += seed.spin[a] * arm[b] - seed.spin[b] * arm[a] + seed.expansion * arm[d];
         }
     }
 }
@@ -308,5 +311,6 @@ fn drive(body: &Body, seeds: &mut [Seed]) {
         seed.driven = true;
         seed.velocity = (glam::DVec3::from(start.velocity) + glam::DVec3::from(start.spin).cross(arm)).into();
         seed.spin = start.spin;
+        seed.expansion = 0.0;
     }
 }

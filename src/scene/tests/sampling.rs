@@ -116,3 +116,15 @@ fn bodies_below_two_cells_are_thin() {
     let found = thick(both);
     assert!(found.len() == 1 && (found[0].cells - 1.3).abs() < 0.05 && found[0].share < 0.95, "{found:?}");
 }
+
+#[test]
+fn a_body_turns_and_grows_from_its_centre() {
+    let shape = "box = { center = [0.5, 0.5, 0.5], size = [0.5, 0.25, 0.25] }";
+    let text = body("b", shape).replace("density", "velocity = [1, 0, 2]\nspin = [0, 0, 2]\nexpansion = 3.0\ndensity");
+    let seeds = parse(&space(&text), &[]).seed_particles();
+    for seed in seeds {
+        let [x, y, z] = seed.position.map(|x| x - 0.5);
+        let right = [1.0 - 2.0 * y + 3.0 * x, 2.0 * x + 3.0 * y, 2.0 + 3.0 * z];
+        assert!(seed.velocity.iter().zip(right).all(|(ours, right)| (ours - right).abs() < 1e-12), "{seed:?}");
+    }
+}

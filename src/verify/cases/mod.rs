@@ -11,6 +11,7 @@ mod charges;
 mod clamped;
 mod cold;
 mod contacts;
+mod cracks;
 mod cylinders;
 mod detonation;
 mod drifting;
@@ -70,7 +71,7 @@ pub fn cases() -> impl Iterator<Item = &'static Case> {
         contacts::CASES,
         two_gases::CASES,
     ]);
-    let held = [clamped::CASES, blasted_plates::CASES, pressure_impulse::CASES];
+    let held = [clamped::CASES, blasted_plates::CASES, pressure_impulse::CASES, cracks::CASES];
     let by_file = gas.chain(coupled).chain([solids::CASES]).chain(held).chain([ablations::CASES]).flatten();
     let mut cases: Vec<&Case> = by_file.collect();
     let by_file = cases.clone();
