@@ -7,29 +7,12 @@
 #include "shared/pcg.wgsl"
 #include "shared/reduce.wgsl"
 
-@group(0) @binding(1) var<storage, read_write> pcg: Pcg;
 @group(0) @binding(2) var<storage, read_write> solution: array<f32>;
 @group(0) @binding(3) var<storage, read_write> residual: array<f32>;
 @group(0) @binding(4) var<storage, read_write> direction: array<f32>;
 @group(0) @binding(5) var<storage, read> product: array<f32>;
 @group(0) @binding(6) var<storage, read> inverse_diagonal: array<f32>;
 @group(0) @binding(7) var<storage, read_write> partials: array<vec4f>;
-@group(0) @binding(8) var<storage, read_write> pcg_extents: array<vec4u>;
-
-fn takes_joined() -> bool { return pcg.joined != 0u && pcg.levels == 0u; }
-
-fn open_iteration(on: bool) {
-    let keep = u32(on);
-    let joined = keep * u32(takes_joined());
-    pcg_extents[PCG_SLOTS] = vec4u(pcg.groups_wide, pcg.groups_high, 1u, 0u) * keep;
-    pcg_extents[PCG_PARTIAL] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
-    pcg_extents[PCG_APART] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * (keep - joined);
-    pcg_extents[PCG_JOINED] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * joined;
-    pcg_extents[PCG_SINGLE] = vec4u(keep);
-    pcg_extents[PCG_NEAR] = vec4u(pcg.near_wide, pcg.near_high, 1u, 0u) * keep;
-    pcg_extents[PCG_BLOCK] = vec4u(pcg.groups_block, 1u, 1u, 0u) * keep;
-    for (var k = 0u; k < PCG_LEVELS; k++) { pcg_extents[PCG_LEVEL + k] = vec4u(pcg.level_groups[k], 1u, 1u, 0u) * keep; }
-}
 
 fn total_from(first: u32, lane: u32) -> vec4f {
     var sum = vec4f(0.0);
@@ -52,8 +35,9 @@ fn of_block(i: u32) -> f32 {
     return z;
 }
 
+// Without the block's part, which the caller then adds to the direction and to the sum.
 fn begin(i: u32) -> vec4f {
-    let z = inverse_diagonal[i] * residual[i] + of_block(i);
+    let z = inverse_diagonal[i] * residual[i];
     solution[i] = 0.0;
     direction[i] = z;
     return vec4f(z * residual[i], select(inverse_diagonal[i] * product[i] * product[i], 0.0, pcg.reference_at != 0u), 0.0, 0.0);
@@ -75,35 +59,13 @@ fn pcg_begin(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
 fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
     let sum = total(lane);
     let reference = total_from(pcg.reference_at, lane);
-    if lane != 0u { return; }
-    pcg.size = sum.x;
-    pcg.rho = sum.x + sum.z;
-    pcg.reference = reference.y;
-    pcg.iterations = 0u;
-    pcg.alpha = 0.0;
-    decide();
-    if pcg.size > pcg.most {
-        pcg.outcome = PCG_CONVERGED;
-        open_iteration(false);
-    }
-}
-
-// By its bits: fast arithmetic may take every comparison with NaN for true.
-fn is_no_number(x: f32) -> bool { return (bitcast<u32>(x) & 0x7f800000u) == 0x7f800000u; }
-
-fn decide() {
-    pcg.outcome = PCG_RUNNING;
-    if is_no_number(pcg.size) || is_no_number(pcg.rho) { pcg.outcome = PCG_STALLED; }
-    else if pcg.size <= pcg.tolerance * pcg.tolerance * pcg.reference { pcg.outcome = PCG_CONVERGED; }
-    else if pcg.iterations >= pcg.max_iterations || pcg.rho >= 1e38 { pcg.outcome = PCG_STALLED; }
-    open_iteration(pcg.outcome == PCG_RUNNING);
+    if lane == 0u { begin_iteration(sum.x, sum.x + sum.z, reference.y); }
 }
 
 // Step length, and joined the weight of the old direction, from what the operator leaves. Every group finds them for itself: a kernel less.
 // Joined: the new r . z is alpha^2 q . D^-1 q - rho, for z and q meet as p and q do. Sums of single precision make an error of
 // 1e-7 in it, which matters as little as the old direction does then.
-fn step_length(dots: vec4f) -> f32 { return select(0.0, pcg.rho / dots.x, dots.x > 0.0); }
-fn weight_before(dots: vec4f) -> f32 { return max(step_length(dots) * dots.y / dots.x - 1.0, 0.0); }
+fn weight_before(dots: vec4f) -> f32 { return max(step_length(dots.x) * dots.y / dots.x - 1.0, 0.0); }
 
 fn update(i: u32, alpha: f32) -> f32 {
     let r = residual[i] - alpha * product[i];
@@ -114,7 +76,7 @@ fn update(i: u32, alpha: f32) -> f32 {
 @compute @workgroup_size(WORKGROUP)
 fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, lane);
-    let alpha = step_length(total_from(pcg.dots_at, lane));
+    let alpha = step_length(total_from(pcg.dots_at, lane).x);
     var sum = vec4f(0.0);
     for (var octet = first_unknowns(thread); are_left(octet); octet = next_octet(octet)) {
         let i = unknown_in(octet, thread);
@@ -128,17 +90,8 @@ fn pcg_update(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
     let dots = total_from(pcg.dots_at, lane);
     let sum = total(lane);
-    if lane != 0u || pcg.outcome != PCG_RUNNING { return; } // dispatched always: it writes the table that gates the others
-    let rho = sum.x + sum.z;
-    if takes_joined() { pcg.alpha = 0.0; } // the solution has it
-    else {
-        pcg.alpha = step_length(dots);
-        pcg.beta = select(0.0, rho / pcg.rho, pcg.rho > 0.0);
-    }
-    pcg.size = sum.x;
-    pcg.rho = rho;
-    pcg.iterations += 1u;
-    decide();
+    // Dispatched always: it writes the table that gates the others.
+    if lane == 0u && pcg.outcome == PCG_RUNNING { end_iteration(sum.x, sum.x + sum.z, dots.x); }
 }
 
 fn turn(i: u32, alpha: f32, beta: f32) {
@@ -173,7 +126,7 @@ fn step(i: u32, alpha: f32, beta: f32) -> f32 {
 fn pcg_step(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let thread = thread_index(group, lane);
     let dots = total_from(pcg.dots_at, lane);
-    let alpha = step_length(dots);
+    let alpha = step_length(dots.x);
     let beta = weight_before(dots);
     var sum = vec4f(0.0);
     for (var octet = first_unknowns(thread); are_left(octet); octet = next_octet(octet)) {

@@ -1,8 +1,8 @@
 // Exclusive prefix sum of an array of u32, level by level.
 // Equation: output[i] = sum of input[j], j < i; sums wrap at 2^32.
 // scan_blocks: reads input, writes output (sums inside each block) and totals (one per block).
-// scan_offsets: reads offsets (the scan of totals), adds them to output; then the equation holds across blocks.
-
+// scan_offsets: reads offsets (the scan of totals, or of few blocks the totals, which each block sums up), adds them to output; then the
+// equation holds across blocks.
 
 // Consecutive elements of one thread, set by Rust; SCAN_ITEMS * WORKGROUP is a block.
 override SCAN_ITEMS: u32;
@@ -14,6 +14,8 @@ struct ScanParams {
     outputs: u32,
     // Blocks of this level: the last workgroups of a split dispatch may have none.
     blocks: u32,
+    // 1 where blocks are few: `offsets` holds their totals.
+    few: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: ScanParams;
@@ -59,13 +61,25 @@ fn scan_blocks(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocatio
     if local == WORKGROUP - 1u && block < params.blocks { totals[block] = scratch[local]; }
 }
 
+// Sum of all blocks before one.
+fn offset_of(block: u32, local: u32) -> u32 {
+    if params.few == 0u { return offsets[block]; }
+    var own = 0u;
+    for (var k = local; k < block; k += WORKGROUP) { own += offsets[k]; }
+    scratch[local] = own;
+    workgroupBarrier();
+    var sum = 0u;
+    for (var k = 0u; k < WORKGROUP; k++) { sum += scratch[k]; }
+    return sum;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn scan_offsets(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
-    let thread = thread_index(workgroup, local);
-    let block = thread / WORKGROUP;
+    let block = group_index(workgroup);
     if block >= params.blocks { return; }
+    let offset = offset_of(block, local);
     for (var k = 0u; k < SCAN_ITEMS; k++) {
-        let i = thread * SCAN_ITEMS + k;
-        if i < params.outputs { output[i] += offsets[block]; }
+        let i = (block * WORKGROUP + local) * SCAN_ITEMS + k;
+        if i < params.outputs { output[i] += offset; }
     }
 }

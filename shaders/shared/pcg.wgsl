@@ -1,4 +1,5 @@
-// Scalars of a solve by conjugate gradients. After it they tell the control of the step how it ended.
+// Scalars of a solve by conjugate gradients, and how it goes on: step length, outcome, and the table that gates the dispatches of an
+// iteration. After it the scalars tell the control of the step how it ended.
 
 // Generated from src/numerics/pcg.rs by scripts/generate.
 struct Pcg {
@@ -29,6 +30,65 @@ struct Pcg {
     level_groups: array<u32, PCG_LEVELS>, // Groups, at most as many as leave partial sums, of the kernels of each level, the finest first; 0 without
 }
 // End of what is generated.
+
+@group(0) @binding(20) var<storage, read_write> pcg: Pcg;
+@group(0) @binding(21) var<storage, read_write> pcg_extents: array<vec4u>;
+
+// -- How it goes on --
+
+fn takes_joined() -> bool { return pcg.joined != 0u && pcg.levels == 0u; }
+
+fn open_iteration(on: bool) {
+    let keep = u32(on);
+    let joined = keep * u32(takes_joined());
+    pcg_extents[PCG_SLOTS] = vec4u(pcg.groups_wide, pcg.groups_high, 1u, 0u) * keep;
+    pcg_extents[PCG_PARTIAL] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * keep;
+    pcg_extents[PCG_APART] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * (keep - joined);
+    pcg_extents[PCG_JOINED] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * joined;
+    pcg_extents[PCG_NEAR] = vec4u(pcg.near_wide, pcg.near_high, 1u, 0u) * keep;
+    pcg_extents[PCG_BLOCK] = vec4u(pcg.groups_block, 1u, 1u, 0u) * keep;
+    for (var k = 0u; k < PCG_LEVELS; k++) { pcg_extents[PCG_LEVEL + k] = vec4u(pcg.level_groups[k], 1u, 1u, 0u) * keep; }
+}
+
+// By its bits: fast arithmetic may take every comparison with NaN for true.
+fn is_no_number(x: f32) -> bool { return (bitcast<u32>(x) & 0x7f800000u) == 0x7f800000u; }
+
+fn decide() {
+    pcg.outcome = PCG_RUNNING;
+    if is_no_number(pcg.size) || is_no_number(pcg.rho) { pcg.outcome = PCG_STALLED; }
+    else if pcg.size <= pcg.tolerance * pcg.tolerance * pcg.reference { pcg.outcome = PCG_CONVERGED; }
+    else if pcg.iterations >= pcg.max_iterations || pcg.rho >= 1e38 { pcg.outcome = PCG_STALLED; }
+    open_iteration(pcg.outcome == PCG_RUNNING);
+}
+
+fn step_length(dot: f32) -> f32 { return select(0.0, pcg.rho / dot, dot > 0.0); }
+
+// Of one thread, before the first iteration: `size` as the tolerance sees it, r . z, and the squared norm that the tolerance refers to.
+fn begin_iteration(size: f32, rho: f32, reference: f32) {
+    pcg.size = size;
+    pcg.rho = rho;
+    pcg.reference = reference;
+    pcg.iterations = 0u;
+    pcg.alpha = 0.0;
+    decide();
+    if size > pcg.most {
+        pcg.outcome = PCG_CONVERGED;
+        open_iteration(false);
+    }
+}
+
+// Of one thread, in an iteration; `dot`: direction . product.
+fn end_iteration(size: f32, rho: f32, dot: f32) {
+    if takes_joined() { pcg.alpha = 0.0; } // the solution has it
+    else {
+        pcg.alpha = step_length(dot);
+        pcg.beta = select(0.0, rho / pcg.rho, pcg.rho > 0.0);
+    }
+    pcg.size = size;
+    pcg.rho = rho;
+    pcg.iterations += 1u;
+    decide();
+}
 
 // -- Order of sums --
 

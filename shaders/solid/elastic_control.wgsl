@@ -3,7 +3,6 @@
 #include "shared/pcg.wgsl"
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
-@group(0) @binding(2) var<storage, read_write> pcg: Pcg;
 
 // A round that starts with more than this share of the imbalance of the one before (squared) is the last.
 const STILL = 0.5;

@@ -18,7 +18,6 @@
 @group(0) @binding(8) var<storage, read_write> product: array<vec4f>;
 @group(0) @binding(9) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(10) var<storage, read> solution: array<vec4f>;
-@group(0) @binding(11) var<storage, read> pcg: Pcg;
 
 fn grid_vector(slot: u32) -> vec3f { return direction[slot].xyz; }
 

@@ -14,7 +14,6 @@
 @group(0) @binding(5) var<storage, read_write> levels: array<vec2f>;    // inverse diagonal; residual, then sum
 @group(0) @binding(6) var<storage, read_write> partials: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> direction: array<f32>;
-@group(0) @binding(8) var<storage, read> pcg: Pcg;
 
 // Unknowns that are not used have no residual.
 fn residual_at(slot: u32) -> f32 {

@@ -18,7 +18,6 @@
 @group(0) @binding(7) var<storage, read_write> direction: array<f32>;
 @group(0) @binding(8) var<storage, read> stiffness: array<f32>;
 @group(0) @binding(10) var<storage, read> solution: array<f32>;         // row sums at listed slots
-@group(0) @binding(11) var<storage, read_write> pcg: Pcg;
 @group(0) @binding(12) var<storage, read_write> coarse_extents: array<vec4u>;
 @group(0) @binding(13) var<storage, read_write> control: Control;
 

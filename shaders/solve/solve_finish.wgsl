@@ -5,7 +5,6 @@
 @group(0) @binding(1) var<storage, read_write> pressure: array<f32>;
 @group(0) @binding(5) var<storage, read> solution: array<f32>;
 @group(0) @binding(6) var<storage, read> direction: array<f32>;
-@group(0) @binding(7) var<storage, read> pcg: Pcg;
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_add(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {

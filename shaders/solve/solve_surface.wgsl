@@ -6,11 +6,14 @@
 // between bodies is small; the polynomial is positive below its upper bound, so the preconditioner is positive definite all the same.
 #include "shared/system.wgsl"
 #include "shared/reduce.wgsl"
+#include "shared/pcg.wgsl"
 
 // Generated from src/stage/solve/coupled_solve/surface.rs by scripts/generate.
 struct Turn {
     number: u32,                // From 0
     count: u32,                 // Steps of all
+    first: u32,                 // 1 before the first iteration
+    ends: u32,                  // 1 if all steps at once also open or end an iteration
 }
 // End of what is generated.
 
@@ -21,7 +24,7 @@ struct Turn {
 @group(0) @binding(5) var<storage, read_write> rows: array<f32>;
 @group(0) @binding(7) var<storage, read> residual: array<f32>;
 @group(0) @binding(8) var<storage, read_write> partials: array<vec4f>;
-@group(0) @binding(9) var<storage, read_write> product: array<f32>;
+@group(0) @binding(9) var<storage, read_write> product: array<f32>;    // before the first iteration the direction itself
 @group(0) @binding(10) var<uniform> turn: Turn;
 
 // Between the largest eigenvalue and the least one that the polynomial takes care of.
@@ -209,24 +212,42 @@ fn surface_term(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     if lane == 0u { partials[group_index(group)] += sum; }
 }
 
-var<workgroup> shares: array<f32, SURFACE_THREADS>;
+var<workgroup> shares: array<vec2f, SURFACE_THREADS>;
+
+// Of a lane: r . z of the unknowns outside of the block; and of the reference, or of direction . product.
+fn sums_of_others(lane: u32) -> vec2f {
+    var sums = vec2f(0.0);
+    for (var k = lane; k < pcg.groups_partial; k += SURFACE_THREADS) {
+        sums.x += partials[k].x;
+        if turn.first == 1u { sums.y += partials[pcg.reference_at + k].y; } else { sums.y += partials[pcg.dots_at + k].x; }
+    }
+    return sums;
+}
 
 // All terms at once, where there are few rows: one workgroup, whose threads see after each barrier what the others have written. Adds
-// z . r to the first of the partial sums.
+// z . r to the first of the partial sums, or without coarse levels opens or ends the iteration with it. In an iteration it is dispatched
+// always, as it holds the table that gates the others.
 @compute @workgroup_size(SURFACE_THREADS)
 fn surface_terms(@builtin(local_invocation_index) lane: u32) {
-    var share = 0.0;
+    let runs = turn.first == 1u || pcg.outcome == PCG_RUNNING;
+    let count = select(0u, row_count(), runs);
+    var sums = vec2f(0.0);
     for (var number = 0u; number < turn.count; number++) {
         let now = term(number);
-        for (var at = lane; at < row_count(); at += SURFACE_THREADS) { share += add_term(at, now); }
+        for (var at = lane; at < count; at += SURFACE_THREADS) { sums.x += add_term(at, now); }
         storageBarrier();
     }
-    shares[lane] = share;
+    if turn.ends == 1u { sums += sums_of_others(lane); }
+    shares[lane] = sums;
     for (var stride = 1u; stride < SURFACE_THREADS; stride *= 16u) {
         workgroupBarrier();
         if lane % (16u * stride) == 0u {
             for (var k = 1u; k < 16u; k++) { shares[lane] += shares[lane + k * stride]; }
         }
     }
-    if lane == 0u { partials[0].x += shares[0]; }
+    if lane != 0u || !runs { return; }
+    let all = shares[0];
+    if turn.ends == 0u { partials[0].x += all.x; }
+    else if turn.first == 1u { begin_iteration(all.x, all.x, all.y); }
+    else { end_iteration(all.x, all.x, all.y); }
 }

@@ -6,7 +6,6 @@
 override FILTER_COURANT: f32;   // cells that sound crosses at least in a step with the filter of odd_even.wgsl
 
 @group(0) @binding(1) var<storage, read_write> control: Control;
-@group(0) @binding(2) var<storage, read_write> pcg: Pcg;
 @group(0) @binding(3) var<storage, read> extra: array<u32>;
 
 // Before the first step: lets the marks of the start run.
@@ -49,9 +48,14 @@ fn control_cold() {
     open_phase(PHASE_FLOOR_EXTENTS, updated && atomicLoad(&control.cold) == 1u);
 }
 
-// After the recorded iterations: has the solve finished?
+// After the recorded iterations: has the solve finished? Then the first explicit sub-step follows, or the next one of a step that goes on.
 @compute @workgroup_size(1)
 fn control_solved() {
+    take_solution();
+    if SOLIDS && !IMPLICIT { open_substep(); }
+}
+
+fn take_solution() {
     let solving = control.phase == PHASE_SOLVE;
     if solving && pcg.outcome == PCG_STALLED { atomicMin(&control.fault, STAGE_COUPLED_SOLVE << 27u); }
     let done = solving && pcg.outcome == PCG_CONVERGED && atomicLoad(&control.fault) == NO_FAULT;
@@ -74,9 +78,12 @@ fn control_second() {
     control.phase = PHASE_SOLVE;
 }
 
-// Before each recorded sub-step. `again`: the particles have moved since the last P2G.
+// Before each further recorded sub-step, and after the elastic solve.
 @compute @workgroup_size(1)
-fn control_substep() {
+fn control_substep() { open_substep(); }
+
+// `again`: the particles have moved since the last P2G.
+fn open_substep() {
     let go = control.phase == PHASE_SUBSTEP && control.substep < control.substeps && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_SUBSTEP_EXTENTS, go);
     let again = go && control.substep > 0u;

@@ -22,8 +22,6 @@ numbers! {
         Slots,
         /// Groups that stride and leave partial sums.
         Partial,
-        /// One group.
-        Single,
         /// One thread per entry of the caller's list.
         Near,
         /// [`super::Block`].
@@ -136,7 +134,7 @@ pub struct Pcg {
     /// Scalars on the device.
     pub control: Buffer<PcgControl>,
     /// Group counts of an iteration: per slot, partial sums, single.
-    extents: Buffer<u32>,
+    pub(crate) extents: Buffer<u32>,
     begin: [Bound; 2],
     update: Bound,
     beta: Bound,
@@ -180,8 +178,12 @@ pub struct Layout {
 pub struct Block<'a> {
     /// Turn the residual into z, in order; the last one leaves z in [`PcgVectors::product`] and adds z . r to the partial sums.
     pub terms: &'a [Bound],
-    /// Whether there is a single one, of one group.
+    /// The same before the first iteration, for [`PcgVectors::direction`].
+    pub begin: &'a [Bound],
+    /// Whether there is a single one, of one group, which sees for itself whether there is something to do.
     pub together: bool,
+    /// Whether that one opens and ends the iterations, too; not with [`Levels`].
+    pub ends: bool,
 }
 
 /// Coarse levels, which add to what the diagonal gives. The caller sets [`PcgControl::level_groups`] before the iteration begins.
@@ -284,14 +286,16 @@ impl Pcg {
         block: &Block<'_>,
         levels: &Levels<'_>,
     ) {
-        for term in block.terms {
+        pass.dispatch(&self.begin[0], partial);
+        for term in block.begin {
             pass.dispatch(term, if block.together { single } else { own });
         }
-        pass.dispatch(&self.begin[0], partial);
         if let Some((table, first)) = levels.opened {
             levels.record_down(pass, table, first);
         }
-        pass.dispatch(&self.begin[1], single);
+        if !block.ends {
+            pass.dispatch(&self.begin[1], single);
+        }
         if let Some((table, first)) = levels.opened {
             levels.record_up(pass, table, first);
         }
@@ -310,11 +314,15 @@ impl Pcg {
         if apart {
             pass.dispatch(&self.update, &extent(Groups::Apart));
         }
+        let always = Extent::Groups([1, 1, 1]);
+        let gated = extent(Groups::Block);
         for term in block.terms {
-            pass.dispatch(term, &extent(if block.together { Groups::Single } else { Groups::Block }));
+            pass.dispatch(term, if block.together { &always } else { &gated });
         }
         levels.record_down(pass, &self.extents, Groups::Level as u64);
-        pass.dispatch(&self.beta, &Extent::Groups([1, 1, 1]));
+        if !block.ends {
+            pass.dispatch(&self.beta, &always);
+        }
         if apart {
             pass.dispatch(&self.direction, &extent(Groups::Apart));
         }

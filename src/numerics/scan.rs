@@ -9,7 +9,10 @@ const BLOCK: u32 = SCAN_ITEMS * WORKGROUP;
 /// Consecutive elements of one thread; `scan.wgsl` gets it from here.
 const SCAN_ITEMS: u32 = 16;
 
-/// Scans one buffer into another: blocks, then the totals of the blocks, and so on up; then the offsets down again.
+/// Blocks at most whose totals each block adds up for itself; more are scanned like the elements.
+const FEW: u32 = 2048;
+
+/// Scans one buffer into another: blocks, and where they are many the totals of the blocks, and so on up; then the offsets down again.
 #[derive(Debug)]
 pub struct Scan {
     /// Dispatches in order, each with its workgroups.
@@ -44,15 +47,19 @@ impl Scan {
         let mut scan = Scan { dispatches: Vec::new(), scratch: Vec::new() };
         let mut down = Vec::new();
         let mut inputs = n;
-        for (level, &length) in level_lengths(outputs).iter().enumerate() {
-            let blocks = length.div_ceil(BLOCK).max(1);
+        let lengths = level_lengths(outputs);
+        for (level, &length) in lengths.iter().enumerate() {
+            let blocks = blocks(length);
             let groups = group_counts(u64::from(blocks));
+            let is_last = level + 1 == lengths.len();
             let params = Buffer::<u32>::uniform(gpu, "scan level", 4)?;
-            params.write(gpu, 0, &[inputs, length, blocks, 0]);
+            params.write(gpu, 0, &[inputs, length, blocks, u32::from(is_last)]);
             scan.scratch.push(Buffer::new(gpu, "scan totals", blocks as usize)?);
-            scan.scratch.push(Buffer::new(gpu, "scan offsets", blocks as usize)?);
-            // Level 0 works on the caller's buffers, level k on totals and offsets of level k - 1.
-            let [totals, offsets] = [&scan.scratch[2 * level], &scan.scratch[2 * level + 1]];
+            if !is_last {
+                scan.scratch.push(Buffer::new(gpu, "scan offsets", blocks as usize)?);
+            }
+            // Level 0 works on the caller's buffers, level k on totals and offsets of level k - 1; the last has no offsets.
+            let [totals, offsets] = [&scan.scratch[2 * level], &scan.scratch[2 * level + usize::from(!is_last)]];
             let [from, to] = match level {
                 0 => [input, output],
                 _ => [scan.scratch[2 * level - 2].raw(), scan.scratch[2 * level - 1].raw()],
@@ -72,16 +79,16 @@ impl Scan {
 
     /// Workgroups of each dispatch of a scan with this many outputs, known before it is built.
     pub fn plan(outputs: u32) -> Vec<[u32; 3]> {
-        let blocks = level_lengths(outputs).into_iter().map(|length| length.div_ceil(BLOCK).max(1));
-        let up: Vec<_> = blocks.map(|blocks| group_counts(u64::from(blocks))).collect();
+        let up: Vec<_> = level_lengths(outputs).iter().map(|length| group_counts(u64::from(blocks(*length)))).collect();
         let down = up.iter().rev().filter(|groups| **groups != [1, 1, 1]).copied();
         up.iter().copied().chain(down.collect::<Vec<_>>()).collect()
     }
 
     /// Bytes that a scan with this many outputs allocates, known before it is built.
     pub fn planned_bytes(outputs: u32) -> u64 {
-        let blocks = level_lengths(outputs).into_iter().map(|length| u64::from(length.div_ceil(BLOCK).max(1)));
-        blocks.map(|blocks| 2 * blocks * size_of::<u32>() as u64).sum()
+        let lengths = level_lengths(outputs);
+        let words = lengths.iter().map(|length| 2 * u64::from(blocks(*length))).sum::<u64>();
+        (words - lengths.last().map_or(0, |length| u64::from(blocks(*length)))) * size_of::<u32>() as u64
     }
 
     /// Workgroups of each dispatch: what [`Scan::record_with`] runs when nothing is to be skipped.
@@ -105,11 +112,15 @@ impl Scan {
     }
 }
 
-/// Elements at each level, from the array itself to the level of one block.
+fn blocks(length: u32) -> u32 {
+    length.div_ceil(BLOCK).max(1)
+}
+
+/// Elements at each level, from the array itself to the level of few blocks.
 fn level_lengths(outputs: u32) -> Vec<u32> {
     let mut lengths = vec![outputs];
-    while let Some(length) = lengths.last().copied().filter(|length| *length > BLOCK) {
-        lengths.push(length.div_ceil(BLOCK));
+    while let Some(many) = lengths.last().map(|length| blocks(*length)).filter(|blocks| *blocks > FEW) {
+        lengths.push(many);
     }
     lengths
 }

@@ -35,10 +35,13 @@ impl Simulation {
         }
     }
 
-    /// One elastic sub-step. The first recorded one may be the first of a step or the continuation of a long one.
+    /// One elastic sub-step. The first recorded one, which `Decision::Solved` opens, may be the first of a step or the continuation of a
+    /// long one.
     fn record_substep(&self, pass: &mut Pass, recorded: u32) {
         let state = &self.state;
-        self.time_step.decide(pass, Decision::Substep);
+        if recorded > 0 {
+            self.time_step.decide(pass, Decision::Substep);
+        }
         let stages = (&self.particle_sort, &self.p2g, &self.mpm_grid_update, &self.g2p);
         let (Some(particle_sort), Some(p2g), Some(mpm_grid_update), Some(g2p)) = stages else { return };
         if let Some(elastic_first) = &self.elastic_first {

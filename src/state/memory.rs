@@ -124,7 +124,7 @@ impl MemoryPlan {
         let entries = (rows * surface::row_length(dimension)) as u64;
         if rows > 0 {
             self.add("pressure", &[("surface rows", entries, 4)]);
-            self.add("fixed", &[("turns", surface::dispatches(rows).into(), 8)]);
+            self.add("fixed", &[("turns", surface::turns(rows).into(), 16)]);
         }
     }
 

@@ -11,9 +11,14 @@ const LEAST: usize = 768;
 pub(super) const THREADS: u32 = 256;
 const FEW: usize = 2048;
 
-/// Dispatches of the polynomial.
-pub(crate) const fn dispatches(rows: usize) -> u32 {
-    if rows > FEW { TERMS } else { 1 }
+/// Whether one workgroup has all rows.
+pub(crate) const fn are_few(rows: usize) -> bool {
+    rows <= FEW
+}
+
+/// Steps that the kernels of the polynomial are told of: its terms, or before the iterations and in one.
+pub(crate) const fn turns(rows: usize) -> u32 {
+    if are_few(rows) { 2 } else { TERMS }
 }
 
 /// Numbers of a row before its couplings.

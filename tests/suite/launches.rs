@@ -10,7 +10,7 @@ use crate::common::{gpu_or_skip, report};
 const ITERATIONS: u32 = 3;
 
 /// Launches of a step at most, with as many iterations and the settings of a GPU.
-const MOST: [(&str, usize); 2] = [("paper/fig16_convergence.toml", 53), ("demos/bursting_shell_3d.toml", 105)];
+const MOST: [(&str, usize); 2] = [("paper/fig16_convergence.toml", 53), ("demos/bursting_shell_3d.toml", 96)];
 
 #[test]
 fn a_step_launches_few_kernels() {

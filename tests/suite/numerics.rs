@@ -87,10 +87,10 @@ fn a_scan_with_zero_indirect_counts_changes_nothing() {
     let output = Buffer::from_slice(&gpu, "output", &vec![9u32; 5000]).unwrap();
     let scan = Scan::new(&gpu, &input, &output, 5000).unwrap();
     let counts = scan.group_counts();
-    assert_eq!(counts.len(), 3, "up, up, down");
+    assert_eq!(counts.len(), 2, "up, down");
     let indirect = Buffer::<u32>::indirect(&gpu, "counts", 3 * counts.len()).unwrap();
     let extents: Vec<_> = (0..counts.len()).map(|level| Extent::Indirect(&indirect, 12 * level as u64)).collect();
-    for (written, last) in [(vec![0; 9], 9), (counts.concat(), 4999)] {
+    for (written, last) in [(vec![0; 6], 9), (counts.concat(), 4999)] {
         indirect.write(&gpu, 0, &written);
         let mut pass = Pass::new(&gpu, "scan");
         scan.record_with(&mut pass, &extents);

@@ -95,6 +95,7 @@ impl CoupledSolve {
         };
         let pcg = Pcg::new(gpu, &state.pcg, &state.partials, limits, &layout)?;
         let vertices = Vertices::new(state)?;
+        let coarse = Coarse::new(state, scene, pcg.control.raw())?;
         let over_nodes = |shader: &str, entry: &str, renamed: &[(&str, &wgpu::Buffer)]| {
             Sweep::over(state, vertices.nodes, [shader, entry], renamed)
         };
@@ -119,8 +120,8 @@ impl CoupledSolve {
             forces_of_pressure: forces(state.pressure.raw())?,
             forces_on_bodies: state.has_solids().then(on_bodies).transpose()?,
             velocities: over_nodes("solve/solve_setup.wgsl", "solve_velocities", &[])?,
-            surface: Surface::new(state)?,
-            coarse: Coarse::new(state, scene, pcg.control.raw())?,
+            surface: Surface::new(state, &pcg, coarse.is_some())?,
+            coarse,
             reference: state.bind("solve/solve_reference.wgsl", "solve_reference", &[], &[])?,
             forces: forces(state.pcg.direction.raw())?,
             add: state.bind("solve/solve_finish.wgsl", "solve_add", &[("pcg", pcg.control.raw())], &[])?,

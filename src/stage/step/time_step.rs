@@ -27,11 +27,11 @@ pub enum Decision {
     Limiter,
     /// Opens the energy floor deep inside the gas where it may have to act.
     Cold,
-    /// Opens the updates if the solve has finished.
+    /// Opens the updates if the solve has finished, and the first explicit elastic sub-step.
     Solved,
     /// Opens the second advection and solve if the first is done.
     Second,
-    /// Opens one elastic sub-step if one is due.
+    /// Opens one more elastic sub-step if one is due, or the end of the elastic solve.
     Substep,
     /// Closes the step if it is complete.
     Finish,
