@@ -1,5 +1,6 @@
 //! The step: the whole method on one page, and the run around it.
 
+mod altered;
 mod charges;
 mod elastic;
 mod fault;

@@ -124,8 +124,8 @@ fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
     let p = thread_index(workgroup, local);
     if p >= view.particles { return; }
     var color = vec3f(0.0);
+    let body = bitcast<u32>(deformation[3u * p].w);
     if view.particle_color == PARTICLE_BODY || view.particle_color == PARTICLE_MATERIAL {
-        let body = bitcast<u32>(deformation[3u * p].w);
         let material = bitcast<u32>(affine[3u * p + 2u].w) & 0xffffu;
         let name = select(BODIES + material, body, view.particle_color == PARTICLE_BODY);
         let plastic_strain = affine[3u * p + 1u].w;
@@ -135,7 +135,8 @@ fn mix_paint(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
         color = colors[2u * COLOR_COUNT + u32(fraction * f32(COLOR_COUNT - 1u) + 0.5)].rgb;
     }
     let radius = view.particle_scale * pow(velocity[p].w, 1.0 / f32(view.dimension));
-    balls[2u * p] = vec4f(position[p].xyz, select(radius, 0.0, deformation[3u * p + 1u].w == 0.0));
+    let unseen = deformation[3u * p + 1u].w == 0.0 || names[body].w == 0.0;
+    balls[2u * p] = vec4f(position[p].xyz, select(radius, 0.0, unseen));
     balls[2u * p + 1u] = vec4f(color, growth(p));
 }
 

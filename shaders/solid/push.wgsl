@@ -1,5 +1,5 @@
-// push: the same change of velocity for all that is free of a body. Reads position, deformation. Writes velocity, partials: first mass and
-// momentum of the body, then what it was given.
+// push: the same change of velocity for all that is free of a body, or another density for all of it. Reads deformation. Writes velocity or
+// position, and partials: first mass and momentum of the body, then what it was given.
 #include "shared/state.wgsl"
 #include "solid/given.wgsl"
 
@@ -11,7 +11,7 @@ struct Push {
 // End of what is generated.
 
 @group(0) @binding(1) var<uniform> push: Push;
-@group(0) @binding(2) var<storage, read> position: array<vec4f>;
+@group(0) @binding(2) var<storage, read_write> position: array<vec4f>;
 @group(0) @binding(3) var<storage, read> deformation: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> velocity: array<vec4f>;
 
@@ -42,4 +42,12 @@ fn push_change(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     }
     given = workgroup_sum4(lane, given);
     if lane == 0u { partials[group_index(group)] = given; }
+}
+
+// The density is the first component of the change.
+@compute @workgroup_size(WORKGROUP)
+fn push_weigh(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    for (var p = thread_index(group, lane); p < params.particles; p += striding_threads()) {
+        if bitcast<u32>(deformation[3u * p].w) == push.body { position[p].w = push.change.x * velocity[p].w; }
+    }
 }

@@ -291,6 +291,16 @@ impl Material {
         self.kind().parameters.iter().position(|p| p.name == name).map(|index| self.values[index])
     }
 
+    /// The same with another value of a parameter, where its kind has one of that name.
+    #[must_use]
+    pub fn with(&self, name: &str, value: f64) -> Self {
+        let mut other = self.clone();
+        for (parameter, own) in self.kind().parameters.iter().zip(&mut other.values) {
+            *own = if parameter.name == name { value } else { *own };
+        }
+        other
+    }
+
     /// Shear modulus mu `[Pa]`.
     #[must_use]
     pub fn mu(&self) -> f64 {

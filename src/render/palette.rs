@@ -15,7 +15,7 @@ const PALETTE: [[u8; 3]; 8] = [
 ];
 
 /// Of each body, sRGB: its own, that of the preset of its material, or one of the palette. As many as the palette has at least.
-pub(super) fn of_bodies(scene: &Scene) -> Vec<[u8; 3]> {
+pub(crate) fn of_bodies(scene: &Scene) -> Vec<[u8; 3]> {
     let preset = |name: &str| scene.materials.get(name)?.color();
     let own = scene.bodies.iter().map(|body| body.color.map(|color| color.0).or_else(|| preset(&body.material)));
     or_palette(own)

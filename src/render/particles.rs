@@ -19,6 +19,8 @@ pub(super) struct Particles {
     pub(super) balls: Buffer<[[f32; 4]; 2]>,
     /// Deformation gradients: three rows per particle.
     pub(super) deformation: wgpu::Buffer,
+    /// Colours of bodies, then of materials; the fourth number is 0 for bodies that are not drawn.
+    names: Buffer<Vec4>,
     ranges: Buffer<[f32; 2]>,
     measure: Bound,
     find_range: Bound,
@@ -31,12 +33,8 @@ impl Particles {
     }
 
     fn of(gpu: &Gpu, scene: &Scene, own: &ParticleSources, gas: &Gas) -> Result<Self> {
-        let linear = |color: [u8; 3]| Vec3::from(color.map(|channel| linear_from_srgb(f32::from(channel) / 255.0)));
-        let of_bodies = palette::of_bodies(scene);
-        let bodies = [("BODIES", of_bodies.len() as f64)];
-        let names = of_bodies.into_iter().chain(palette::of_materials(scene));
-        let names: Vec<Vec4> = names.map(|color| linear(color).extend(1.0)).collect();
-        let of_names = Buffer::from_slice(gpu, "colours of bodies and materials", &names)?;
+        let bodies = [("BODIES", palette::of_bodies(scene).len() as f64)];
+        let of_names = Buffer::from_slice(gpu, "colours of bodies and materials", &colors_of_names(scene, &[]))?;
         let count = own.count as usize;
         let quantity: Buffer<f32> = Buffer::new(gpu, "particle quantity", count)?;
         let balls: Buffer<[[f32; 4]; 2]> = Buffer::new(gpu, "balls", count)?;
@@ -58,10 +56,16 @@ impl Particles {
                 &[&shared[..], &state, &mixed].concat(),
             )?,
             count: own.count.into(),
+            names: of_names,
             balls,
             deformation: own.deformation.clone(),
             ranges,
         })
+    }
+
+    /// Colours that bodies have now, and which of them are not drawn.
+    pub(super) fn repaint(&self, gpu: &Gpu, scene: &Scene, hidden: &[usize]) {
+        self.names.write(gpu, 0, &colors_of_names(scene, hidden));
     }
 
     /// Records what the colours mean and its range; the field's heat must be there.
@@ -79,4 +83,13 @@ impl Particles {
     pub(super) fn record_paint(&self, pass: &mut Pass) {
         pass.dispatch(&self.mix_paint, &Extent::Threads(self.count));
     }
+}
+
+/// Linear colours of bodies, then of materials.
+fn colors_of_names(scene: &Scene, hidden: &[usize]) -> Vec<Vec4> {
+    let linear = |color: [u8; 3]| Vec3::from(color.map(|channel| linear_from_srgb(f32::from(channel) / 255.0)));
+    let shown = |body: usize| if hidden.contains(&body) { 0.0 } else { 1.0 };
+    let bodies = palette::of_bodies(scene).into_iter().enumerate();
+    let bodies = bodies.map(|(body, color)| linear(color).extend(shown(body)));
+    bodies.chain(palette::of_materials(scene).into_iter().map(|color| linear(color).extend(1.0))).collect()
 }

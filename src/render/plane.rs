@@ -26,7 +26,7 @@ const MOST_SCREENS: usize = 6;
 #[derive(Debug)]
 pub(super) struct Drawing {
     pub(super) gas: Gas,
-    particles: Option<Particles>,
+    pub(super) particles: Option<Particles>,
     pub(super) distance: Distance,
     light: Light,
     /// Of the pictures drawn last, the newest at the end.

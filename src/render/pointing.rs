@@ -1,9 +1,9 @@
-//! Places of a picture and points of the scene: the line of sight through one, and where the other appears.
+//! What a hand wants of pictures: the line of sight through a place, where a point appears, bodies in other colours or not at all.
 
 use glam::{DVec2, Vec2};
 
 use super::{Ray, Renderer};
-use crate::scene::RenderSettings;
+use crate::scene::{RenderSettings, Scene};
 
 impl Renderer {
     /// The line of sight at a time \[s\] through a place of the picture, in pixels from the top left corner of the frame. In 2D it
@@ -23,5 +23,12 @@ impl Renderer {
         let size = Vec2::new(plot.width as f32, plot.height as f32);
         let place = self.eye(look, time).place(size, point)?.as_dvec2();
         Some((place + DVec2::new(plot.x.into(), plot.y.into())).into())
+    }
+
+    /// Draws bodies in the colours that a scene gives them from now on, and leaves some out; gas does not flow into the gap.
+    pub fn repaint(&mut self, scene: &Scene, hidden: &[usize]) {
+        if let Some(particles) = self.drawing.as_ref().and_then(|drawing| drawing.particles.as_ref()) {
+            particles.repaint(&self.gpu, scene, hidden);
+        }
     }
 }

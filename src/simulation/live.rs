@@ -1,5 +1,7 @@
 //! What may change while a simulation runs: parameters, the gas beyond open sides, blasts, and pushes. All of it happens between two steps.
 
+use std::collections::BTreeMap;
+
 use super::Simulation;
 use crate::diagnostics::StepRecord;
 use crate::error::{Error, Result};
@@ -22,7 +24,9 @@ pub struct Blast {
 #[derive(Debug, Default)]
 pub(super) struct ByHand {
     detonate: Option<Detonate>,
-    push: Option<Push>,
+    pub(super) push: Option<Push>,
+    /// Bodies whose density is another one than at the start, and which \[kg m^-3\].
+    pub(super) densities: BTreeMap<usize, f64>,
 }
 
 impl Simulation {
@@ -129,7 +133,7 @@ impl Simulation {
     }
 
     /// Finishes the step that is under way, and compiles what a push wants.
-    fn get_ready_to_push(&mut self, body: usize, records: &mut Vec<StepRecord>) -> Result<()> {
+    pub(super) fn get_ready_to_push(&mut self, body: usize, records: &mut Vec<StepRecord>) -> Result<()> {
         if body >= self.scene.bodies.len() {
             return Err(Error::Usage(format!("body {body}: this scene has {}", self.scene.bodies.len())));
         }

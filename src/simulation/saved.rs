@@ -171,6 +171,7 @@ impl Simulation {
         (self.released, self.target) = (host.released, host.target);
         (self.pulled, self.gas_before, self.borne) = (host.pulled, host.gas_before, host.borne.clone());
         self.recorded = Recorded::of(host.recorded);
+        self.weigh_again()?;
         self.gpu.check()
     }
 

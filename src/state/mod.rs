@@ -327,7 +327,7 @@ fn switches(supports: &Supports, openings: &Openings, whole: bool) -> [(&'static
 }
 
 /// Slot of the cell that each probe looks at.
-fn probe_slots(scene: &Scene, grid: &Grid) -> Vec<u32> {
+pub(crate) fn probe_slots(scene: &Scene, grid: &Grid) -> Vec<u32> {
     let slot = |probe: &crate::scene::Probe| {
         let cell = std::array::from_fn(|axis| {
             let at = ((probe.position[axis] - grid.low()[axis]) / f64::from(grid.spacing)).floor() as i32;

@@ -159,6 +159,11 @@ impl Desk {
             }
             Command::LetGo => self.let_go(),
             Command::Ask(at) => self.ask(at),
+            Command::Pick(at) => self.pick(at),
+            Command::Hide(hidden) => {
+                self.hide(hidden);
+                Ok(())
+            }
             Command::SaveScene => self.save_scene(),
             Command::Screenshot => self.screenshot(),
             Command::Record(on) => self.record(on),
@@ -316,6 +321,7 @@ impl Desk {
         let Some(session) = &mut self.session else { return Ok(()) };
         self.replay = false;
         session.change(scene, &mut self.records)?;
+        self.stale = true;
         lock(&self.outbox).changed = Some(Arc::clone(session.scene()));
         Ok(())
     }
@@ -366,6 +372,7 @@ impl Desk {
             recorded: self.recording.as_ref().map(Recording::count),
             kept: session.map_or_else(Vec::new, Session::kept),
             touched: session.is_some_and(Session::is_touched),
+            probes: session.zip(self.look.as_ref()).map_or_else(Vec::new, |(session, look)| session.probes_at(look)),
             held: session.zip(self.look.as_ref()).and_then(|(session, look)| session.held_at(look)),
             warnings: session.map_or_else(Vec::new, Session::unexpected),
         };

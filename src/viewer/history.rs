@@ -84,6 +84,13 @@ impl History {
         self.count = self.points.len() * self.stride;
     }
 
+    /// Forgets what a probe has seen.
+    pub(super) fn forget_probe(&mut self, index: usize) {
+        for point in self.points.iter_mut().filter(|point| index < point.probes.len()) {
+            point.probes.remove(index);
+        }
+    }
+
     /// One curve over time.
     pub(super) fn curve(&self, value: impl Fn(&Point) -> f64) -> Vec<[f64; 2]> {
         self.points.iter().map(|point| [point.time, value(point)]).filter(|pair| pair[1].is_finite()).collect()

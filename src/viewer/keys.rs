@@ -73,13 +73,14 @@ pub const HELP: [(&str, &str); 19] = [
 ];
 
 /// What the help says about the mouse.
-pub const MOUSE: [(&str, &str); 9] = [
+pub const MOUSE: [(&str, &str); 10] = [
     ("Left drag", "turn (3D) or shift (2D)"),
     ("Shift+left drag", "on a body: push it, and throw it by letting go; elsewhere: shift"),
     ("Right or middle drag", "shift"),
     ("Wheel", "nearer or farther, towards the pointer"),
     ("Double click", "fit everything into the picture"),
     ("Ctrl+click", "detonate: energy and radius, or kilograms of TNT, stand in the panel; held, the blast grows"),
+    ("Click", "on a body: picks it for the panel; on gas: sets a probe; on a probe: takes it away"),
     ("Rest", "position, value in the plane, body"),
     ("Drag on the time line", "back to a state that is kept; from there the scene goes on"),
     ("File dropped on the window", "opens it"),

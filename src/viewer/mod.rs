@@ -11,6 +11,7 @@ mod bars;
 pub mod budget;
 pub mod camera;
 pub mod charge;
+mod click;
 mod clipboard;
 mod desk;
 mod gallery;

@@ -148,6 +148,10 @@ pub enum Command {
     LetGo,
     /// What lies at a place of the picture, in shares of its width and height from the top left corner.
     Ask([f64; 2]),
+    /// What lies where a click was, to pick it.
+    Pick([f64; 2]),
+    /// Leave these bodies out of pictures.
+    Hide(Vec<usize>),
     /// Save the scene as it is now, with what pictures show.
     SaveScene,
     /// Save the picture.
@@ -203,6 +207,8 @@ pub struct Status {
     pub touched: bool,
     /// Where the body that is held is held, in shares of the picture's width and height.
     pub held: Option<[f64; 2]>,
+    /// Where the probes are, in such shares.
+    pub probes: Vec<Option<[f64; 2]>>,
     /// What the run is warned of so far; expected warnings are left out.
     pub warnings: Vec<String>,
 }
@@ -289,6 +295,8 @@ pub struct Outbox {
     pub changed: Option<Arc<Scene>>,
     /// What lies where the window asked.
     pub spot: Option<Spot>,
+    /// What was picked.
+    pub picked: Option<Spot>,
     /// Whether there was a body where one was to be held.
     pub holds: Option<bool>,
     /// Lines for the user.

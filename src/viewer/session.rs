@@ -44,6 +44,8 @@ pub struct Session {
     touched: bool,
     /// The body that the mouse holds.
     held: Option<Held>,
+    /// Bodies that pictures leave out.
+    hidden: Vec<usize>,
 }
 
 impl Session {
@@ -90,7 +92,7 @@ impl Session {
         let (start, summary, warnings) = (Budget::read(&simulation, &scene, 0.0)?, Summary::default(), Vec::new());
         let past = Past::new(scene.time.until, simulation.saved_bytes(), kept);
         let scene = Arc::new(scene);
-        let (finished, dt, light, of_a_run, touched, held) = (false, 0.0, None, false, false, None);
+        let (finished, dt, light, of_a_run, touched, held, hidden) = (false, 0.0, None, false, false, None, Vec::new());
         Ok(Self {
             scene,
             simulation,
@@ -106,6 +108,7 @@ impl Session {
             of_a_run,
             touched,
             held,
+            hidden,
         })
     }
 
@@ -347,16 +350,17 @@ impl Session {
         self.renderer.draw_in_haste(&look.settings, look.field, time, share)
     }
 
-    /// Goes on with other parameters, see [`Simulation::change`].
+    /// Goes on with other parameters, see [`Simulation::alter`].
     ///
     /// # Errors
     /// [`Error::Usage`] if something differs that cannot change.
     pub fn change(&mut self, to: Scene, records: &mut Vec<StepRecord>) -> Result<()> {
         self.whole()?;
         let before = records.len();
-        self.simulation.change(&self.scene, &to, records)?;
+        self.start.solid_mass += self.simulation.alter(&self.scene, &to, records)?;
         self.summary.add(&records[before..]);
         self.start.start_entropy = self.simulation.state.start_entropy[0];
+        self.renderer.repaint(&to, &self.hidden);
         self.scene = Arc::new(to);
         Ok(())
     }

@@ -54,3 +54,16 @@ pub(super) fn apply(context: &egui::Context) {
         style.text_styles.insert(TextStyle::Monospace, FontId::monospace(12.5));
     });
 }
+
+/// A text beside the pointer.
+pub(super) fn tag(ui: &egui::Ui, pointer: egui::Pos2, text: &str) {
+    let visuals = ui.visuals();
+    let text = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(14.0), visuals.strong_text_color());
+    let border = Vec2::new(8.0, 5.0);
+    let room = ui.clip_rect().shrink2(border);
+    let corner = (pointer + Vec2::new(18.0, 16.0)).min(room.max - text.size()).max(room.min);
+    let around = egui::Rect::from_min_size(corner, text.size()).expand2(border);
+    let stroke = visuals.window_stroke;
+    ui.painter().rect(around, 4.0, visuals.window_fill, stroke, egui::StrokeKind::Inside);
+    ui.painter().galley(corner, text, visuals.strong_text_color());
+}

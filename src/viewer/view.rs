@@ -8,11 +8,12 @@ use egui::{ColorImage, Event, Pos2, Rect, Response, Sense, TextureHandle, Textur
 
 use super::camera;
 use super::charge::Charge;
+use super::click::{self, Change, Click};
 use super::grab::Grab;
 use super::history::History;
 use super::keys::Action;
 use super::model::{Command, Look, Opened, Outbox, Pace, Shown, Spot, Status, Strike};
-use super::panel::{Panel, amount};
+use super::panel::{Panel, Picked, amount};
 use super::theme;
 use crate::math::plain;
 use crate::render::caption;
@@ -50,6 +51,11 @@ pub(super) struct View {
     charge: Charge,
     grab: Grab,
     held: Option<[f64; 2]>,
+    click: Click,
+    /// Where the probes are in the picture.
+    probes: Vec<Option<[f64; 2]>>,
+    /// Bodies that pictures leave out.
+    pub(super) hidden: Vec<usize>,
     /// What lies under the pointer, and for which place and time that was asked.
     spot: Option<Spot>,
     asked: Option<([f64; 2], f64)>,
@@ -77,6 +83,9 @@ impl View {
             charge: Charge::default(),
             grab: Grab::default(),
             held: None,
+            click: Click::default(),
+            probes: Vec::new(),
+            hidden: Vec::new(),
             spot: None,
             asked: None,
             again: 0.0,
@@ -96,16 +105,34 @@ impl View {
         self.history.add(&outbox.records);
         self.spot = outbox.spot.or(self.spot.take());
         self.grab.answer(outbox.holds);
-        self.held = outbox.status.held;
+        (self.held, self.probes) = (outbox.status.held, outbox.status.probes);
+        if let Some(spot) = outbox.picked {
+            self.pick(&spot);
+        }
         if let Some(stages) = outbox.stages {
             self.stages = stages;
         }
         if let Some(scene) = outbox.changed {
             self.scene = scene;
+            self.panel.body.settle();
         }
         if let Some(shown) = outbox.shown {
             self.shown = Some(shown);
             self.texture = None;
+        }
+    }
+
+    /// A body that was clicked on is picked; a click on gas sets a probe, one on a probe takes it away.
+    fn pick(&mut self, spot: &Spot) {
+        let body = spot.body.as_ref().and_then(|name| self.scene.bodies.iter().position(|body| body.name == *name));
+        if body.is_some() {
+            self.panel.body = Picked::of(body);
+        } else if let Some(change) = click::on_gas(&self.scene, spot) {
+            match change {
+                Change::Set(_) => self.panel.probe_is_new = true,
+                Change::Clear(index) => self.history.forget_probe(index),
+            }
+            self.commands.push(Command::Change(Box::new(change.applied(&self.scene))));
         }
     }
 
@@ -214,6 +241,7 @@ impl View {
         let pixels = (place.size() * scale).round().clamp(Vec2::splat(SIDES[0]), Vec2::splat(SIDES[1]));
         self.look.settings.size = [pixels.x as u32, pixels.y as u32];
         self.paint(ui, place);
+        click::paint(ui, place, &self.scene, &self.probes);
         self.mouse(ui, &response, place);
         self.under_pointer(ui, &response, place);
         self.send_look(ui, response.dragged());
@@ -251,6 +279,10 @@ impl View {
         let struck = modifiers.command || clicked_with_command(ui) || self.panel.detonates;
         self.commands.extend(self.grab.hear(ui, response, place, !struck));
         self.grab.paint(ui, place, self.held);
+        if self.dimension() > 1 {
+            let may = !struck && !modifiers.shift;
+            self.commands.extend(self.click.hear(ui, response, place, may));
+        }
         if response.dragged() && !struck && !self.grab.holds() {
             let delta = response.drag_delta();
             let drag = [f64::from(delta.x) / height, f64::from(delta.y) / height];
@@ -299,7 +331,7 @@ impl View {
             vec![format!("({}) m", spot.point.iter().map(|own| plain(*own)).collect::<Vec<_>>().join(", "))];
         lines.extend(spot.value.map(|value| format!("{}: {}", caption(shown.look.field), plain(value))));
         lines.extend(spot.body.clone());
-        tag(ui, pointer, &lines.join("\n"));
+        theme::tag(ui, pointer, &lines.join("\n"));
     }
 
     /// Charges a blast while the button is held over a place, and sets it off where it is let go.
@@ -311,7 +343,7 @@ impl View {
         let source = self.panel.blast.source();
         if let (Some(grown), Some(pointer)) = (self.charge.now().filter(|grown| *grown > 1.0), response.hover_pos()) {
             let text = amount(source.times(grown), self.scene.domain.axes());
-            tag(ui, pointer, &text);
+            theme::tag(ui, pointer, &text);
         }
         if self.charge.now().is_some() {
             ui.ctx().request_repaint();
@@ -350,20 +382,6 @@ impl View {
         let settings = RenderSettings { size: self.look.settings.size, ..self.opened.scene.own_look() };
         self.look = Look { field: self.opened.look.field, settings };
     }
-}
-
-/// A text beside the pointer.
-fn tag(ui: &Ui, pointer: Pos2, text: &str) {
-    let visuals = ui.visuals();
-    let text =
-        ui.painter().layout_no_wrap(text.to_owned(), egui::FontId::proportional(14.0), visuals.strong_text_color());
-    let border = Vec2::new(8.0, 5.0);
-    let room = ui.clip_rect().shrink2(border);
-    let corner = (pointer + Vec2::new(18.0, 16.0)).min(room.max - text.size()).max(room.min);
-    let around = Rect::from_min_size(corner, text.size()).expand2(border);
-    let stroke = visuals.window_stroke;
-    ui.painter().rect(around, 4.0, visuals.window_fill, stroke, egui::StrokeKind::Inside);
-    ui.painter().galley(corner, text, visuals.strong_text_color());
 }
 
 /// Whether Ctrl was held at a click of this frame; it may be up again by now.

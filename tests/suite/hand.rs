@@ -2,8 +2,8 @@
 
 use brisance::diagnostics::StepRecord;
 use brisance::expect::Budget;
-use brisance::scene::Scene;
-use brisance::simulation::Simulation;
+use brisance::scene::{Probe, Scene};
+use brisance::simulation::{Blast, Simulation};
 use brisance::viewer::session::Session;
 
 use crate::common::gpu_or_skip;
@@ -168,5 +168,120 @@ fn a_body_is_held_led_thrown_and_taken_back() {
         assert!((gained - size(thrown, [0.0; 3])).abs() < 1e-4 * gained && session.is_touched(), "{thrown:?} {gained}");
         session.rewind(session.time()).unwrap();
         assert_eq!((momentum(session.simulation(), 0).0, session.is_touched()), (before, false));
+    }
+}
+
+#[test]
+fn bodies_get_heavier_and_stiffer_between_steps_and_the_sums_book_it() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for dimension in [2, 3] {
+        let scene = scene(dimension);
+        let mut simulation = Simulation::new(&gpu, &scene).unwrap();
+        simulation.set_target(scene.time.until).unwrap();
+        simulation.push(0, [3.0, 1.0, 0.0], &mut Vec::new()).unwrap();
+        advance(&mut simulation, 6);
+        let mass = |simulation: &Simulation, body| {
+            let particles = simulation.snapshot().unwrap().particles;
+            particles.iter().filter(|one| one.body == body).map(|one| f64::from(one.mass)).sum::<f64>()
+        };
+        let before = (mass(&simulation, 0), mass(&simulation, 1), momentum(&simulation, 0).0, simulation.given());
+        let saved = simulation.save().unwrap();
+        let mut heavy = scene.clone();
+        heavy.bodies[0].density = Some(2500.0);
+        let gained = simulation.alter(&scene, &heavy, &mut Vec::new()).unwrap();
+        let after = (mass(&simulation, 0), mass(&simulation, 1), momentum(&simulation, 0).0, simulation.given());
+        assert!((after.0 - 2.5 * before.0).abs() < 1e-5 * after.0 && after.1 == before.1, "{dimension}D: {after:?}");
+        assert!((gained - 1.5 * before.0).abs() < 1e-5 * after.0, "{dimension}D: {gained} kg");
+        let moved = after.2[0] - before.2[0];
+        assert!((moved - 1.5 * before.2[0]).abs() < 1e-4 * moved, "{dimension}D: the velocity stays: {moved}");
+        assert!((after.3[0] - before.3[0] - moved).abs() < 1e-4 * moved, "{dimension}D: {:?}", after.3);
+        // a state of before has the density of now
+        simulation.restore(&saved).unwrap();
+        assert!((mass(&simulation, 0) - after.0).abs() < 1e-6 * after.0, "{dimension}D");
+        let mut stiff = heavy.clone();
+        let rubber = stiff.materials.get_mut("rubber").unwrap();
+        *rubber = rubber.with("young_modulus", 4.0e7);
+        let energy = simulation.given()[3];
+        assert_eq!(simulation.alter(&heavy, &stiff, &mut Vec::new()).unwrap(), 0.0);
+        assert!(simulation.given()[3] > energy, "{dimension}D: strain that gets stiffer takes energy");
+        let laws = (scene.material_parameters()[0], stiff.material_parameters()[0]);
+        assert!((laws.1.mu - 4.0 * laws.0.mu).abs() < 1e-3 * laws.1.mu);
+        // light bodies of stiff material move otherwise from the next step on
+        let records = advance(&mut simulation, 3);
+        assert!(records.iter().all(|record| record.solid.energy.is_finite()), "{records:?}");
+        let mut other = stiff.clone();
+        other.bodies[0].velocity = [1.0, 0.0, 0.0];
+        let refused = simulation.alter(&stiff, &other, &mut Vec::new()).unwrap_err().to_string();
+        assert!(refused.contains("restart it for the rest"), "{refused}");
+        other = stiff.clone();
+        other.bodies[0].density = Some(-1.0);
+        let refused = simulation.alter(&stiff, &other, &mut Vec::new()).unwrap_err();
+        assert!(matches!(refused, brisance::Error::Usage(_)) && refused.to_string().contains("density"), "{refused}");
+    }
+}
+
+#[test]
+fn a_probe_that_comes_later_sees_what_one_of_the_start_sees() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for dimension in [2, 3] {
+        let scene = scene(dimension);
+        let mut with = scene.clone();
+        let half = if dimension == 3 { 0.5 } else { 0.0 };
+        let probe = |name: &str, x: f64| Probe { name: name.to_owned(), position: [x, 0.2, half] };
+        with.probes = vec![probe("first", 0.2)];
+        let blast = Blast { center: [0.2, 0.2, half], radius: 0.15, energy: 2e4 };
+        let run = |from_start: bool| {
+            let mut simulation = Simulation::new(&gpu, if from_start { &with } else { &scene }).unwrap();
+            simulation.set_target(scene.time.until).unwrap();
+            simulation.detonate(&blast, &mut Vec::new()).unwrap();
+            let mut records = advance(&mut simulation, 3);
+            if !from_start {
+                simulation.alter(&scene, &with, &mut records).unwrap();
+            }
+            records.extend(advance(&mut simulation, 4));
+            let mut two = with.clone();
+            two.probes.insert(0, probe("second", 0.8));
+            simulation.alter(&with, &two, &mut records).unwrap();
+            records.extend(advance(&mut simulation, 2));
+            records
+        };
+        let (late, early) = (run(false), run(true));
+        assert!(late[..3].iter().all(|record| record.probes.is_empty()), "{:?}", late[0].probes);
+        assert!(late[3..] == early[3..], "{dimension}D: a probe changes nothing");
+        assert!(late[6].probes[0].pressure > 1.1e5 && late[8].probes[1].pressure > 1.1e5, "{:?}", late[8].probes);
+        assert!((late[8].probes[0].pressure - 1.0e5).abs() < 1.0, "far away: {:?}", late[8].probes);
+        let mut outside = with.clone();
+        outside.probes[0].position[0] = 7.0;
+        let refused = Simulation::new(&gpu, &with).unwrap().alter(&with, &outside, &mut Vec::new()).unwrap_err();
+        assert!(matches!(refused, brisance::Error::Usage(_)), "{refused}");
+    }
+}
+
+#[test]
+fn a_hidden_body_is_not_drawn_and_not_hit_and_a_colour_is_another() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for dimension in [2, 3] {
+        let mut session = Session::open(&gpu, scene(dimension)).unwrap();
+        let mut look = session.look();
+        look.settings.light.shadows = false;
+        let at = place(&session, 0);
+        let pixel = |session: &mut Session| {
+            let frame = session.draw(&look).unwrap().frame;
+            let [x, y] = [at[0] * f64::from(frame.width), at[1] * f64::from(frame.height)].map(|place| place as usize);
+            let start = 4 * (y * frame.width as usize + x);
+            [frame.rgba[start], frame.rgba[start + 1], frame.rgba[start + 2]]
+        };
+        let before = pixel(&mut session);
+        let mut green = (**session.scene()).clone();
+        green.bodies[0].color = Some(brisance::scene::Color([0, 255, 0]));
+        session.change(green, &mut Vec::new()).unwrap();
+        let [red, green, blue] = pixel(&mut session);
+        assert!(green > 60 && green > 2 * red && green > 2 * blue, "{dimension}D: {:?}", [red, green, blue]);
+        session.hide(vec![0]);
+        let hidden = pixel(&mut session);
+        assert!(hidden != before && hidden != [red, green, blue], "{dimension}D: {hidden:?}");
+        assert!(session.spot(at, &look).unwrap().body.is_none(), "{dimension}D: it is looked through");
+        session.hide(Vec::new());
+        assert_eq!(pixel(&mut session), [red, green, blue]);
     }
 }

@@ -213,8 +213,10 @@ pub(crate) fn wait(worker: &Worker, seen: &mut Outbox, what: &str, done: impl Fn
     while !done(seen) {
         assert!(start.elapsed() < Duration::from_secs(120), "no {what}: {:?} {:?}", seen.status, seen.notes);
         std::thread::sleep(Duration::from_millis(10));
-        let Outbox { status, opened, shown, records, stages, changed, notes, rewound, spot, holds } = worker.take();
+        let Outbox { status, opened, shown, records, stages, changed, notes, rewound, spot, holds, picked } =
+            worker.take();
         seen.holds = holds.or(seen.holds);
+        seen.picked = picked.or(seen.picked.take());
         seen.status = status;
         seen.opened = opened.or(seen.opened.take());
         seen.shown = shown.or(seen.shown.take());

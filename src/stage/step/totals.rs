@@ -1,7 +1,8 @@
 //! Totals after a step: not part of the method, but of every record of it.
 
 use crate::error::Result;
-use crate::gpu::{Bound, Pass};
+use crate::gpu::{Bound, Extent, Pass, readback};
+use crate::state::constants::PARTIALS;
 use crate::state::stages::Stage;
 use crate::state::{Over, Phase, State};
 
@@ -37,5 +38,22 @@ impl Totals {
         if let Some(probes) = &self.probes {
             pass.dispatch(probes, &state.extent(Phase::End, Over::Single));
         }
+    }
+
+    /// Momentum \[kg m s^-1\] of the bodies, their energy of motion and of strain \[J\], and their mass \[kg\], between two steps.
+    ///
+    /// # Errors
+    /// Driver errors.
+    pub fn of_bodies(&self, state: &State) -> Result<[f64; 5]> {
+        let (gpu, groups) = (&state.gpu, state.params.groups as usize);
+        let Some(particles) = &self.particles else { return Ok([0.0; 5]) };
+        let mut pass = Pass::new(gpu, "bodies");
+        pass.dispatch(particles, &Extent::Groups([state.params.groups, 1, 1]));
+        pass.submit()?;
+        let block = |number: usize| readback::read_range(gpu, &state.partials, number * PARTIALS as usize, groups);
+        let (motion, energy) = (block(6)?, block(7)?);
+        let sum = |parts: &[[f32; 4]], k: usize| parts.iter().map(|part| f64::from(part[k])).sum::<f64>();
+        let stored = (0..3).map(|k| sum(&energy, k)).sum();
+        Ok([sum(&motion, 1), sum(&motion, 2), sum(&motion, 3), stored, sum(&motion, 0)])
     }
 }

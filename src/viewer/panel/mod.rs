@@ -1,11 +1,12 @@
 //! The panel beside the picture: look, blast, parameters, plots, stages, camera, scene.
 
+mod body;
 mod camera;
 mod curve;
 mod extras;
 mod look;
 mod parameters;
-mod plots;
+pub(super) mod plots;
 
 use std::sync::Arc;
 
@@ -16,6 +17,7 @@ use super::theme;
 use super::view::View;
 use crate::math::plain;
 use crate::scene::Scene;
+pub(super) use body::Picked;
 use parameters::Parameters;
 
 /// Energy of a kilogram of TNT \[J\].
@@ -35,6 +37,10 @@ pub(super) struct Panel {
     parameters: Parameters,
     range: look::Range,
     measures: bool,
+    /// The body that was picked.
+    pub(super) body: Picked,
+    /// A probe was set, and its curve is to be seen.
+    pub(super) probe_is_new: bool,
 }
 
 /// Pressures of air \[Pa\] in scenes in kg, m and s.
@@ -80,6 +86,8 @@ impl Panel {
             parameters: Parameters::of(scene),
             range: look::Range::of(&scene.render),
             measures: false,
+            body: Picked::default(),
+            probe_is_new: false,
         }
     }
 
@@ -104,6 +112,7 @@ pub(super) fn show(ui: &mut Ui, view: &mut View, status: &Status) {
         }
         if view.opened.particles > 0 && view.dimension() > 1 {
             section(ui, "Bodies", false, |ui| extras::bodies(ui, view));
+            section(ui, "Body", true, |ui| body::show(ui, view));
         }
         if view.dimension() > 1 {
             section(ui, "Planes and lines", false, |ui| extras::planes_and_lines(ui, view));

@@ -31,9 +31,10 @@ impl Parameters {
         }
     }
 
-    /// The scene with these numbers; `original` is the one of the file.
-    fn applied(&self, original: &Scene) -> Scene {
-        let mut scene = original.clone();
+    /// The scene as it is now with these numbers; `original` is the one of the file.
+    fn applied(&self, now: &Scene, original: &Scene) -> Scene {
+        let mut scene = now.clone();
+        scene.boundary = original.boundary.clone();
         scene.gravity = self.gravity;
         scene.time.cfl = self.cfl;
         scene.numerics.tolerance = self.tolerance;
@@ -103,7 +104,7 @@ pub(super) fn show(ui: &mut Ui, view: &mut View) {
     }
     ui.label(RichText::new("They act from the next step on; the file stays as it is.").small().color(theme::FAINT));
     if view.panel.parameters != before {
-        let scene = view.panel.parameters.applied(&view.opened.scene);
+        let scene = view.panel.parameters.applied(&view.scene, &view.opened.scene);
         view.commands.push(Command::Change(Box::new(scene)));
     }
 }
@@ -122,9 +123,9 @@ mod tests {
         let scene = Scene::parse(text, "inflow.toml", &[]).unwrap();
         let mut parameters = Parameters::of(&scene);
         assert!(parameters.has_inflow);
-        assert_eq!(parameters.applied(&scene), scene);
+        assert_eq!(parameters.applied(&scene, &scene), scene);
         parameters.inflow = 1.5;
-        let Boundary::Patched(patched) = parameters.applied(&scene).boundary.x_min else { panic!("patched") };
+        let Boundary::Patched(patched) = parameters.applied(&scene, &scene).boundary.x_min else { panic!("patched") };
         let Boundary::Inlet(state) = &patched.patches[0].rule else { panic!("an inlet") };
         assert_eq!(state.velocity, [3.0, 0.0, 0.0]);
         let closed = Scene::parse(&text[..text.find("[boundary]").unwrap()], "closed.toml", &[]).unwrap();

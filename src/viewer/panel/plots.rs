@@ -7,7 +7,7 @@ use super::super::history::Point;
 use super::super::view::View;
 
 /// Colours of the curves, legible on dark ground.
-const COLORS: [Color32; 6] = [
+pub(in crate::viewer) const COLORS: [Color32; 6] = [
     Color32::from_rgb(242, 140, 60),
     Color32::from_rgb(110, 190, 245),
     Color32::from_rgb(150, 215, 130),
@@ -37,12 +37,17 @@ const FIRST: [[usize; 2]; 2] = [[0, 1], [0, 3]];
 const PROBES: &str = "pressure at probes [Pa]";
 
 /// Shows two plots, each of a choice: at first the pressure at the probes, or the largest one, and the energy of the bodies.
-pub(super) fn show(ui: &mut Ui, view: &View) {
+pub(super) fn show(ui: &mut Ui, view: &mut View) {
     let chosen = ui.scope_id().with("chosen");
-    let mut choices: [usize; 2] = ui.data(|data| data.get_temp(chosen)).unwrap_or_else(|| {
-        let [first, second] = FIRST[usize::from(view.scene.bodies.is_empty())];
-        [if view.scene.probes.is_empty() { first } else { PLOTS.len() }, second]
-    });
+    let probes = !view.scene.probes.is_empty();
+    let [first, second] = FIRST[usize::from(view.scene.bodies.is_empty())];
+    let mut choices: [usize; 2] =
+        ui.data(|data| data.get_temp(chosen)).unwrap_or([if probes { PLOTS.len() } else { first }, second]);
+    // a new probe is shown, and nothing where the last one has gone
+    if probes && std::mem::take(&mut view.panel.probe_is_new) && !choices.contains(&PLOTS.len()) {
+        choices[0] = PLOTS.len();
+    }
+    choices = choices.map(|choice| if choice == PLOTS.len() && !probes { first } else { choice });
     for (place, choice) in choices.iter_mut().enumerate() {
         plot(ui, view, place, choice);
     }

@@ -7,6 +7,7 @@ use crate::diagnostics::StepRecord;
 use crate::gpu::readback;
 use crate::render::Ray;
 use crate::simulation::Blast;
+use crate::snapshot::ParticleSample;
 use crate::viewer::hold::Spring;
 use crate::viewer::model::{Look, Source, Spot, Strike};
 use crate::viewer::pick;
@@ -37,7 +38,7 @@ impl Session {
         self.whole()?;
         let ray = self.ray(strike.at, look);
         let grid = self.simulation.state.grid;
-        let particles = if grid.dimension == 3 { self.simulation.snapshot()?.particles } else { Vec::new() };
+        let particles = if grid.dimension == 3 { self.seen()? } else { Vec::new() };
         let center = pick::point(&ray, &grid, &particles)
             .ok_or_else(|| Error::Usage("the click is beside the domain; nothing was detonated".to_owned()))?;
         self.keep_before(records)?;
@@ -76,7 +77,7 @@ impl Session {
     /// # Errors
     /// What the device reports.
     pub fn spot(&self, at: [f64; 2], look: &Look) -> Result<Spot> {
-        let (grid, particles) = (self.simulation.state.grid, self.simulation.snapshot()?.particles);
+        let (grid, particles) = (self.simulation.state.grid, self.seen()?);
         let Some(point) = pick::point(&self.ray(at, look), &grid, &particles) else {
             return Ok(Spot { at, point: Vec::new(), value: None, body: None });
         };
@@ -93,7 +94,7 @@ impl Session {
     pub fn hold(&mut self, at: [f64; 2], look: &Look, records: &mut Vec<StepRecord>) -> Result<Option<String>> {
         self.held = None;
         let (grid, ray) = (self.simulation.state.grid, self.ray(at, look));
-        let particles = self.simulation.snapshot()?.particles;
+        let particles = self.seen()?;
         let point = pick::point(&ray, &grid, &particles);
         let Some(found) = point.and_then(|point| pick::particle(point, &grid, &particles)) else { return Ok(None) };
         let (body, particle) = (found.body as usize, found.index as usize);
@@ -170,11 +171,32 @@ impl Session {
         Ok(())
     }
 
-    /// Where the body that is held is held, in shares of the picture's width and height.
-    pub fn held_at(&self, look: &Look) -> Option<[f64; 2]> {
-        let place = self.held.as_ref()?.place.into();
-        let [x, y] = self.renderer.place(&look.settings, self.time(), place)?;
+    /// The particles of bodies that are not hidden.
+    fn seen(&self) -> Result<Vec<ParticleSample>> {
+        let mut particles = self.simulation.snapshot()?.particles;
+        particles.retain(|particle| !self.hidden.contains(&(particle.body as usize)));
+        Ok(particles)
+    }
+
+    /// Leaves bodies out of pictures.
+    pub fn hide(&mut self, hidden: Vec<usize>) {
+        self.renderer.repaint(&self.scene, &hidden);
+        self.hidden = hidden;
+    }
+
+    /// Where the probes are, in shares of the picture's width and height.
+    pub fn probes_at(&self, look: &Look) -> Vec<Option<[f64; 2]>> {
+        self.scene.probes.iter().map(|probe| self.place_of(probe.position, look)).collect()
+    }
+
+    fn place_of(&self, point: [f64; 3], look: &Look) -> Option<[f64; 2]> {
+        let [x, y] = self.renderer.place(&look.settings, self.time(), point)?;
         let [width, height] = look.settings.size.map(f64::from);
         Some([x / width, y / height])
+    }
+
+    /// Where the body that is held is held, in shares of the picture's width and height.
+    pub fn held_at(&self, look: &Look) -> Option<[f64; 2]> {
+        self.place_of(self.held.as_ref()?.place.into(), look)
     }
 }
