@@ -119,10 +119,12 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
 
 fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
     var count = 0u;
-    for (var a = 0u; a < DIM; a++) {
-        let slot = slot_of(c);
-        if inside(c - axis(a)) { count += u32(kind_of(cells[slot - step_of(a)]) == kind); }
-        if inside(c + axis(a)) { count += u32(kind_of(cells[slot + step_of(a)]) == kind); }
+    let slot = slot_of(c);
+    for (var face = 0u; face < faces_of(slot); face++) {
+        let a = face / 2u;
+        let up = (face & 1u) == 1u;
+        if !inside(select(c - axis(a), c + axis(a), up)) { continue; }
+        count += u32(kind_of(cells[select(slot - step_of(a), slot + step_of(a), up)]) == kind);
     }
     return count;
 }
@@ -148,7 +150,7 @@ fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
     let coldest = min(KEPT_ENTROPY * pressure_of(gas) / pow(gas.flow.x, gamma), least_entropy_of(gas.species.y));
     let kick = bounds.speed * bounds.speed * gamma * grueneisen_of(gas.species.y) * before / gas.flow.x;
     var part = min(1.0, SETTLED_PER_STEP * gas.flow.x / max(abs(all.flow.x - gas.flow.x), 1e-30));
-    for (var k = 0; k < 12; k++) {
+    for (var k = 0u; k < select(0u, 12u, gas_neighbours <= 2u * DIM); k++) {
         let some = with_part(gas, slot, part);
         let change = some.flow.yzw / some.flow.x - gas.flow.yzw / gas.flow.x;
         let cools = pressure_of(some) < coldest * pow(some.flow.x, gamma);
@@ -173,7 +175,7 @@ fn goes_on(slot: u32, a: u32, up: bool) -> bool {
 fn followers(slot: u32) -> u32 {
     if kind_of(cells[slot]) != GAS || previous_kind_of(cells[slot]) != SOLID { return 0u; }
     var count = 0u;
-    for (var a = 0u; a < DIM; a++) { count += u32(goes_on(slot, a, false)) + u32(goes_on(slot, a, true)); }
+    for (var face = 0u; face < faces_of(slot); face++) { count += u32(goes_on(slot, face / 2u, (face & 1u) == 1u)); }
     return count;
 }
 
@@ -230,21 +232,20 @@ fn takes_from(slot: u32, other: u32, a: u32, up: bool, kind: u32, surface: bool)
 fn incoming(slot: u32, kind: u32) -> Books {
     var sum: Books;
     let surface = kind == SOLID && at_surface(slot);
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = 0u; side < 2u; side++) {
-            let up = side == 0u;
-            let other = select(slot + step_of(a), slot - step_of(a), up);
-            let kind_there = kind_of(cells[other]);
-            var takes = false;
-            if kind_there == GAS && kind == GAS { takes = followers(other) == 0u; }
-            if kind_there == GAS && kind == SOLID { takes = goes_on(other, a, up); }
-            if kind_there == SOLID { takes = takes_from(slot, other, a, up, kind, surface); }
-            if !takes { continue; }
-            if kind == SOLID && side_of(slot, (receivers_of(slot) & TURNED) != 0u, a, up) == UPPER {
-                sum.upper = sum_of_held(sum.upper, handed_to_each(other));
-            } else {
-                sum.lower = sum_of_held(sum.lower, handed_to_each(other));
-            }
+    for (var face = 0u; face < faces_of(slot); face++) {
+        let a = face / 2u;
+        let up = (face & 1u) == 0u;
+        let other = select(slot + step_of(a), slot - step_of(a), up);
+        let kind_there = kind_of(cells[other]);
+        var takes = false;
+        if kind_there == GAS && kind == GAS { takes = followers(other) == 0u; }
+        if kind_there == GAS && kind == SOLID { takes = goes_on(other, a, up); }
+        if kind_there == SOLID { takes = takes_from(slot, other, a, up, kind, surface); }
+        if !takes { continue; }
+        if kind == SOLID && side_of(slot, (receivers_of(slot) & TURNED) != 0u, a, up) == UPPER {
+            sum.upper = sum_of_held(sum.upper, handed_to_each(other));
+        } else {
+            sum.lower = sum_of_held(sum.lower, handed_to_each(other));
         }
     }
     return sum;

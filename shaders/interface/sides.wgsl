@@ -23,6 +23,9 @@ fn on_one_side(all: Held, upper: bool) -> Books {
     return Books(all, none);
 }
 
+// The faces of a slot. A number that no compiler knows: unrolled, the loops over them take seconds to compile in software.
+fn faces_of(slot: u32) -> u32 { return select(0u, 2u * DIM, slot < params.slots); }
+
 const ALONG = 0u;
 const LOWER = 1u;
 const UPPER = 2u;
@@ -50,16 +53,15 @@ const DENSER = 1e-3;
 fn is_turned(slot: u32, before: bool) -> bool {
     var ahead = vec2f(0.0);
     var behind = vec2f(0.0);
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = 0u; side < 2u; side++) {
-            let up = side == 1u;
-            let other = select(slot - step_of(a), slot + step_of(a), up);
-            let word = cells[other];
-            if select(kind_of(word), previous_kind_of(word), before) != GAS { continue; }
-            let here = side_of(slot, false, a, up);
-            if here == UPPER { ahead += vec2f(1.0, conserved[other].x); }
-            if here == LOWER { behind += vec2f(1.0, conserved[other].x); }
-        }
+    for (var face = 0u; face < faces_of(slot); face++) {
+        let a = face / 2u;
+        let up = (face & 1u) == 1u;
+        let other = select(slot - step_of(a), slot + step_of(a), up);
+        let word = cells[other];
+        if select(kind_of(word), previous_kind_of(word), before) != GAS { continue; }
+        let here = side_of(slot, false, a, up);
+        if here == UPPER { ahead += vec2f(1.0, conserved[other].x); }
+        if here == LOWER { behind += vec2f(1.0, conserved[other].x); }
     }
     return ahead.x > 0.0 && behind.x > 0.0 && behind.y * ahead.x > (1.0 + DENSER) * ahead.y * behind.x;
 }
@@ -93,15 +95,14 @@ fn sort_by_sides(slot: u32) {
     let turned = is_turned(slot, true);
     var faces = vec2u(0u);
     var upper: Held;
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = 0u; side < 2u; side++) {
-            let up = side == 1u;
-            let other = select(slot - step_of(a), slot + step_of(a), up);
-            if previous_kind_of(cells[other]) != GAS { continue; }
-            let here = side_of(slot, turned, a, up);
-            faces += vec2u(u32(here == LOWER), u32(here == UPPER));
-            if here == UPPER { upper = sum_of_held(upper, passed(slot, other, a, up)); }
-        }
+    for (var face = 0u; face < faces_of(slot); face++) {
+        let a = face / 2u;
+        let up = (face & 1u) == 1u;
+        let other = select(slot - step_of(a), slot + step_of(a), up);
+        if previous_kind_of(cells[other]) != GAS { continue; }
+        let here = side_of(slot, turned, a, up);
+        faces += vec2u(u32(here == LOWER), u32(here == UPPER));
+        if here == UPPER { upper = sum_of_held(upper, passed(slot, other, a, up)); }
     }
     let books = kept_books(slot);
     if faces.x > 0u && faces.y > 0u {
@@ -121,14 +122,13 @@ fn books_of(slot: u32, flags: u32) -> Books {
     }
     let turned = (flags & TURNED) != 0u;
     var faces = vec2u(0u);
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = 0u; side < 2u; side++) {
-            let up = side == 1u;
-            let there = cells[select(slot - step_of(a), slot + step_of(a), up)];
-            if kind_of(there) != GAS || previous_kind_of(there) != GAS { continue; }
-            let here = side_of(slot, turned, a, up);
-            faces += vec2u(u32(here == LOWER), u32(here == UPPER));
-        }
+    for (var face = 0u; face < faces_of(slot); face++) {
+        let a = face / 2u;
+        let up = (face & 1u) == 1u;
+        let there = cells[select(slot - step_of(a), slot + step_of(a), up)];
+        if kind_of(there) != GAS || previous_kind_of(there) != GAS { continue; }
+        let here = side_of(slot, turned, a, up);
+        faces += vec2u(u32(here == LOWER), u32(here == UPPER));
     }
     return on_one_side(sum_of_held(books.lower, books.upper), faces.y > faces.x || (faces.x == faces.y && !turned));
 }
@@ -159,13 +159,12 @@ fn follows(slot: u32, other: u32) -> bool { return !at_surface(slot) || previous
 // GAS neighbours that a side of a slot has, SOLID ones at the surface, and all that are SOLID.
 fn counts_beside(slot: u32, receivers: u32) -> vec3f {
     var sum = vec3f(0.0);
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = 0u; side < 2u; side++) {
-            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
-            let kind = kind_of(cells[other]);
-            if !serves(slot, receivers, a, side == 1u, kind) || (kind == SOLID && !follows(slot, other)) { continue; }
-            sum += vec3f(f32(kind == GAS), f32(kind == SOLID && at_surface(other)), f32(kind == SOLID));
-        }
+    for (var face = 0u; face < faces_of(slot); face++) {
+        let a = face / 2u;
+        let other = select(slot - step_of(a), slot + step_of(a), (face & 1u) == 1u);
+        let kind = kind_of(cells[other]);
+        if !serves(slot, receivers, a, (face & 1u) == 1u, kind) || (kind == SOLID && !follows(slot, other)) { continue; }
+        sum += vec3f(f32(kind == GAS), f32(kind == SOLID && at_surface(other)), f32(kind == SOLID));
     }
     return sum;
 }
@@ -173,14 +172,19 @@ fn counts_beside(slot: u32, receivers: u32) -> vec3f {
 // Mean density of the GAS neighbours of a side.
 fn density_beside(slot: u32, receivers: u32) -> f32 {
     var sum = vec2f(0.0);
-    for (var a = 0u; a < DIM; a++) {
-        for (var side = 0u; side < 2u; side++) {
-            let other = select(slot - step_of(a), slot + step_of(a), side == 1u);
-            if kind_of(cells[other]) != GAS || !serves(slot, receivers, a, side == 1u, GAS) { continue; }
-            sum += vec2f(1.0, conserved[other].x);
-        }
+    for (var face = 0u; face < faces_of(slot); face++) {
+        let a = face / 2u;
+        let other = select(slot - step_of(a), slot + step_of(a), (face & 1u) == 1u);
+        if kind_of(cells[other]) != GAS || !serves(slot, receivers, a, (face & 1u) == 1u, GAS) { continue; }
+        sum += vec2f(1.0, conserved[other].x);
     }
     return sum.y / max(sum.x, 1.0);
+}
+
+// What belongs to one of the sides.
+fn hold_of(books: Books, upper: bool) -> Held {
+    if upper { return books.upper; }
+    return books.lower;
 }
 
 // What the side of a slot that `receivers` names hands on.
@@ -204,11 +208,17 @@ fn handed_of(slot: u32, held: Held, receivers: u32) -> Handed {
 
 // One side a step: the one that has no gas any more, else the one that hands on more.
 fn handed_by_solid(slot: u32) -> Handed {
-    let turned = is_turned(slot, false);
-    let flags = select(0u, TURNED, turned) + select(0u, SWAPPED, turned != is_turned(slot, true));
+    // Loops over what is now and before, over both sides: else the compiler sees the same twice.
+    var turned = vec2<bool>(false);
+    for (var k = 0u; k < min(faces_of(slot), 2u); k++) { turned = vec2<bool>(is_turned(slot, k == 0u), turned.x); }
+    let flags = select(0u, TURNED, turned.x) + select(0u, SWAPPED, turned.x != turned.y);
     let books = books_of(slot, flags);
-    let lower = handed_of(slot, books.lower, flags);
-    let upper = handed_of(slot, books.upper, flags + FROM_UPPER);
+    var lower: Handed;
+    var upper: Handed;
+    for (var k = 0u; k < min(faces_of(slot), 2u); k++) {
+        lower = upper;
+        upper = handed_of(slot, hold_of(books, k == 1u), flags + k * FROM_UPPER);
+    }
     let lower_stays = (lower.receivers & 3u) <= TO_GAS;
     let upper_stays = (upper.receivers & 3u) <= TO_GAS;
     let more = abs(upper.flow.x) > abs(lower.flow.x);

@@ -59,7 +59,10 @@ fn pcg_begin(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
 fn pcg_begin_choose(@builtin(local_invocation_index) lane: u32) {
     let sum = total(lane);
     let reference = total_from(pcg.reference_at, lane);
-    if lane == 0u { begin_iteration(sum.x, sum.x + sum.z, reference.y); }
+    if lane == 0u {
+        begin_iteration(sum.x, sum.x + sum.z, reference.y);
+        decide();
+    }
 }
 
 // Step length, and joined the weight of the old direction, from what the operator leaves. Every group finds them for itself: a kernel less.
@@ -91,7 +94,10 @@ fn pcg_beta(@builtin(local_invocation_index) lane: u32) {
     let dots = total_from(pcg.dots_at, lane);
     let sum = total(lane);
     // Dispatched always: it writes the table that gates the others.
-    if lane == 0u && pcg.outcome == PCG_RUNNING { end_iteration(sum.x, sum.x + sum.z, dots.x); }
+    if lane == 0u && pcg.outcome == PCG_RUNNING {
+        end_iteration(sum.x, sum.x + sum.z, dots.x);
+        decide();
+    }
 }
 
 fn turn(i: u32, alpha: f32, beta: f32) {

@@ -15,6 +15,9 @@ fn groups_over_both(threads: u32) -> vec4u { return groups_for(LIST_PARTS * grou
 fn surface_rows() -> u32 { return min(control.extra, params.surface_rows); }
 fn surface_groups() -> vec4u { return vec4u(min(groups_of(surface_rows()), params.groups), 1u, 1u, 0u); }
 
+// The same for a phase of kernels over slots alone.
+fn open_slots(first: u32, on: bool) { extents[first + OVER_SLOTS] = groups_for(params.slots) * u32(on); }
+
 // Switches the dispatches of one phase on or off.
 fn open_phase(first: u32, on: bool) {
     let keep = u32(on);

@@ -47,15 +47,18 @@ fn open_iteration(on: bool) {
     pcg_extents[PCG_JOINED] = vec4u(pcg.groups_partial, 1u, 1u, 0u) * joined;
     pcg_extents[PCG_NEAR] = vec4u(pcg.near_wide, pcg.near_high, 1u, 0u) * keep;
     pcg_extents[PCG_BLOCK] = vec4u(pcg.groups_block, 1u, 1u, 0u) * keep;
-    for (var k = 0u; k < PCG_LEVELS; k++) { pcg_extents[PCG_LEVEL + k] = vec4u(pcg.level_groups[k], 1u, 1u, 0u) * keep; }
+    // Without levels their entries stay zero.
+    for (var k = 0u; k < select(0u, PCG_LEVELS, pcg.levels > 0u); k++) { pcg_extents[PCG_LEVEL + k] = vec4u(pcg.level_groups[k], 1u, 1u, 0u) * keep; }
 }
 
 // By its bits: fast arithmetic may take every comparison with NaN for true.
 fn is_no_number(x: f32) -> bool { return (bitcast<u32>(x) & 0x7f800000u) == 0x7f800000u; }
 
+// Of one thread, after one of the two below.
 fn decide() {
     pcg.outcome = PCG_RUNNING;
-    if is_no_number(pcg.size) || is_no_number(pcg.rho) { pcg.outcome = PCG_STALLED; }
+    if pcg.iterations == 0u && pcg.size > pcg.most { pcg.outcome = PCG_CONVERGED; }
+    else if is_no_number(pcg.size) || is_no_number(pcg.rho) { pcg.outcome = PCG_STALLED; }
     else if pcg.size <= pcg.tolerance * pcg.tolerance * pcg.reference { pcg.outcome = PCG_CONVERGED; }
     else if pcg.iterations >= pcg.max_iterations || pcg.rho >= 1e38 { pcg.outcome = PCG_STALLED; }
     open_iteration(pcg.outcome == PCG_RUNNING);
@@ -70,11 +73,6 @@ fn begin_iteration(size: f32, rho: f32, reference: f32) {
     pcg.reference = reference;
     pcg.iterations = 0u;
     pcg.alpha = 0.0;
-    decide();
-    if size > pcg.most {
-        pcg.outcome = PCG_CONVERGED;
-        open_iteration(false);
-    }
 }
 
 // Of one thread, in an iteration; `dot`: direction . product.
@@ -87,7 +85,6 @@ fn end_iteration(size: f32, rho: f32, dot: f32) {
     pcg.size = size;
     pcg.rho = rho;
     pcg.iterations += 1u;
-    decide();
 }
 
 // -- Order of sums --

@@ -35,7 +35,8 @@ fn reduce_result() -> f32 {
 }
 
 // Sum and maximum of four values at once over a workgroup, as a tree of fixed shape: eight values, then eight such results.
-// Wide and shallow, because barriers cost more than additions. As above.
+// Wide and shallow, because barriers cost more than additions. As above. No compiler knows the bounds of the inner loops: unrolled, a
+// sum takes a tenth of a second to compile in software.
 
 var<workgroup> reduce4_scratch: array<vec4f, WORKGROUP>;
 
@@ -45,11 +46,10 @@ fn workgroup_sum4(local: u32, value: vec4f) -> vec4f {
     reduce4_scratch[local] = value;
     for (var stride = 1u; stride < WORKGROUP; stride *= REDUCE4_WIDTH) {
         workgroupBarrier();
-        if local % (stride * REDUCE4_WIDTH) == 0u {
-            var sum = reduce4_scratch[local];
-            for (var k = 1u; k < REDUCE4_WIDTH; k++) { sum += reduce4_scratch[local + k * stride]; }
-            reduce4_scratch[local] = sum;
-        }
+        let turns = select(0u, REDUCE4_WIDTH, local % (stride * REDUCE4_WIDTH) == 0u);
+        var sum = reduce4_scratch[local];
+        for (var k = 1u; k < turns; k++) { sum += reduce4_scratch[local + k * stride]; }
+        if turns > 0u { reduce4_scratch[local] = sum; }
     }
     return reduce4_result();
 }
@@ -58,11 +58,10 @@ fn workgroup_max4(local: u32, value: vec4f) -> vec4f {
     reduce4_scratch[local] = value;
     for (var stride = 1u; stride < WORKGROUP; stride *= REDUCE4_WIDTH) {
         workgroupBarrier();
-        if local % (stride * REDUCE4_WIDTH) == 0u {
-            var largest = reduce4_scratch[local];
-            for (var k = 1u; k < REDUCE4_WIDTH; k++) { largest = max(largest, reduce4_scratch[local + k * stride]); }
-            reduce4_scratch[local] = largest;
-        }
+        let turns = select(0u, REDUCE4_WIDTH, local % (stride * REDUCE4_WIDTH) == 0u);
+        var largest = reduce4_scratch[local];
+        for (var k = 1u; k < turns; k++) { largest = max(largest, reduce4_scratch[local + k * stride]); }
+        if turns > 0u { reduce4_scratch[local] = largest; }
     }
     return reduce4_result();
 }

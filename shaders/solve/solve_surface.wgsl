@@ -241,13 +241,15 @@ fn surface_terms(@builtin(local_invocation_index) lane: u32) {
     shares[lane] = sums;
     for (var stride = 1u; stride < SURFACE_THREADS; stride *= 16u) {
         workgroupBarrier();
-        if lane % (16u * stride) == 0u {
-            for (var k = 1u; k < 16u; k++) { shares[lane] += shares[lane + k * stride]; }
-        }
+        let turns = select(0u, 16u, lane % (16u * stride) == 0u);
+        for (var k = 1u; k < turns; k++) { shares[lane] += shares[lane + k * stride]; }
     }
     if lane != 0u || !runs { return; }
     let all = shares[0];
-    if turn.ends == 0u { partials[0].x += all.x; }
-    else if turn.first == 1u { begin_iteration(all.x, all.x, all.y); }
-    else { end_iteration(all.x, all.x, all.y); }
+    if turn.ends == 0u {
+        partials[0].x += all.x;
+        return;
+    }
+    if turn.first == 1u { begin_iteration(all.x, all.x, all.y); } else { end_iteration(all.x, all.x, all.y); }
+    decide();
 }

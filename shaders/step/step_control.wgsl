@@ -37,7 +37,7 @@ fn control_listed() {
 @compute @workgroup_size(1)
 fn control_limiter() {
     let now = atomicLoad(&control.limited[0]) + atomicLoad(&control.limited[1]) + atomicLoad(&control.limited[2]);
-    open_phase(PHASE_LIMIT_EXTENTS, now > control.limited_before);
+    open_slots(PHASE_LIMIT_EXTENTS, now > control.limited_before);
     control.limited_before = now;
 }
 
@@ -45,7 +45,7 @@ fn control_limiter() {
 @compute @workgroup_size(1)
 fn control_cold() {
     let updated = extents[PHASE_UPDATE_EXTENTS + OVER_SINGLE].x == 1u;
-    open_phase(PHASE_FLOOR_EXTENTS, updated && atomicLoad(&control.cold) == 1u);
+    extents[PHASE_FLOOR_EXTENTS + OVER_INTERIOR] = groups_for(params.slots) * u32(updated && atomicLoad(&control.cold) == 1u);
 }
 
 // After the recorded iterations: has the solve finished? Then the first explicit sub-step follows, or the next one of a step that goes on.
@@ -98,7 +98,7 @@ fn open_substep() {
 fn control_finish() {
     let done = control.phase == PHASE_SUBSTEP && control.substep == control.substeps && atomicLoad(&control.fault) == NO_FAULT;
     open_phase(PHASE_END_EXTENTS, done);
-    open_phase(PHASE_FILTER_EXTENTS, done && control.sound * control.duration >= FILTER_COURANT * params.spacing);
+    open_slots(PHASE_FILTER_EXTENTS, done && control.sound * control.duration >= FILTER_COURANT * params.spacing);
     if !done { return; }
     control.phase = PHASE_IDLE;
     control.step += 1u;
