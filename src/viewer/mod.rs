@@ -8,6 +8,7 @@
 
 mod app;
 mod bars;
+mod browse;
 pub mod budget;
 pub mod camera;
 pub mod charge;

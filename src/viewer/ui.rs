@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use egui::{Align2, Event, Panel as EguiPanel, RichText, Ui as EguiUi};
 
 use super::bars;
+use super::browse::Browse;
 use super::gallery::Gallery;
 use super::help;
 use super::keys::{Action, action};
@@ -43,7 +44,7 @@ pub(super) struct Ui {
     help: bool,
     /// What is smaller than the scene that could not be opened.
     offer: Option<Request>,
-    path: Option<String>,
+    path: Option<Browse>,
     quit: bool,
 }
 
@@ -269,7 +270,7 @@ impl Ui {
             Action::Help => self.help = !self.help,
             Action::Back => self.back(),
             Action::Restart => self.restart(),
-            Action::Open => self.path = Some(String::new()),
+            Action::Open => self.path = Some(Browse::new()),
             Action::Quit => self.quit = true,
             _ => {
                 if let Some(view) = &mut self.view {
@@ -321,24 +322,11 @@ impl Ui {
     }
 
     fn ask_for_path(&mut self, root: &EguiUi) {
-        let Some(path) = &mut self.path else { return };
-        let mut entered = false;
-        let window = egui::Window::new("Open a scene").collapsible(false).resizable(false);
-        window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(root.ctx(), |ui| {
-            let field = ui.add(
-                egui::TextEdit::singleline(path).hint_text("path, or name of a shipped scene").desired_width(380.0),
-            );
-            field.request_focus();
-            let enter = ui.input(|input| input.key_pressed(egui::Key::Enter));
-            entered = ui.button("Open").clicked() || enter;
-            ui.input(|input| input.key_pressed(egui::Key::Escape))
-        });
-        let leave = root.input(|input| input.key_pressed(egui::Key::Escape));
-        if entered && !path.trim().is_empty() {
-            let path = std::mem::take(path);
+        let Some(browse) = &mut self.path else { return };
+        if let Some(path) = browse.show(root) {
             self.path = None;
-            self.open_path(Path::new(path.trim()));
-        } else if leave {
+            self.open_path(&path);
+        } else if root.input(|input| input.key_pressed(egui::Key::Escape)) {
             self.path = None;
         }
     }
