@@ -251,7 +251,7 @@ fn incoming(slot: u32, kind: u32) -> Books {
     return sum;
 }
 
-fn settle_solid(slot: u32) {
+fn settle_solid(slot: u32, more: Books) {
     let receivers = receivers_of(slot);
     var books = books_of(slot, receivers);
     let whom = receivers & 3u;
@@ -265,23 +265,23 @@ fn settle_solid(slot: u32) {
         }
         if from_upper { books.upper = left; } else { books.lower = left; }
     }
-    let more = incoming(slot, SOLID);
     keep_books(slot, Books(sum_of_held(books.lower, more.lower), sum_of_held(books.upper, more.upper)));
 }
 
-fn settle_gas(slot: u32) {
+fn settle_gas(slot: u32, more: Books) {
     var owed = Held(owed_flow[slot], owed_energy[slot], owed_species(slot));
     if followers(slot) > 0u { owed = Held(); }
     for (var turn = 0u; turn < when(!is_nothing(owed)); turn++) {
-        let part = settled_part(slot, neighbours_of_kind(cell_of(slot), GAS));
+        let around = neighbours_of_kind(cell_of(slot), GAS);
+        let part = settled_part(slot, around);
         if SPECIES { hold_species(slot, with_part(gas_at(slot), slot, part).species); }
         conserved[slot] += part * owed.flow / cell_volume();
         energy[slot] += part * owed.energy / cell_volume();
         owed = times(owed, 1.0 - part);
         // The rest goes on, if there is somebody to take it.
-        if neighbours_of_kind(cell_of(slot), GAS) > 0u && part < 1.0 { owed = Held(); }
+        if around > 0u && part < 1.0 { owed = Held(); }
     }
-    owed = sum_of_held(owed, incoming(slot, GAS).lower);
+    owed = sum_of_held(owed, more.lower);
     owed_flow[slot] = owed.flow;
     owed_energy[slot] = owed.energy;
     owe_species(slot, owed.species);
@@ -293,6 +293,8 @@ fn ledger_settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     if slot >= params.slots { return; }
     let kind = kind_of(cells[slot]);
     if !inside(cell_of(slot)) { return; }
-    for (var turn = 0u; turn < when(kind == GAS); turn++) { settle_gas(slot); }
-    for (var turn = 0u; turn < when(kind == SOLID); turn++) { settle_solid(slot); }
+    var more: Books;
+    for (var turn = 0u; turn < when(kind == GAS || kind == SOLID); turn++) { more = incoming(slot, kind); }
+    for (var turn = 0u; turn < when(kind == GAS); turn++) { settle_gas(slot, more); }
+    for (var turn = 0u; turn < when(kind == SOLID); turn++) { settle_solid(slot, more); }
 }

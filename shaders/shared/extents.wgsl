@@ -34,12 +34,17 @@ fn open_phase(first: u32, on: bool) {
     extents[first + OVER_WHOLE] = groups_over_both(marches()) * keep;
     extents[first + OVER_COLOR] = groups_for(color_marches()) * keep;
     extents[first + OVER_SINGLE] = vec4u(keep);
-    for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + OVER_SCAN + k] = params.scan[k] * keep; }
+}
+
+// The same with prefix sums.
+fn open_with_scan(first: u32, on: bool) {
+    open_phase(first, on);
+    for (var k = 0u; k < SCAN_DISPATCHES; k++) { extents[first + OVER_SCAN + k] = params.scan[k] * u32(on); }
 }
 
 // Particles that are all in the cells where they were need no sorting.
 fn open_sort(due: bool) {
     var sort = due;
     if due { sort = atomicExchange(&control.unsorted, 0u) == 1u; }
-    open_phase(PHASE_SORT_EXTENTS, sort);
+    open_with_scan(PHASE_SORT_EXTENTS, sort);
 }

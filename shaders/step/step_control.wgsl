@@ -11,8 +11,8 @@ override FILTER_COURANT: f32;   // cells that sound crosses at least in a step w
 // Before the first step: lets the marks of the start run.
 @compute @workgroup_size(1)
 fn control_start() {
-    open_phase(PHASE_BEGIN_EXTENTS, true);
-    open_phase(PHASE_SORT_EXTENTS, true);
+    open_with_scan(PHASE_BEGIN_EXTENTS, true);
+    open_with_scan(PHASE_SORT_EXTENTS, true);
 }
 
 // After the lists of slots: their lengths rule the dispatches over them.

@@ -137,7 +137,7 @@ fn time_step_choose(@builtin(local_invocation_index) lane: u32) {
     if lane != 0u { return; }
     let sound = max(largest.y, control.sound); // with that of gas which a body has covered since
     let start = control.phase == PHASE_IDLE && control.remaining > 0.0 && atomicLoad(&control.fault) == NO_FAULT;
-    open_phase(PHASE_BEGIN_EXTENTS, start);
+    open_with_scan(PHASE_BEGIN_EXTENTS, start);
     let moved = control.phase == PHASE_SUBSTEP && control.substep > 0u; // a long step goes on
     open_sort((start || moved) && atomicLoad(&control.fault) == NO_FAULT);
     if !start { return; }
