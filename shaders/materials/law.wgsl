@@ -14,6 +14,9 @@ struct MaterialParams {
     toughness: f32,             // Twice the fracture energy over the width of a band, times the modulus of pressure waves [Pa^2]
     softening: u32,             // Softening as a number
     crack_modulus: f32,         // Density times the square of the rate of damage at most: Rayleigh's waves over the width of a band [kg m^-3 s^-2]
+    voids: vec4f,               // Plastic strain at which voids join, see JohnsonCook: d1, d2, d3, d4 [1]
+    void_rate: f32,             // Strain rate from which on it grows [s^-1]
+    void_softening: f32,        // Damage over the sum of plastic strains over those at failure, beyond 1; 0 for what does not break by voids [1]
 }
 // End of what is generated.
 

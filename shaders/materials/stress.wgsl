@@ -3,6 +3,7 @@
 // one pressure unknown q follows the gas instead: the elastic force gives the difference, so the whole stress is that of the deformation.
 #include "shared/index.wgsl"
 #include "materials/neo_hookean.wgsl"
+#include "materials/voids.wgsl"
 
 // Stiffness K against small changes of the volume at the ghost pressure q, dq = -K dJ / J. [eq. 17]
 fn ghost_stiffness(m: MaterialParams, q: f32) -> f32 {
@@ -106,8 +107,9 @@ fn whole_energy(m: MaterialParams, h: mat3x3f, q: f32) -> f32 {
     return elastic_energy(m.kind, h, elastic_part(m)) + ghost_energy(m, grown) + params.ambient_pressure * grown;
 }
 
-// The tension in a stress: its positive principal values, their axes, and the elastic energy per volume at rest that they hold.
-struct Tension { pull: vec3f, axes: mat3x3f, energy: f32 }
+// What damage takes of a stress, along its principal axes: the positive values, or, where voids grow, all but pressure; and the elastic energy
+// per volume at rest that it holds.
+struct Tension { pull: vec3f, axes: mat3x3f, energy: f32, stress: vec3f }
 
 // `tau`: of elastic_stress. The share of the energy is that of small strains: where all axes pull, tension holds all, however large they are.
 fn tension_of(m: MaterialParams, h: mat3x3f, q: f32, tau: mat3x3f) -> Tension {
@@ -116,9 +118,9 @@ fn tension_of(m: MaterialParams, h: mat3x3f, q: f32, tau: mat3x3f) -> Tension {
     let sum = sum_of(eigen.values);
     let lambda = whole_lambda(m);
     let strain = (eigen.values - vec3f(lambda * sum / (3.0 * lambda + 2.0 * m.mu))) / (2.0 * m.mu);
-    let pull = max(eigen.values, vec3f(0.0));
+    let pull = select(max(eigen.values, vec3f(0.0)), eigen.values - vec3f(min(sum / 3.0, 0.0)), breaks_by_voids(m));
     let share = dot(pull, strain) / max(dot(eigen.values, strain), 1e-30);
-    return Tension(pull, eigen.vectors, share * whole_energy(m, h, q));
+    return Tension(pull, eigen.vectors, share * whole_energy(m, h, q), eigen.values);
 }
 
 // What damage leaves of the stress.

@@ -121,26 +121,36 @@ fn give_way(p: u32, h: mat3x3f, m: MaterialParams) -> mat3x3f {
 // Stress that is left of `tau`, driver for the nodes, and energy per volume at rest that damage has taken in a sub-step.
 struct Fractured { stress: mat3x3f, driver: f32, lost: f32 }
 
-fn fracture(p: u32, m: MaterialParams, h: mat3x3f, tau: mat3x3f, time: f32) -> Fractured {
+// `flow`: the plastic strain of this sub-step.
+fn fracture(p: u32, m: MaterialParams, h: mat3x3f, tau: mat3x3f, flow: f32, time: f32) -> Fractured {
     let tension = tension_of(m, h, affine[3u * p].w, tau);
     let strength = strength_of(m, affine[3u * p + 2u].w);
     let ratio = ratio_of(m, strength);
+    let voids = breaks_by_voids(m);
     let before = deformation[3u * p + 2u].w;
     var damage = before;
     if before < 1.0 {
         // A crack grows through a band no faster than Rayleigh's waves run.
         let fastest = time * sqrt(m.crack_modulus * velocity[p].w / position[p].w);
-        damage = max(before, min(damage_at(m, mean_driver(position[p].xyz) / strength, ratio), before + fastest));
+        let driven = mean_driver(position[p].xyz) / strength;
+        let reached = select(damage_at(m, driven, ratio), damage_of_voids(m, driven), voids);
+        damage = max(before, min(reached, before + fastest));
         deformation[3u * p + 2u].w = damage;
+    }
+    // From here on what counts the plastic strain counts the opening.
+    if damage == 1.0 && before < 1.0 { affine[3u * p + 1u].w = 0.0; }
+    let lost = (damage - before) * tension.energy;
+    if voids {
+        let grown = stress[2u * p + 1u].w + m.tensile_strength * flow / strain_of_voids(m, tension.stress, flow / time);
+        let most = most_voids(m) * m.tensile_strength;
+        return Fractured(damaged_stress(tau, tension, damage), select(min(grown, most), most, damage == 1.0), lost);
     }
     var driver = max(tension.pull.x, max(tension.pull.y, tension.pull.z)) / (1.0 + swelling(h));
     if damage == 1.0 {
-        // From here on what counts the plastic strain counts the opening.
-        if before < 1.0 { affine[3u * p + 1u].w = 0.0; }
         let opening = (whole_lambda(m) + 2.0 * m.mu) * affine[3u * p + 1u].w;
         driver = min(driver + opening, MOST_DRIVE * ratio * strength);
     }
-    return Fractured(damaged_stress(tau, tension, damage), driver, (damage - before) * tension.energy);
+    return Fractured(damaged_stress(tau, tension, damage), driver, lost);
 }
 
 // Stress of a particle from `h`, its displacement gradient before plastic flow and then after it; `stored` where it is in memory already.
@@ -163,7 +173,7 @@ fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool, time: f32) 
     var driver = 0.0;
     var heat = stress[2u * p].w;
     if breaks {
-        let fractured = fracture(p, material, *h, tau, time);
+        let fractured = fracture(p, material, *h, tau, returned.plastic_strain, time);
         tau = fractured.stress;
         driver = fractured.driver;
         heat += velocity[p].w * fractured.lost;
@@ -173,7 +183,8 @@ fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool, time: f32) 
         if !breaks || deformation[3u * p + 2u].w < 1.0 { affine[3u * p + 1u].w += returned.plastic_strain; }
         let part = elastic_part(material);
         let lost = elastic_energy(material.kind, trial, part) - elastic_energy(material.kind, *h, part);
-        heat += velocity[p].w * lost;
+        // what is damaged flows under what is left of its stress
+        heat += velocity[p].w * lost * select(1.0, 1.0 - deformation[3u * p + 2u].w, breaks);
     }
     if !stored || broken || returned.plastic_strain > 0.0 { store_deformation(p, *h); }
     stress[2u * p] = vec4f(tau[0].x, tau[1].y, tau[2].z, heat);

@@ -13,7 +13,7 @@ use crate::gpu::Gpu;
 use crate::math::plain;
 use crate::render::Renderer;
 use crate::scene::{
-    Breaking, ChargeEstimate, Estimate, GridCharge, Overlap, PlaceEstimate, Scene, ThinBody, ThinObstacle,
+    Breaking, ChargeEstimate, Estimate, GridCharge, Overlap, PlaceEstimate, Scene, Tearing, ThinBody, ThinObstacle,
 };
 use crate::simulation::Simulation;
 use crate::state::MemoryPlan;
@@ -37,7 +37,8 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
             draw_start(&gpu, &scene, path)?;
         }
     }
-    let (overlaps, thin, breaking) = (scene.overlaps(), scene.thin_bodies(), scene.breaking());
+    let (overlaps, thin) = (scene.overlaps(), scene.thin_bodies());
+    let (breaking, tearing) = (scene.breaking(), scene.tearing());
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
     let (lost, charges, on_grid) = (scene.thin_obstacles(), scene.charge_estimates(), scene.charges_on_grid());
     let texts = estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning));
@@ -53,7 +54,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
         let memory = json!({ "bytes": plan.bytes(None), "groups": groups, "bytes_per_cell": plan.per_cell(),
             "bytes_per_particle": plan.per_particle(), "largest_buffer": plan.largest() });
         let object = json!({ "title": scene.title, "cells": plan.cells, "particles": plan.particles,
-            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "thin_obstacles": lost, "breaking": breaking, "charges": charges, "charges_on_grid": on_grid,
+            "memory": memory, "estimate": estimate, "duration": duration, "overlaps": overlaps, "thin": thin, "thin_obstacles": lost, "breaking": breaking, "tearing": tearing, "charges": charges, "charges_on_grid": on_grid,
             "scene": scene });
         say!("{object}");
         return Ok(());
@@ -65,7 +66,7 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     say!("# {}\n#", scene.title);
     say!("# cells      {cells} = {} of edge {} m", plan.cells, plain(domain.spacing()));
     say!("# particles  {}", plan.particles);
-    say_things(&overlaps, &thin, &breaking, &charges);
+    say_things(&overlaps, &thin, (&breaking, &tearing), &charges);
     on_grid.iter().for_each(say_charge_on_grid);
     if !scene.variants.is_empty() {
         say!("# variants   {}", scene.variants.keys().cloned().collect::<Vec<_>>().join(", "));
@@ -85,7 +86,12 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
 }
 
 /// What is to be known of bodies and charges, for people.
-fn say_things(overlaps: &[Overlap], thin: &[ThinBody], breaking: &[Breaking], charges: &[ChargeEstimate]) {
+fn say_things(
+    overlaps: &[Overlap],
+    thin: &[ThinBody],
+    (breaking, tearing): (&[Breaking], &[Tearing]),
+    charges: &[ChargeEstimate],
+) {
     for overlap in overlaps {
         say!("# overlap    {}", overlap_text(overlap));
     }
@@ -95,7 +101,17 @@ fn say_things(overlaps: &[Overlap], thin: &[ThinBody], breaking: &[Breaking], ch
     for body in breaking {
         say!("# breaks     {}", breaking_text(body));
     }
+    tearing.iter().for_each(say_tearing);
     charges.iter().for_each(say_charge);
+}
+
+/// How a body of metal breaks, for people.
+fn say_tearing(tearing: &Tearing) {
+    let Tearing { body, band, strain, opening } = tearing;
+    let [band, strain, opening] = [*band, *strain, *opening].map(plain);
+    say!(
+        "# tears      `{body}` by voids, in a pulled rod from a plastic strain of {strain} on, and parts {opening} m later; cracks are {band} m wide"
+    );
 }
 
 /// A charge that stands on the grid, for people.

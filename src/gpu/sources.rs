@@ -40,6 +40,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "materials/neo_hookean.wgsl",
     "materials/plastic_flow.wgsl",
     "materials/stress.wgsl",
+    "materials/voids.wgsl",
     "materials/von_mises.wgsl",
     "numerics/linear_algebra.wgsl",
     "numerics/reduce.wgsl",

@@ -128,7 +128,10 @@ impl Laws {
         }
         let lambda = part + ghost;
         let strain = (stress - lambda * stress.element_sum() / (3.0 * lambda + 2.0 * mu)) / (2.0 * mu);
-        let share = stress.max(DVec3::ZERO).dot(strain) / stress.dot(strain).max(1e-30);
+        // what breaks by voids gives up its deviator, too
+        let mean = stress.element_sum() / 3.0;
+        let pull = if own.void_softening > 0.0 { stress - mean.min(0.0) } else { stress.max(DVec3::ZERO) };
+        let share = pull.dot(strain) / stress.dot(strain).max(1e-30);
         let ghost = own.ghost_energy(volume, q, self.start) + self.start * (volume - 1.0);
         share * (kind.energy.energy([mu, part], strained) + ghost)
     }

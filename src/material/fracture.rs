@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{Material, MaterialParams};
+use super::{JohnsonCook, Material, MaterialParams};
 
 /// Cells that a band of cracking particles is wide, as far as its energy goes.
 pub const BAND: f64 = 3.9;
@@ -67,6 +67,8 @@ pub(super) struct FractureKeys {
     at_coarse: AtCoarse,
     /// Scatter of the strength.
     weibull: Option<Weibull>,
+    /// It breaks by voids in place of a tensile strength, for laws that yield; those of the preset when left out.
+    johnson_cook: Option<JohnsonCook>,
 }
 
 /// `fracture` as it stands in a scene.
@@ -88,23 +90,32 @@ impl JsonSchema for OwnFracture {
     }
 
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let mut keys = FractureKeys::json_schema(generator).to_value();
-        for key in ["tensile_strength", "fracture_energy"] {
-            keys["properties"][key]["type"] = "number".into();
-        }
-        keys["required"] = serde_json::json!(["tensile_strength", "fracture_energy"]);
-        keys["description"] = "The numbers of `fracture`, where no preset knows them.".into();
+        let keys = FractureKeys::json_schema(generator).to_value();
+        let needing = |first: &str, kind: serde_json::Value, text: &str| {
+            let mut keys = keys.clone();
+            keys["properties"][first] = kind;
+            keys["properties"]["fracture_energy"]["type"] = "number".into();
+            keys["required"] = serde_json::json!([first, "fracture_energy"]);
+            keys["description"] = text.into();
+            keys
+        };
+        let mut strength = keys["properties"]["tensile_strength"].clone();
+        strength["type"] = "number".into();
+        let brittle = needing("tensile_strength", strength, "The numbers of `fracture`, where no preset knows them.");
+        let voids = generator.subschema_for::<JohnsonCook>().to_value();
+        let metal = needing("johnson_cook", voids, "The numbers of `fracture` of a metal, where no preset knows them.");
         let text = "`fracture = true` needs a preset that knows its strength; \
                     give `fracture = { tensile_strength = ... [Pa], fracture_energy = ... [J m^-2] }`";
         let off = serde_json::json!({ "type": "boolean", "const": false, "description": text });
-        schemars::json_schema!({ "description": "How it breaks.", "anyOf": [off, keys] })
+        schemars::json_schema!({ "description": "How it breaks.", "anyOf": [off, brittle, metal] })
     }
 }
 
 /// How a material breaks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Fracture {
-    /// Tensile strength `[Pa]`.
+    /// Tensile strength `[Pa]`; 0 for what breaks by voids.
+    #[serde(skip_serializing_if = "is_zero")]
     pub tensile_strength: f64,
     /// Energy that a crack takes per area `[J m^-2]`.
     pub fracture_energy: f64,
@@ -115,17 +126,26 @@ pub struct Fracture {
     /// Scatter of the strength.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weibull: Option<Weibull>,
+    /// How voids grow in what breaks by them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub johnson_cook: Option<JohnsonCook>,
+}
+
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 /// What a preset knows of its fracture, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PresetFracture {
-    /// Tensile strength `[Pa]`.
+    /// Tensile strength `[Pa]`; 0 for what breaks by voids.
     pub tensile_strength: f64,
     /// Energy that a crack takes per area `[J m^-2]`.
     pub fracture_energy: f64,
     /// How the stress across a crack falls as it opens.
     pub softening: Softening,
+    /// How voids grow in what breaks by them.
+    pub johnson_cook: Option<JohnsonCook>,
     /// Whether it breaks without being asked to.
     pub always: bool,
     /// Where the numbers come from.
@@ -181,14 +201,28 @@ impl Fracture {
             Some(FractureGiven::Keys(keys)) => keys,
         };
         let own = |get: fn(&PresetFracture) -> f64| preset.map(|(own, unit)| get(&own) / unit);
-        let needed = |value: Option<f64>, name: &str, unit: &str| {
-            value.ok_or_else(|| format!("missing `{name}` [{unit}] in `fracture`"))
+        let needed = |value: Option<f64>, name: &str| value.ok_or_else(|| format!("missing {name} in `fracture`"));
+        let voids = keys
+            .johnson_cook
+            .or(preset.and_then(|(own, _)| own.johnson_cook).filter(|_| keys.tensile_strength.is_none()));
+        if keys.johnson_cook.is_some() && keys.tensile_strength.is_some() {
+            return Err(
+                "`tensile_strength` beside `johnson_cook` in `fracture`: it breaks by one of them, remove the other"
+                    .to_owned(),
+            );
+        }
+        if let Some(mistake) = voids.and_then(|voids| voids.mistake()) {
+            return Err(mistake);
+        }
+        let strength = match voids {
+            Some(_) => Some(0.0),
+            None => keys.tensile_strength.or_else(|| own(|p| p.tensile_strength).filter(|strength| *strength > 0.0)),
         };
-        let strength = keys.tensile_strength.or_else(|| own(|p| p.tensile_strength));
         let energy = keys.fracture_energy.or_else(|| own(|p| p.fracture_energy));
         Ok(Some(Self {
-            tensile_strength: needed(strength, "tensile_strength", "Pa")?,
-            fracture_energy: needed(energy, "fracture_energy", "J m^-2")?,
+            johnson_cook: voids,
+            tensile_strength: needed(strength, "`tensile_strength` [Pa], or `johnson_cook` for metals,")?,
+            fracture_energy: needed(energy, "`fracture_energy` [J m^-2]")?,
             softening: keys.softening.or(preset.map(|(own, _)| own.softening)).unwrap_or_default(),
             at_coarse: keys.at_coarse,
             weibull: keys.weibull,
@@ -220,6 +254,19 @@ impl Material {
         self.fracture.as_ref()
     }
 
+    /// Yield stress of a thin rod `[Pa]`, of laws that yield.
+    #[must_use]
+    pub fn rod_yield_stress(&self) -> f64 {
+        1.5_f64.sqrt() * self.yield_stress()
+    }
+
+    /// By how much what breaks by voids is pulled apart from their joining on `[m]`: the stress falls from the yield stress of a rod to zero on
+    /// a straight line, and takes the fracture energy.
+    #[must_use]
+    pub fn tearing(&self, fracture: &Fracture) -> f64 {
+        2.0 * fracture.fracture_energy / self.rod_yield_stress()
+    }
+
     /// A tensile strength above a tenth of Young's modulus, and that tenth `[Pa]`.
     #[must_use]
     pub fn beyond_strength(&self) -> Option<[f64; 2]> {
@@ -239,6 +286,19 @@ impl Material {
         // Speed of Rayleigh's waves over that of shear waves. [Viktorov 1967]
         let surface = (0.862 + 1.14 * poisson) / (1.0 + poisson);
         let band = BAND * cell;
+        if let Some(voids) = fracture.johnson_cook {
+            let single = |x: f64| x as f32;
+            return MaterialParams {
+                tensile_strength: single(self.rod_yield_stress()),
+                toughness: f32::MAX,
+                softening: fracture.softening as u32,
+                crack_modulus: (f64::from(params.mu) * (surface / band).powi(2)) as f32,
+                voids: [voids.d1, voids.d2, voids.d3, voids.d4].map(single),
+                void_rate: single(voids.rate),
+                void_softening: single(voids.strain_of_a_rod() * band / self.tearing(fracture)),
+                ..params
+            };
+        }
         MaterialParams {
             tensile_strength: strength as f32,
             toughness: (2.0 * fracture.fracture_energy * modulus / band) as f32,

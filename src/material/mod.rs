@@ -14,12 +14,14 @@ mod preset;
 #[cfg(test)]
 mod tests;
 mod text;
+mod voids;
 mod von_mises;
 mod wgsl;
 
 pub use energy::{Hyperelastic, Laws, Strained};
 pub use fracture::{AtCoarse, BAND, Fracture, LEAST_RATIO, Softening, Weibull};
 pub use preset::{PRESETS, Preset, Units, kind_names};
+pub use voids::JohnsonCook;
 #[doc(hidden)]
 pub use wgsl::{wgsl_includes, wgsl_switch};
 
@@ -28,6 +30,7 @@ use std::ops::Bound;
 use bytemuck::{Pod, Zeroable};
 
 use crate::structure::structure;
+use crate::structure::types::vec4f;
 
 /// All kinds of material. The position is the number that shaders see.
 pub const KINDS: [&Kind; 5] =
@@ -184,7 +187,7 @@ pub struct Material {
 }
 
 structure! {
-    /// A material as the device sees it, 48 bytes.
+    /// A material as the device sees it, 80 bytes.
     #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
     pub MaterialParams as "MaterialParams" {
         /// Shear modulus `[Pa]`.
@@ -211,6 +214,14 @@ structure! {
         softening: u32,
         /// Density times the square of the rate of damage at most: Rayleigh's waves over the width of a band `[kg m^-3 s^-2]`.
         crack_modulus: f32,
+        /// Plastic strain at which voids join, see [`JohnsonCook`]: d1, d2, d3, d4 `[1]`.
+        voids: vec4f,
+        /// Strain rate from which on it grows `[s^-1]`.
+        void_rate: f32,
+        /// Damage over the sum of plastic strains over those at failure, beyond 1; 0 for what does not break by voids `[1]`.
+        void_softening: f32,
+        /// Fills the structure.
+        unused: [f32; 2],
     }
 }
 

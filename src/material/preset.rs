@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::fracture::{PresetFracture, Softening};
-use super::{KINDS, Material};
+use super::{JohnsonCook, KINDS, Material};
 
 /// A material that scenes may name instead of a law and its numbers.
 #[derive(Debug)]
@@ -39,14 +39,30 @@ impl Preset {
     /// Breaks where a scene asks for it: strength \[Pa\], energy \[J m^-2\], and where both come from.
     const fn may_break(self, strength: f64, energy: f64, softening: Softening, source: &'static str) -> Self {
         let (tensile_strength, fracture_energy) = (strength, energy);
-        let fracture = PresetFracture { tensile_strength, fracture_energy, softening, always: false, source };
+        let fracture =
+            PresetFracture { tensile_strength, fracture_energy, softening, johnson_cook: None, always: false, source };
+        Self { fracture: Some(fracture), ..self }
+    }
+
+    /// Breaks by voids where a scene asks for it: d1 to d4 from a strain rate of 1 / s on, energy \[J m^-2\], and where both come from.
+    const fn may_tear(self, [d1, d2, d3, d4]: [f64; 4], fracture_energy: f64, source: &'static str) -> Self {
+        let johnson_cook = Some(JohnsonCook { d1, d2, d3, d4, rate: 1.0 });
+        let softening = Softening::Linear;
+        let fracture =
+            PresetFracture { tensile_strength: 0.0, fracture_energy, softening, johnson_cook, always: false, source };
         Self { fracture: Some(fracture), ..self }
     }
 
     /// Breaks without being asked to.
     const fn breaks(self, strength: f64, energy: f64, softening: Softening, source: &'static str) -> Self {
-        let fracture =
-            PresetFracture { tensile_strength: strength, fracture_energy: energy, softening, always: true, source };
+        let fracture = PresetFracture {
+            tensile_strength: strength,
+            fracture_energy: energy,
+            softening,
+            johnson_cook: None,
+            always: true,
+            source,
+        };
         Self { fracture: Some(fracture), ..self }
     }
 }
@@ -89,9 +105,11 @@ pub const PRESETS: [Preset; 9] = [
     Preset::new("rubber", "neo_hookean", 1100.0, [62, 60, 66], "Natural rubber.",
         &[("young_modulus", 5e6), ("poisson_ratio", 0.45)]),
     Preset::new("steel", "von_mises", 7850.0, [150, 158, 168], "Structural steel: yields at 250 MPa in a rod, hardening 0.98 GPa.",
-        &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)]),
+        &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)])
+        .may_tear([0.05, 3.44, -2.12, 0.002], 1.0e5, "voids: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31, steel 4340; K_Ic 150 MPa m^1/2"),
     Preset::new("aluminium", "von_mises", 2700.0, [196, 200, 206], "Aluminium 6061-T6: yields at 276 MPa in a rod, hardening 0.49 GPa.",
-        &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)]),
+        &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)])
+        .may_tear([-0.77, 1.45, -0.47, 0.0], 1.1e4, "voids: Lesuer, Kay, LeBlanc, UCRL-JC-134118 (1999); K_Ic 29 MPa m^1/2"),
     Preset::new("concrete", "drucker_prager", 2400.0, [158, 152, 142], "Concrete of a compressive strength of 30 MPa.",
         &[("young_modulus", 3e10), ("poisson_ratio", 0.2), ("friction_angle", 37.0), ("cohesion", 7.5e6)])
         .may_break(2.9e6, 76.0, Softening::Exponential, "CEB-FIP Model Code 1990, C30, aggregate of 16 mm"),

@@ -30,6 +30,19 @@ pub struct Breaking {
     pub thickness: f64,
 }
 
+/// How a body of metal will break on this grid.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tearing {
+    /// Name of the body.
+    pub body: String,
+    /// Width of the band over which a crack is smeared `[m]`.
+    pub band: f64,
+    /// Plastic strain of a pulled rod at which voids join.
+    pub strain: f64,
+    /// How far it is pulled apart from then on `[m]`.
+    pub opening: f64,
+}
+
 /// Cells across the smallest piece: broken bands of two cells on either side leave nothing of smaller ones.
 const SMALLEST_PIECE: f64 = 4.0;
 /// Cells of a plate that is as thick as the band is wide.
@@ -62,7 +75,7 @@ impl Scene {
         let cell = self.domain.spacing();
         let of = |body: &super::Body| {
             let material = self.materials.get(&body.material)?;
-            let fracture = material.fracture()?;
+            let fracture = material.fracture().filter(|fracture| fracture.johnson_cook.is_none())?;
             let modulus = material.lambda() + 2.0 * material.mu();
             let [tensile_strength, fracture_energy] = fracture.at_cell(modulus, cell);
             let (low, high) = body.shape.bounds();
@@ -79,6 +92,22 @@ impl Scene {
                 smallest_piece,
                 fastest_rate: (24.0 * fracture_energy / (self.density_of(body)? * smallest_piece.powi(3))).sqrt(),
                 thickness: extents.fold(f64::INFINITY, f64::min),
+            })
+        };
+        self.bodies.iter().filter_map(of).collect()
+    }
+
+    /// How the bodies of metal that can break will do so.
+    #[must_use]
+    pub fn tearing(&self) -> Vec<Tearing> {
+        let of = |body: &super::Body| {
+            let material = self.materials.get(&body.material)?;
+            let fracture = material.fracture()?;
+            Some(Tearing {
+                body: body.name.clone(),
+                band: BAND * self.domain.spacing(),
+                strain: fracture.johnson_cook?.strain_of_a_rod(),
+                opening: material.tearing(fracture),
             })
         };
         self.bodies.iter().filter_map(of).collect()

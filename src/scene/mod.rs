@@ -81,7 +81,7 @@ pub use file::earlier::FORM;
 pub use file::shipped::{STANDARD_INPUT, Shipped, scene_file, shipped, shipped_named, stem};
 pub use file::variants::{Changes, SMALL};
 pub use font::Font;
-pub use fracture::Breaking;
+pub use fracture::{Breaking, Tearing};
 pub use gauge::{Gauge, GaugePlace, Side};
 pub use geometry::camera_file::CameraFile;
 pub use geometry::cut::{CutCell, CutGeometry};

@@ -268,8 +268,12 @@ fn breaking() -> String {
         let own = preset.fracture?;
         let (always, softening) =
             (if own.always { ", always" } else { "" }, format!("{:?}", own.softening).to_lowercase());
-        let (strength, energy) = (plain(own.tensile_strength), own.fracture_energy);
+        let strength = match own.johnson_cook {
+            Some(voids) => format!("voids: {}, {}, {}, {}", voids.d1, voids.d2, voids.d3, voids.d4),
+            None => plain(own.tensile_strength),
+        };
+        let energy = own.fracture_energy;
         Some(format!("`{}`{always} | {strength} | {energy} | `{softening}` | {}", preset.name, own.source))
     });
-    table("Preset | Tensile strength [Pa] | Fracture energy [J m^-2] | Softening | Source", rows)
+    table("Preset | Tensile strength [Pa], or `d1` to `d4` | Fracture energy [J m^-2] | Softening | Source", rows)
 }

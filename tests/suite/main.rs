@@ -29,6 +29,7 @@ mod gallery;
 mod gauges;
 mod generated;
 mod gpu;
+#[cfg(feature = "viewer")]
 mod hand;
 mod hardware;
 mod images;
@@ -76,6 +77,7 @@ mod two_gas_twin;
 mod verify;
 #[cfg(feature = "viewer")]
 mod viewer;
+mod voids;
 mod walls;
 mod warnings;
 #[cfg(feature = "viewer")]

@@ -53,6 +53,12 @@ impl Check<'_> {
     pub(crate) fn bodies(&mut self) {
         let scene = self.scene;
         for (name, material) in &scene.materials {
+            if material.fracture().is_some_and(|own| own.johnson_cook.is_some())
+                && material.yield_stress().is_infinite()
+            {
+                let help = "voids grow with plastic flow: give a law that yields, or a `tensile_strength`";
+                self.add(format!("materials.{name}.fracture.johnson_cook"), "the law does not yield", help);
+            }
             if let Some([strength, most]) = material.beyond_strength() {
                 let help = format!(
                     "give at most a tenth of Young's modulus, {most:e} [Pa]: are the units those of the scene?"

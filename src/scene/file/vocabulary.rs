@@ -76,7 +76,14 @@ impl Words {
             }
             plain => wrong_type(plain, value.get_ref()).is_some(),
         };
-        let fitting = own().find(|choice| !misfit(choice));
+        let missing = |choice: &&Value| match value.get_ref() {
+            DeValue::Table(table) => {
+                let needed = meant(choice)["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
+                needed.filter(|key| !table.contains_key(*key)).count()
+            }
+            _ => 0,
+        };
+        let fitting = own().filter(|choice| !misfit(choice)).min_by_key(missing);
         if let Some(meant) = fitting.or_else(|| own().next().filter(|_| own().count() == 1)) {
             let before = self.findings.len();
             self.value(path, value, meant);

@@ -8,6 +8,7 @@ mod geometry;
 mod hostile;
 mod meshes;
 mod sampling;
+mod voids;
 
 use super::Scene;
 
