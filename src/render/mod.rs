@@ -37,6 +37,7 @@ mod view;
 
 pub use frame::{Depth, Frame, Picture};
 pub(crate) use html::{PAGE_STYLE, escape};
+#[cfg(feature = "viewer")]
 pub(crate) use palette::of_bodies as body_colors;
 pub(crate) use ticks::ticks;
 #[doc(hidden)]
