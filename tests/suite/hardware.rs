@@ -29,7 +29,7 @@ fn a_wrong_stage_fails_the_selftest_by_name() {
     assert!(report["device"]["limits"]["maxStorageBuffersPerShaderStage"].as_u64() >= Some(8), "{report}");
 
     let shaders = folder.path().join("shaders");
-    shaders_with(&shaders, "numerics/scan.wgsl", "output[i] += offsets[block];", "output[i] += offsets[block] + 1u;");
+    shaders_with(&shaders, "numerics/scan.wgsl", "output[i] += offset;", "output[i] += offset + 1u;");
     let output = brisance(&arguments).env("BRISANCE_SHADERS", &shaders).output().unwrap();
     let text = err(&output);
     assert_eq!(output.status.code(), Some(8), "{text}");

@@ -9,8 +9,8 @@ use crate::simulation::Simulation;
 use crate::stage::{P2g, ParticleSort, Transfer};
 use crate::state::Grid;
 
-/// Elements of the arrays: three levels of a prefix sum, and no multiple of a workgroup.
-const LENGTH: u32 = 1_100_003;
+/// Elements of the arrays: two levels of a prefix sum, and no multiple of a workgroup.
+const LENGTH: u32 = 2_200_003;
 
 /// Numbers without a pattern, between 0 and 1. [Steele et al. 2014, SplitMix64]
 fn random(index: u32) -> f32 {
