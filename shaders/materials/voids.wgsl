@@ -20,5 +20,5 @@ fn strain_of_voids(m: MaterialParams, stress: vec3f, rate: f32) -> f32 {
 // Damage that goes with the mean of omega.
 fn damage_of_voids(m: MaterialParams, omega: f32) -> f32 { return clamp((omega - 1.0) * m.void_softening, 0.0, 1.0); }
 
-// The most of omega: of what is broken, so that what is beside it breaks as well.
-fn most_voids(m: MaterialParams) -> f32 { return 1.0 + 2.5 / m.void_softening; }
+// The most of omega: of what is broken, so that what is beside it breaks as well. MOST_DRIVE: materials/stress.wgsl.
+fn most_voids(m: MaterialParams) -> f32 { return 1.0 + MOST_DRIVE / m.void_softening; }
