@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 
 use super::budget::{Budget, Haste, Rate};
 use super::model::{Command, Look, Note, Opened, Outbox, Pace, Phase, Request, Shown, Status, Weight};
+use super::pictures;
 use super::record::Recording;
 use super::session::Session;
 use super::worker::lock;
@@ -23,7 +24,7 @@ use pace::LONGEST_LAG;
 
 /// Time between two measurements of the stages \[s\].
 const MEASURE_PERIOD: f64 = 2.0;
-/// Where screenshots and recordings go, below a folder per scene.
+/// Where shipped scenes are saved, below a folder per scene.
 const OUT: &str = "out";
 
 /// The worker's state.
@@ -32,6 +33,7 @@ pub(super) struct Desk {
     outbox: Arc<Mutex<Outbox>>,
     gpu: Option<Gpu>,
     session: Option<Session>,
+    /// Where screenshots and recordings of the scene go.
     folder: PathBuf,
     /// Where scenes are saved, and the beginning of their names.
     saved: (PathBuf, String),
@@ -211,10 +213,11 @@ impl Desk {
             None => Session::open(&gpu, scene)?,
         };
         let look = look.map_or_else(|| session.look(), |look| *look);
-        self.folder = Path::new(OUT).join(stem(&request.name));
+        self.folder = pictures::folder().join(stem(&request.name));
         // beside the file, whose meshes it may read
         let beside = Path::new(&request.name).parent().filter(|_| Path::new(&request.name).is_file());
-        self.saved = (beside.unwrap_or(&self.folder).to_owned(), stem(&request.name).to_owned());
+        let shipped = Path::new(OUT).join(stem(&request.name));
+        self.saved = (beside.unwrap_or(&shipped).to_owned(), stem(&request.name).to_owned());
         lock(&self.outbox).opened = Some(Opened {
             request: request.clone(),
             scene: Arc::clone(session.scene()),

@@ -25,6 +25,7 @@ pub mod model;
 mod panel;
 mod past;
 pub mod pick;
+mod pictures;
 mod progress;
 pub mod record;
 pub mod session;

@@ -298,7 +298,7 @@ fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
 #[test]
 fn a_recording_counts_its_pictures() {
     let Some(folder) = folder_or_skip() else { return };
-    // Recordings go to a folder of this name below `out`.
+    // Recordings go to a folder of this name below the user's for pictures, or `out`.
     let name = format!("recorded_{}", std::process::id());
     let file = folder.path().join(format!("{name}.toml"));
     std::fs::write(&file, format!("{SPACE}[render]\nsize = [64, 48]")).unwrap();
@@ -311,8 +311,11 @@ fn a_recording_counts_its_pictures() {
     wait(&worker, &mut seen, "picture of a step", |seen| seen.status.recorded == Some(2));
     worker.send(Command::Record(false));
     wait(&worker, &mut seen, "end", |seen| seen.status.recorded.is_none() && !seen.notes.is_empty());
-    assert!(seen.notes[0].text.starts_with("2 pictures in "), "{:?}", seen.notes);
-    std::fs::remove_dir_all(std::path::Path::new("out").join(name)).unwrap();
+    let told = seen.notes[0].text.strip_prefix("2 pictures in ").expect("it says where they are");
+    let frames = std::path::Path::new(told.split([',', ';']).next().unwrap());
+    let own = frames.ancestors().find(|above| above.ends_with(&name)).expect("in a folder of the scene");
+    assert_eq!(std::fs::read_dir(frames).unwrap().count(), 2, "{told}");
+    std::fs::remove_dir_all(own).unwrap();
 }
 
 fn origin() -> Origin {
