@@ -7,14 +7,15 @@ const LEAST_STRAIN = 0.01;
 
 fn breaks_by_voids(m: MaterialParams) -> bool { return FRACTURE && m.void_softening > 0.0; }
 
-// Plastic strain at which voids join, under principal stresses and at a strain rate; what is pressed by more than a rod has none.
-fn strain_of_voids(m: MaterialParams, stress: vec3f, rate: f32) -> f32 {
+// Plastic strain at which voids join, under principal stresses, at a strain rate and `heated` of the way to melting; what is pressed by more than a rod has none.
+fn strain_of_voids(m: MaterialParams, stress: vec3f, rate: f32, heated: f32) -> f32 {
     let mean = (stress.x + stress.y + stress.z) / 3.0;
     let von_mises = sqrt(1.5) * length(stress - vec3f(mean));
     let tension = clamp(mean / max(von_mises, 1e-30), -10.0, 10.0);
     if tension < -1.0 / 3.0 { return 1e30; }
     let fast = 1.0 + m.voids.w * log(max(rate / m.void_rate, 1.0));
-    return max((m.voids.x + m.voids.y * exp(m.voids.z * tension)) * fast, LEAST_STRAIN);
+    let hot = 1.0 + m.void_heat * heated;
+    return max((m.voids.x + m.voids.y * exp(m.voids.z * tension)) * fast * hot, LEAST_STRAIN);
 }
 
 // Damage that goes with the mean of omega.

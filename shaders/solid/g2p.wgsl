@@ -121,6 +121,12 @@ fn give_way(p: u32, h: mat3x3f, m: MaterialParams) -> mat3x3f {
 // Stress that is left of `tau`, driver for the nodes, and energy per volume at rest that damage has taken in a sub-step.
 struct Fractured { stress: mat3x3f, driver: f32, lost: f32 }
 
+// Share of the way to melting that plastic flow has heated a particle.
+fn heated_by_flow(p: u32, m: MaterialParams) -> f32 {
+    if !follows_rate(m) { return 0.0; }
+    return clamp(stress[2u * p].w / (position[p].w * m.melting_work), 0.0, 1.0);
+}
+
 // `flow`: the plastic strain of this sub-step.
 fn fracture(p: u32, m: MaterialParams, h: mat3x3f, tau: mat3x3f, flow: f32, time: f32) -> Fractured {
     let tension = tension_of(m, h, affine[3u * p].w, tau);
@@ -141,7 +147,7 @@ fn fracture(p: u32, m: MaterialParams, h: mat3x3f, tau: mat3x3f, flow: f32, time
     if damage == 1.0 && before < 1.0 { affine[3u * p + 1u].w = 0.0; }
     let lost = (damage - before) * tension.energy;
     if voids {
-        let grown = stress[2u * p + 1u].w + m.tensile_strength * flow / strain_of_voids(m, tension.stress, flow / time);
+        let grown = stress[2u * p + 1u].w + m.tensile_strength * flow / strain_of_voids(m, tension.stress, flow / time, heated_by_flow(p, m));
         let most = most_voids(m) * m.tensile_strength;
         return Fractured(damaged_stress(tau, tension, damage), select(min(grown, most), most, damage == 1.0), lost);
     }
@@ -160,7 +166,9 @@ fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool, time: f32) 
     let trial = *h;
     let breaks = can_break(material) && !is_driven(p);
     let broken = breaks && deformation[3u * p + 2u].w == 1.0;
-    let returned = return_map(material.kind, trial, select(affine[3u * p + 1u].w, 0.0, broken), material);
+    var flowing = material;
+    if follows_rate(material) { flowing = heated_metal(material, heated_by_flow(p, material), time); }
+    let returned = return_map(material.kind, trial, select(affine[3u * p + 1u].w, 0.0, broken), flowing);
     *h = returned.deformation;
     // a loop: a software device would run a branch for all lanes
     for (var turn = 0u; turn < when(broken); turn++) { *h = give_way(p, *h, material); }

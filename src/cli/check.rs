@@ -41,9 +41,9 @@ pub(super) fn check(options: &CheckOptions, cli: &Cli) -> Result<()> {
     let (breaking, tearing) = (scene.breaking(), scene.tearing());
     let estimate = scene.estimate(usize::try_from(plan.particles).unwrap_or(usize::MAX));
     let (lost, charges, on_grid) = (scene.thin_obstacles(), scene.charge_estimates(), scene.charges_on_grid());
-    let texts = estimate.warnings().into_iter().chain(breaking.iter().filter_map(Breaking::warning));
-    let texts = texts.chain(lost.iter().map(lost_text)).chain(on_grid.iter().filter_map(GridCharge::warning));
-    tell_warnings(texts.chain(stale_texts(&scene)));
+    let broken = breaking.iter().filter_map(Breaking::warning).chain(tearing.iter().filter_map(Tearing::warning));
+    let grid = lost.iter().map(lost_text).chain(on_grid.iter().filter_map(GridCharge::warning));
+    tell_warnings(estimate.warnings().into_iter().chain(broken).chain(grid).chain(stale_texts(&scene)));
     let duration = Duration::of(&scene, &plan, &estimate, cli);
     if let Some(reason) = duration.as_ref().and_then(|duration| duration.refused.as_ref()) {
         tell!("warning: a run on this device will be refused: {reason}");
@@ -107,7 +107,7 @@ fn say_things(
 
 /// How a body of metal breaks, for people.
 fn say_tearing(tearing: &Tearing) {
-    let Tearing { body, band, strain, opening } = tearing;
+    let Tearing { body, band, strain, opening, .. } = tearing;
     let [band, strain, opening] = [*band, *strain, *opening].map(plain);
     say!(
         "# tears      `{body}` by voids, in a pulled rod from a plastic strain of {strain} on, and parts {opening} m later; cracks are {band} m wide"

@@ -295,6 +295,7 @@ impl Material {
                 crack_modulus: (f64::from(params.mu) * (surface / band).powi(2)) as f32,
                 voids: [voids.d1, voids.d2, voids.d3, voids.d4].map(single),
                 void_rate: single(voids.rate),
+                void_heat: single(voids.d5),
                 void_softening: single(voids.strain_of_a_rod() * band / self.tearing(fracture)),
                 ..params
             };

@@ -7,6 +7,7 @@
 mod drucker_prager;
 mod energy;
 mod fixed_corotated;
+mod flow;
 mod fracture;
 mod hencky;
 mod neo_hookean;
@@ -19,6 +20,7 @@ mod von_mises;
 mod wgsl;
 
 pub use energy::{Hyperelastic, Laws, Strained};
+pub use flow::{Flow, PresetFlow};
 pub use fracture::{AtCoarse, BAND, Fracture, LEAST_RATIO, Softening, Weibull};
 pub use preset::{PRESETS, Preset, Units, kind_names};
 pub use voids::JohnsonCook;
@@ -184,10 +186,12 @@ pub struct Material {
     preset: Option<(usize, Units)>,
     /// How it breaks, if it does.
     fracture: Option<Fracture>,
+    /// How its flow stress follows strain, rate and temperature, if not by linear hardening.
+    flow: Option<Flow>,
 }
 
 structure! {
-    /// A material as the device sees it, 80 bytes.
+    /// A material as the device sees it, 96 bytes.
     #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
     pub MaterialParams as "MaterialParams" {
         /// Shear modulus `[Pa]`.
@@ -220,8 +224,12 @@ structure! {
         void_rate: f32,
         /// Damage over the sum of plastic strains over those at failure, beyond 1; 0 for what does not break by voids `[1]`.
         void_softening: f32,
-        /// Fills the structure.
-        unused: [f32; 2],
+        /// Growth of the strain at failure from the start to melting, see [`JohnsonCook`]: d5 `[1]`.
+        void_heat: f32,
+        /// Plastic work per mass that melts it `[J kg^-1]`.
+        melting_work: f32,
+        /// Flow stress, see [`Flow`]: exponent of the strain, 0 for linear hardening; rate `[1]`, reference rate `[s^-1]`, softening `[1]`.
+        flow: vec4f,
     }
 }
 
@@ -250,6 +258,7 @@ impl Material {
             values: parameters.iter().map(value).collect::<Result<_, _>>()?,
             preset: None,
             fracture: None,
+            flow: None,
         })
     }
 
@@ -345,7 +354,7 @@ impl Material {
             VolumeShare::Ghost => (lambda, 0.0),
         };
         let ghost_modulus = if ghost_modulus > 0.0 { ghost_modulus } else { least };
-        MaterialParams {
+        let params = MaterialParams {
             mu: mu as f32,
             lambda: lambda as f32,
             yield_stress: yield_stress.min(f64::from(f32::MAX)) as f32,
@@ -355,7 +364,8 @@ impl Material {
             friction: friction as f32,
             elastic_lambda: (left - ghost_modulus).max(0.0) as f32,
             ..Zeroable::zeroed()
-        }
+        };
+        self.params_with_flow(params)
     }
 
     /// Parameters of the law as the scene has them, by name.

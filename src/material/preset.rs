@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::flow::{Flow, PresetFlow};
 use super::fracture::{PresetFracture, Softening};
 use super::{JohnsonCook, KINDS, Material};
 
@@ -20,6 +21,8 @@ pub struct Preset {
     pub density: f64,
     /// How it breaks, if that is known.
     pub fracture: Option<PresetFracture>,
+    /// How its flow stress follows strain, rate and temperature, if that is known.
+    pub flow: Option<PresetFlow>,
     /// Colour in pictures, sRGB.
     pub color: [u8; 3],
 }
@@ -33,7 +36,7 @@ impl Preset {
         summary: &'static str,
         values: &'static [(&'static str, f64)],
     ) -> Self {
-        Self { name, summary, law, values, density, fracture: None, color }
+        Self { name, summary, law, values, density, fracture: None, flow: None, color }
     }
 
     /// Breaks where a scene asks for it: strength \[Pa\], energy \[J m^-2\], and where both come from.
@@ -44,13 +47,35 @@ impl Preset {
         Self { fracture: Some(fracture), ..self }
     }
 
-    /// Breaks by voids where a scene asks for it: d1 to d4 from a strain rate of 1 / s on, energy \[J m^-2\], and where both come from.
-    const fn may_tear(self, [d1, d2, d3, d4]: [f64; 4], fracture_energy: f64, source: &'static str) -> Self {
-        let johnson_cook = Some(JohnsonCook { d1, d2, d3, d4, rate: 1.0 });
+    /// Breaks by voids where a scene asks for it: d1 to d5 from a strain rate of 1 / s on, energy \[J m^-2\], and where both come from.
+    const fn may_tear(self, [d1, d2, d3, d4, d5]: [f64; 5], fracture_energy: f64, source: &'static str) -> Self {
+        let johnson_cook = Some(JohnsonCook { d1, d2, d3, d4, d5, rate: 1.0 });
         let softening = Softening::Linear;
         let fracture =
             PresetFracture { tensile_strength: 0.0, fracture_energy, softening, johnson_cook, always: false, source };
         Self { fracture: Some(fracture), ..self }
+    }
+
+    /// Flows by strain, rate and temperature where it breaks by voids, or where a scene asks for it: A and B of a rod \[Pa\], exponent, rate
+    /// from 1 / s on, softening; melting temperature \[K\] and heat capacity \[J kg^-1 K^-1\]; and where they come from.
+    const fn flows(
+        self,
+        [a, b, exponent, rate, softening]: [f64; 5],
+        [melting_temperature, heat_capacity]: [f64; 2],
+        source: &'static str,
+    ) -> Self {
+        let (reference_rate, room_temperature, taylor_quinney) = (1.0, 293.0, 0.9);
+        let flow = Flow {
+            exponent,
+            rate,
+            reference_rate,
+            softening,
+            room_temperature,
+            melting_temperature,
+            heat_capacity,
+            taylor_quinney,
+        };
+        Self { flow: Some(PresetFlow { rod: [a, b], flow, source }), ..self }
     }
 
     /// Breaks without being asked to.
@@ -106,10 +131,12 @@ pub const PRESETS: [Preset; 9] = [
         &[("young_modulus", 5e6), ("poisson_ratio", 0.45)]),
     Preset::new("steel", "von_mises", 7850.0, [150, 158, 168], "Structural steel: yields at 250 MPa in a rod, hardening 0.98 GPa.",
         &[("young_modulus", 2e11), ("poisson_ratio", 0.3), ("yield_stress", 2.04e8), ("hardening", 8e8)])
-        .may_tear([0.05, 3.44, -2.12, 0.002], 1.0e5, "voids: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31, steel 4340; K_Ic 150 MPa m^1/2"),
+        .may_tear([0.05, 3.44, -2.12, 0.002, 0.61], 1.0e5, "voids: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31, steel 4340; K_Ic 150 MPa m^1/2")
+        .flows([3.5e8, 2.75e8, 0.36, 0.022, 1.0], [1811.0, 452.0], "Johnson and Cook, 7th Int. Symp. Ballistics (1983) 541, steel 1006"),
     Preset::new("aluminium", "von_mises", 2700.0, [196, 200, 206], "Aluminium 6061-T6: yields at 276 MPa in a rod, hardening 0.49 GPa.",
         &[("young_modulus", 6.9e10), ("poisson_ratio", 0.33), ("yield_stress", 2.25e8), ("hardening", 4e8)])
-        .may_tear([-0.77, 1.45, -0.47, 0.0], 1.1e4, "voids: Lesuer, Kay, LeBlanc, UCRL-JC-134118 (1999); K_Ic 29 MPa m^1/2"),
+        .may_tear([-0.77, 1.45, -0.47, 0.0, 1.6], 1.1e4, "voids: Lesuer, Kay, LeBlanc, UCRL-JC-134118 (1999); K_Ic 29 MPa m^1/2")
+        .flows([3.24e8, 1.14e8, 0.42, 0.002, 1.34], [925.0, 885.0], "Lesuer, Kay, LeBlanc, UCRL-JC-134118 (1999)"),
     Preset::new("concrete", "drucker_prager", 2400.0, [158, 152, 142], "Concrete of a compressive strength of 30 MPa.",
         &[("young_modulus", 3e10), ("poisson_ratio", 0.2), ("friction_angle", 37.0), ("cohesion", 7.5e6)])
         .may_break(2.9e6, 76.0, Softening::Exponential, "CEB-FIP Model Code 1990, C30, aggregate of 16 mm"),

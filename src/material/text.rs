@@ -7,6 +7,7 @@ use serde::de::{self, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::flow::{Flow, FlowGiven};
 use super::fracture::{Fracture, FractureGiven, OwnFracture};
 use super::{Bound, KINDS, Kind, Material, PRESETS, Parameter, Units, kind_names};
 
@@ -35,6 +36,12 @@ impl Serialize for Material {
             None if always => map.serialize_entry(FRACTURE, &false)?,
             None => {}
         }
+        let flows = self.fracture.is_some_and(|own| own.johnson_cook.is_some());
+        match &self.flow {
+            Some(flow) => map.serialize_entry(FLOW, flow)?,
+            None if flows => map.serialize_entry(FLOW, &false)?,
+            None => {}
+        }
         map.end()
     }
 }
@@ -57,10 +64,11 @@ impl<'de> Visitor<'de> for MaterialVisitor {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Material, A::Error> {
         let missing = || de::Error::custom(format!("no material, expected one of {}", kind_names()));
         let mut law: Option<(String, BTreeMap<String, Given>)> = None;
-        let mut fracture = None;
+        let (mut fracture, mut flow) = (None, None);
         while let Some(key) = map.next_key::<String>()? {
             match &law {
                 _ if key == FRACTURE => fracture = Some(map.next_value::<FractureGiven>()?),
+                _ if key == FLOW => flow = Some(map.next_value::<FlowGiven>()?),
                 None => law = Some((key, map.next_value()?)),
                 Some((name, _)) => {
                     let message = format!("two materials, `{name}` and `{key}`; an entry has one, remove the other");
@@ -69,18 +77,22 @@ impl<'de> Visitor<'de> for MaterialVisitor {
             }
         }
         let (name, given) = law.ok_or_else(missing)?;
-        let material = from_table(&name, given).map_err(de::Error::custom)?;
-        let own = material.preset.and_then(|(index, units)| Some((PRESETS[index].fracture?, units.stress())));
-        let fracture = Fracture::resolve(fracture, own).map_err(de::Error::custom)?;
-        Ok(Material { fracture, ..material })
+        from_table(&name, given, fracture, flow).map_err(de::Error::custom)
     }
 }
 
 /// The key beside the law of a material that says how it breaks.
 const FRACTURE: &str = "fracture";
+/// The key beside the law of a metal that says how its flow stress follows strain, rate and temperature.
+const FLOW: &str = "flow";
 
-/// A material from its name and table.
-fn from_table(name: &str, given: BTreeMap<String, Given>) -> Result<Material, String> {
+/// A material from its name and table, and what stands beside it.
+fn from_table(
+    name: &str,
+    given: BTreeMap<String, Given>,
+    fracture: Option<FractureGiven>,
+    flow: Option<FlowGiven>,
+) -> Result<Material, String> {
     let preset = PRESETS.iter().position(|preset| preset.name == name);
     let mut units = Units::default();
     let mut numbers = Vec::new();
@@ -94,10 +106,31 @@ fn from_table(name: &str, given: BTreeMap<String, Given>) -> Result<Material, St
             Given::Number(value) => numbers.push((key, value)),
         }
     }
-    match preset {
+    let known = preset.map(|index| &PRESETS[index]);
+    let fracture = Fracture::resolve(fracture, known.and_then(|own| Some((own.fracture?, units.stress()))))?;
+    let tears = fracture.is_some_and(|own| own.johnson_cook.is_some());
+    let own = known.and_then(|own| own.flowing(units, flow, tears));
+    if let Some((_, [a, b])) = own {
+        let left_out = |name: &str| numbers.iter().all(|(key, _)| key != name);
+        let more: Vec<_> =
+            [("yield_stress", a), ("hardening", b)].into_iter().filter(|(name, _)| left_out(name)).collect();
+        numbers.extend(more.into_iter().map(|(name, value)| (name.to_owned(), value)));
+    }
+    let flow = match flow {
+        Some(FlowGiven::Numbers(given)) => Some(given),
+        Some(FlowGiven::Switch(true)) if own.is_none() => {
+            let help = "`flow = true` needs a preset that knows its flow stress; give";
+            return Err(format!(
+                "{help} `flow = {{ exponent = ..., melting_temperature = ... [K], heat_capacity = ... }}`"
+            ));
+        }
+        _ => own.map(|(flow, _)| flow),
+    };
+    let material = match preset {
         Some(index) => Material::of_preset(index, units, &numbers),
         None => Material::new(name, &numbers),
-    }
+    };
+    Ok(Material { fracture, flow, ..material? })
 }
 
 impl schemars::JsonSchema for Material {
@@ -108,7 +141,10 @@ impl schemars::JsonSchema for Material {
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let known = serde_json::Value::from(generator.subschema_for::<FractureGiven>());
         let own = serde_json::Value::from(generator.subschema_for::<OwnFracture>());
-        let kinds = KINDS.iter().map(|kind| entry(kind.name, kind.summary, kind_table(kind), &own)).collect::<Vec<_>>();
+        let given = serde_json::Value::from(generator.subschema_for::<FlowGiven>());
+        let numbers = serde_json::Value::from(generator.subschema_for::<Flow>());
+        let kinds = KINDS.iter().map(|kind| entry(kind.name, kind.summary, kind_table(kind), [&own, &numbers]));
+        let kinds = kinds.collect::<Vec<_>>();
         let presets = PRESETS.iter().filter_map(|preset| {
             let law = KINDS.iter().find(|kind| kind.name == preset.law)?;
             let mut table = kind_table(law);
@@ -117,7 +153,8 @@ impl schemars::JsonSchema for Material {
             table["properties"]["units"] =
                 serde_json::json!({ "type": "string", "enum": ["si", "scaled"], "description": text });
             let fracture = if preset.fracture.is_some() { &known } else { &own };
-            Some(entry(preset.name, preset.summary, table, fracture))
+            let flow = if preset.flow.is_some() { &given } else { &numbers };
+            Some(entry(preset.name, preset.summary, table, [fracture, flow]))
         });
         let all = kinds.into_iter().chain(presets).collect::<Vec<_>>();
         schemars::json_schema!({ "description": "A material: one kind or preset with its parameters.", "oneOf": all })
@@ -125,10 +162,20 @@ impl schemars::JsonSchema for Material {
 }
 
 /// Schema of one material.
-fn entry(name: &str, summary: &str, table: serde_json::Value, fracture: &serde_json::Value) -> serde_json::Value {
+fn entry(
+    name: &str,
+    summary: &str,
+    table: serde_json::Value,
+    [fracture, flow]: [&serde_json::Value; 2],
+) -> serde_json::Value {
+    let hardens = !table["properties"]["hardening"].is_null();
+    let mut properties = serde_json::json!({ name: table, FRACTURE: fracture });
+    if hardens {
+        properties[FLOW] = flow.clone();
+    }
     serde_json::json!({
-        "type": "object", "description": summary, "properties": { name: table, FRACTURE: fracture },
-        "required": [name], "additionalProperties": false,
+        "type": "object", "description": summary, "properties": properties, "required": [name],
+        "additionalProperties": false,
     })
 }
 

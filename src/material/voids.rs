@@ -8,8 +8,8 @@ const ROD: f64 = 1.0 / 3.0;
 /// Plastic strain that voids take at least, whatever the tension. Mirror of `LEAST_STRAIN` in shaders/materials/voids.wgsl.
 const LEAST_STRAIN: f64 = 0.01;
 
-/// Plastic strain at which voids join: (d1 + d2 exp(d3 t)) (1 + d4 ln(strain rate over `rate`)), t the mean stress over that of von Mises; at
-/// least 0.01. Below t = -1/3 none grow. Temperature has no part in it.
+/// Plastic strain at which voids join: (d1 + d2 exp(d3 t)) (1 + d4 ln(strain rate over `rate`)) (1 + d5 T), t the mean stress over that of von
+/// Mises, T the temperature as `flow` has it; at least 0.01. Below t = -1/3 none grow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JohnsonCook {
@@ -23,6 +23,9 @@ pub struct JohnsonCook {
     /// Growth with the logarithm of the strain rate `[1]`.
     #[serde(default)]
     pub d4: f64,
+    /// Growth from the temperature at the start to melting; needs `flow` `[1]`.
+    #[serde(default)]
+    pub d5: f64,
     /// Strain rate from which on it grows `[s^-1]`.
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
@@ -43,7 +46,7 @@ impl JohnsonCook {
     /// What is wrong with it: the strain at failure of a rod is to be positive, and to fall with the tension.
     pub(super) fn mistake(&self) -> Option<String> {
         let rod = self.d1 + self.d2 * (self.d3 * ROD).exp();
-        let numbers = [self.d1, self.d2, self.d3, self.d4, self.rate];
+        let numbers = [self.d1, self.d2, self.d3, self.d4, self.d5, self.rate];
         if numbers.iter().any(|x| !x.is_finite()) || rod < LEAST_STRAIN {
             return Some(format!(
                 "`johnson_cook` breaks a pulled rod at a plastic strain of {rod}: give numbers that make it at least {LEAST_STRAIN}"

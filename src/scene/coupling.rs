@@ -129,6 +129,10 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
             "materials with `fracture` and an implicit elastic step, whose one strain per step no crack could follow";
         findings.push(Finding::new("numerics.elasticity", message, "give \"explicit\", or leave `fracture` out"));
     }
+    if scene.flows() && elasticity == Elasticity::Implicit {
+        let message = "materials with `flow` and an implicit elastic step, which knows linear hardening alone";
+        findings.push(Finding::new("numerics.elasticity", message, "give \"explicit\", or leave `flow` out"));
+    }
     if scene.breaks() && paper.coupling == Coupling::Last {
         let message = "materials with `fracture` and \"last\", which has no elastic sub-steps";
         findings.push(Finding::new("numerics.paper.coupling", message, "give \"first\", or leave `fracture` out"));

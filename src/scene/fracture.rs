@@ -41,6 +41,8 @@ pub struct Tearing {
     pub strain: f64,
     /// How far it is pulled apart from then on `[m]`.
     pub opening: f64,
+    /// Whether rate and temperature change how it flows.
+    pub flows: bool,
 }
 
 /// Cells across the smallest piece: broken bands of two cells on either side leave nothing of smaller ones.
@@ -62,7 +64,27 @@ impl Breaking {
     }
 }
 
+impl Tearing {
+    /// What to warn of, if anything.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        (!self.flows).then(|| {
+            format!(
+                "`{}` breaks by voids and knows neither rate nor temperature in its flow: nothing but the cells gives a shear band its width; \
+                 give its material `flow`",
+                self.body
+            )
+        })
+    }
+}
+
 impl Scene {
+    /// Whether the flow stress of some metal follows strain, rate and temperature.
+    #[must_use]
+    pub fn flows(&self) -> bool {
+        self.materials.values().any(|material| material.flow().is_some())
+    }
+
     /// Whether some material breaks.
     #[must_use]
     pub fn breaks(&self) -> bool {
@@ -108,6 +130,7 @@ impl Scene {
                 band: BAND * self.domain.spacing(),
                 strain: fracture.johnson_cook?.strain_of_a_rod(),
                 opening: material.tearing(fracture),
+                flows: material.flow().is_some(),
             })
         };
         self.bodies.iter().filter_map(of).collect()

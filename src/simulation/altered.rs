@@ -99,7 +99,10 @@ fn check(from: &Scene, to: &Scene) -> Result<()> {
         from.bodies.len() == to.bodies.len() && from.bodies.iter().zip(&to.bodies).all(|(a, b)| plain(a) == plain(b));
     let materials = from.materials.len() == to.materials.len()
         && from.materials.iter().zip(&to.materials).all(|((name, a), (other, b))| {
-            name == other && a.kind_index() == b.kind_index() && a.fracture() == b.fracture()
+            name == other
+                && a.kind_index() == b.kind_index()
+                && a.fracture() == b.fracture()
+                && a.flow().is_some() == b.flow().is_some()
         });
     if bodies && materials {
         return Ok(());

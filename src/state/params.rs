@@ -279,6 +279,7 @@ pub fn overrides(scene: &Scene, solids: bool) -> Vec<(&'static str, f64)> {
             f64::from(scene.materials.values().fold(0, |used, material| used | 1 << material.kind_index())),
         ),
         ("FRACTURE", flag(scene.breaks())),
+        ("JOHNSON_COOK", flag(scene.flows())),
         ("QUADRATIC", flag(numerics.pair == Pair::B2b1)),
         ("PREDICTOR", flag(scene.integrator() != Integrator::Paper)),
         ("CONSISTENT", flag(scene.consistent())),

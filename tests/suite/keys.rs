@@ -18,7 +18,8 @@ const FEW_WORDS: usize = 4;
 /// Words that a row names at most.
 const MANY_WORDS: usize = 7;
 /// Types whose keys a page tells in other words: views, regions, sides; laws and presets have tables of their own.
-const TOLD: [&str; 7] = ["View", "Region", "Boundaries", "Color", "Material", "FractureGiven", "OwnFracture"];
+const TOLD: [&str; 8] =
+    ["View", "Region", "Boundaries", "Color", "Material", "FractureGiven", "FlowGiven", "OwnFracture"];
 
 /// File, table that it follows from, and the text, for each table of the pages.
 pub(crate) fn parts() -> Vec<(String, String, String)> {
@@ -63,6 +64,7 @@ impl Tables {
             ("Parameter", ..) => self.parameters(),
             ("Preset", ..) => presets(),
             ("PresetFracture", ..) => breaking(),
+            ("PresetFlow", ..) => flowing(),
             (_, Some(keys), _) => self.keys(own, keys),
             (_, _, Some(choices)) => self.choices(choices),
             _ => panic!("`{name}` is no type with keys or words"),
@@ -269,11 +271,23 @@ fn breaking() -> String {
         let (always, softening) =
             (if own.always { ", always" } else { "" }, format!("{:?}", own.softening).to_lowercase());
         let strength = match own.johnson_cook {
-            Some(voids) => format!("voids: {}, {}, {}, {}", voids.d1, voids.d2, voids.d3, voids.d4),
+            Some(voids) => format!("voids: {}, {}, {}, {}, {}", voids.d1, voids.d2, voids.d3, voids.d4, voids.d5),
             None => plain(own.tensile_strength),
         };
         let energy = own.fracture_energy;
         Some(format!("`{}`{always} | {strength} | {energy} | `{softening}` | {}", preset.name, own.source))
     });
-    table("Preset | Tensile strength [Pa], or `d1` to `d4` | Fracture energy [J m^-2] | Softening | Source", rows)
+    table("Preset | Tensile strength [Pa], or `d1` to `d5` | Fracture energy [J m^-2] | Softening | Source", rows)
+}
+
+fn flowing() -> String {
+    let rows = PRESETS.iter().filter_map(|preset| {
+        let own = preset.flow?;
+        let [a, b] = own.rod.map(plain);
+        let brisance::material::Flow { exponent, rate, softening, melting_temperature, heat_capacity, .. } = own.flow;
+        let numbers = format!("{a}, {b} | {exponent}, {rate}, {softening} | {melting_temperature} | {heat_capacity}");
+        Some(format!("`{}` | {numbers} | {}", preset.name, own.source))
+    });
+    let head = "Preset | A and B of a rod [Pa] | `exponent`, `rate`, `softening`";
+    table(&format!("{head} | Melts at [K] | Heat capacity [J kg^-1 K^-1] | Source"), rows)
 }

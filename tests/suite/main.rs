@@ -21,6 +21,7 @@ mod dust;
 mod earlier;
 mod export;
 mod far_field;
+mod flow;
 mod folders;
 mod fracture;
 mod frames;

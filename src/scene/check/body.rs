@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::material::{PRESETS, kind_names};
+use crate::material::{Material, PRESETS, kind_names};
 use crate::scene::Body;
 use crate::scene::check::Check;
 use crate::spelling::did_you_mean;
@@ -59,6 +59,7 @@ impl Check<'_> {
                 let help = "voids grow with plastic flow: give a law that yields, or a `tensile_strength`";
                 self.add(format!("materials.{name}.fracture.johnson_cook"), "the law does not yield", help);
             }
+            self.flow(name, material);
             if let Some([strength, most]) = material.beyond_strength() {
                 let help = format!(
                     "give at most a tenth of Young's modulus, {most:e} [Pa]: are the units those of the scene?"
@@ -79,6 +80,28 @@ impl Check<'_> {
             self.turning(format!("{path}.spin"), body.spin);
             self.material_of(&path, body);
             self.held(&path, body);
+        }
+    }
+
+    /// Flow stress by strain, rate and temperature.
+    fn flow(&mut self, name: &str, material: &Material) {
+        let path = format!("materials.{name}");
+        let voids = material.fracture().and_then(|own| own.johnson_cook);
+        let Some(flow) = material.flow() else {
+            if let Some(d5) = voids.map(|own| own.d5).filter(|d5| *d5 != 0.0 && !material.yield_stress().is_infinite())
+            {
+                let help =
+                    "it counts from the temperature of plastic flow: give `flow` beside the law, or leave `d5` out";
+                self.out_of_range(format!("{path}.fracture.johnson_cook.d5"), d5, help);
+            }
+            return;
+        };
+        if material.parameter("hardening").is_none() {
+            let help = "it is a law of metals: give `von_mises` or `hencky`, or leave `flow` out";
+            self.add(format!("{path}.flow"), "the law has no `hardening`", help);
+        }
+        if let Some((key, value, help)) = flow.mistake() {
+            self.out_of_range(format!("{path}.flow.{key}"), value, help);
         }
     }
 

@@ -27,3 +27,36 @@ fn voids_need_flow_and_sound_numbers() {
         scene.materials["m"].fracture().is_some_and(|own| own.johnson_cook.is_none() && own.tensile_strength == 1e9)
     );
 }
+
+#[test]
+fn a_flow_stress_needs_a_metal_and_sound_numbers() {
+    let law = |law: &str, keys: &str| {
+        with(&format!("[materials.m]\n{law}\nflow = {{ exponent = 0.3, heat_capacity = 450.0{keys} }}\n"))
+    };
+    let melting = |more: &str| format!(", melting_temperature = 1800.0{more}");
+    let [rubber, metal] = ["neo_hookean = { young_modulus = 1e3, poisson_ratio = 0.3 }", "steel = {}"];
+    for (text, words) in [
+        (law(rubber, &melting("")), ["materials.m.flow", "it is a law of metals"]),
+        (law(metal, ""), ["materials.m.flow", "missing field `melting_temperature`"]),
+        (
+            law(metal, &melting(", room_temperature = 2e3")),
+            ["materials.m.flow.melting_temperature", "room_temperature"],
+        ),
+        (law(metal, &melting(", taylor_quinney = 1.5")), ["materials.m.flow.taylor_quinney", "from 0 to 1"]),
+        (with("[materials.m]\nrubber = {}\nflow = true\n"), ["materials.m", "knows its flow stress"]),
+        (with("[materials.m]\nsteel = {}\nfracture = true\nflow = false\n"), ["johnson_cook.d5", "give `flow`"]),
+        (
+            with("[numerics]\nelasticity = \"implicit\"\n[materials.m]\nsteel = {}\nflow = true\n"),
+            ["numerics.elasticity", "leave `flow` out"],
+        ),
+    ] {
+        expect(&text, &[], &words);
+    }
+    // numbers of the law that are given stay, the rest are those of the flow stress
+    let scene = parse(&with("[materials.m]\nsteel = { yield_stress = 1e9 }\nflow = true\n"), &[]);
+    let metal = &scene.materials["m"];
+    assert_eq!(metal.parameter("yield_stress"), Some(1e9));
+    assert!((metal.flow_stress(1.0, 1.0, 0.0) - 1e9 - (2.0_f64 / 3.0).sqrt() * 2.75e8).abs() < 1e3);
+    let text = toml::to_string(&scene).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(parse(&text, &[]).materials["m"].flow(), metal.flow());
+}
