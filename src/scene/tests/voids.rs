@@ -36,14 +36,14 @@ fn a_flow_stress_needs_a_metal_and_sound_numbers() {
     let melting = |more: &str| format!(", melting_temperature = 1800.0{more}");
     let [rubber, metal] = ["neo_hookean = { young_modulus = 1e3, poisson_ratio = 0.3 }", "steel = {}"];
     for (text, words) in [
-        (law(rubber, &melting("")), ["materials.m.flow", "it is a law of metals"]),
+        (law(rubber, &melting("")), ["materials.m.flow", "unknown field `flow`"]),
         (law(metal, ""), ["materials.m.flow", "missing field `melting_temperature`"]),
         (
             law(metal, &melting(", room_temperature = 2e3")),
             ["materials.m.flow.melting_temperature", "room_temperature"],
         ),
         (law(metal, &melting(", taylor_quinney = 1.5")), ["materials.m.flow.taylor_quinney", "from 0 to 1"]),
-        (with("[materials.m]\nrubber = {}\nflow = true\n"), ["materials.m", "knows its flow stress"]),
+        (with("[materials.m]\nrubber = {}\nflow = true\n"), ["materials.m.flow", "unknown field `flow`"]),
         (with("[materials.m]\nsteel = {}\nfracture = true\nflow = false\n"), ["johnson_cook.d5", "give `flow`"]),
         (
             with("[numerics]\nelasticity = \"implicit\"\n[materials.m]\nsteel = {}\nflow = true\n"),
