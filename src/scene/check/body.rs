@@ -96,10 +96,6 @@ impl Check<'_> {
             }
             return;
         };
-        if material.parameter("hardening").is_none() {
-            let help = "it is a law of metals: give `von_mises` or `hencky`, or leave `flow` out";
-            self.add(format!("{path}.flow"), "the law has no `hardening`", help);
-        }
         if let Some((key, value, help)) = flow.mistake() {
             self.out_of_range(format!("{path}.flow.{key}"), value, help);
         }

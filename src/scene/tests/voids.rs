@@ -60,3 +60,18 @@ fn a_flow_stress_needs_a_metal_and_sound_numbers() {
     let text = toml::to_string(&scene).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(parse(&text, &[]).materials["m"].flow(), metal.flow());
 }
+
+#[test]
+fn a_metal_that_breaks_without_a_flow_stress_is_told() {
+    let body =
+        "[[bodies]]\nname = \"rod\"\nmaterial = \"m\"\nshape = { sphere = { center = [0.5, 0.5], radius = 0.3 } }\n";
+    let told = |more: &str| {
+        let voids = "fracture_energy = 1.0, johnson_cook = { d1 = 0.1, d2 = 0.0, d3 = -1.0 }";
+        let text = with(&format!("[materials.m]\nsteel = {{}}\nfracture = {{ {voids} }}\n{more}{body}"));
+        let tearing = parse(&text, &[]).tearing();
+        assert_eq!(tearing.len(), 1, "one body tears");
+        tearing[0].warning()
+    };
+    assert_eq!(told("flow = true\n"), None);
+    assert!(told("flow = false\n").is_some_and(|text| text.contains("`rod`") && text.contains("`flow`")));
+}
