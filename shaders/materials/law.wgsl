@@ -18,7 +18,7 @@ struct MaterialParams {
     void_rate: f32,             // Strain rate from which on it grows [s^-1]
     void_softening: f32,        // Damage over the sum of plastic strains over those at failure, beyond 1; 0 for what does not break by voids [1]
     void_heat: f32,             // Growth of the strain at failure from the start to melting, see JohnsonCook: d5 [1]
-    melting_work: f32,          // Plastic work per mass that melts it [J kg^-1]
+    heating: f32,               // Share of the way to melting per plastic work and mass [kg J^-1]
     flow: vec4f,                // Flow stress, see Flow: exponent of the strain, 0 for linear hardening; rate [1], reference rate [s^-1], softening [1]
 }
 // End of what is generated.

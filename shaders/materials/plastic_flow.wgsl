@@ -52,7 +52,7 @@ fn follows_rate(m: MaterialParams) -> bool { return JOHNSON_COOK && m.flow.x > 0
 // A metal `heated` of the way to melting, for the plastic strain of `time`: its reference rate becomes a strain.
 fn heated_metal(m: MaterialParams, heated: f32, time: f32) -> MaterialParams {
     var hot = m;
-    let left = 1.0 - pow(clamp(heated, 0.0, 1.0), m.flow.w);
+    let left = 1.0 - select(0.0, pow(min(heated, 1.0), m.flow.w), heated > 0.0);
     hot.yield_stress *= left;
     hot.hardening *= left;
     hot.flow.z *= time;
@@ -65,7 +65,8 @@ fn flow_stress(m: MaterialParams, hardened: f32, step: f32) -> vec2f {
     let grown = m.hardening * pow(strain, m.flow.x);
     let fast = 1.0 + m.flow.y * log(max(step / m.flow.z, 1.0));
     let slope = m.flow.x * grown / strain * fast;
-    return vec2f((m.yield_stress + grown) * fast, slope + select(0.0, (m.yield_stress + grown) * m.flow.y / step, step > m.flow.z));
+    let gain = select(0.0, m.flow.y / max(step, m.flow.z), step > m.flow.z);
+    return vec2f((m.yield_stress + grown) * fast, slope + (m.yield_stress + grown) * gain);
 }
 
 const FLOW_TURNS = 24u;

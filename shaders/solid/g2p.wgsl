@@ -124,7 +124,7 @@ struct Fractured { stress: mat3x3f, driver: f32, lost: f32 }
 // Share of the way to melting that plastic flow has heated a particle.
 fn heated_by_flow(p: u32, m: MaterialParams) -> f32 {
     if !follows_rate(m) { return 0.0; }
-    return clamp(stress[2u * p].w / (position[p].w * m.melting_work), 0.0, 1.0);
+    return clamp(m.heating * stress[2u * p].w / position[p].w, 0.0, 1.0);
 }
 
 // `flow`: the plastic strain of this sub-step.

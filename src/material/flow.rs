@@ -86,10 +86,10 @@ impl Flow {
         fast * (1.0 - heated.clamp(0.0, 1.0).powf(self.softening))
     }
 
-    /// Plastic work per mass that melts it `[J kg^-1]`; infinite where none of it heats.
+    /// Share of the way to melting per plastic work and mass `[kg J^-1]`.
     #[must_use]
-    pub fn melting_work(&self) -> f64 {
-        self.heat_capacity * (self.melting_temperature - self.room_temperature) / self.taylor_quinney
+    pub fn heating(&self) -> f64 {
+        self.taylor_quinney / (self.heat_capacity * (self.melting_temperature - self.room_temperature))
     }
 
     /// What is wrong with it: key, value, what to give.
@@ -164,7 +164,7 @@ impl Material {
         let Some(flow) = self.flow else { return params };
         MaterialParams {
             flow: [flow.exponent, flow.rate, flow.reference_rate, flow.softening].map(|x| x as f32),
-            melting_work: flow.melting_work().min(f64::from(f32::MAX)) as f32,
+            heating: flow.heating() as f32,
             ..params
         }
     }

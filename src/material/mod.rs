@@ -226,8 +226,8 @@ structure! {
         void_softening: f32,
         /// Growth of the strain at failure from the start to melting, see [`JohnsonCook`]: d5 `[1]`.
         void_heat: f32,
-        /// Plastic work per mass that melts it `[J kg^-1]`.
-        melting_work: f32,
+        /// Share of the way to melting per plastic work and mass `[kg J^-1]`.
+        heating: f32,
         /// Flow stress, see [`Flow`]: exponent of the strain, 0 for linear hardening; rate `[1]`, reference rate `[s^-1]`, softening `[1]`.
         flow: vec4f,
     }

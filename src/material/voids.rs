@@ -37,10 +37,21 @@ fn one() -> f64 {
 }
 
 impl JohnsonCook {
-    /// Plastic strain at which voids join in a rod that is pulled slowly.
+    /// Plastic strain at which voids join, at a mean stress over that of von Mises, a strain rate `[s^-1]` and a share of the way to melting;
+    /// infinite where no void grows.
+    #[must_use]
+    pub fn strain(&self, tension: f64, rate: f64, heated: f64) -> f64 {
+        if tension < -ROD {
+            return f64::INFINITY;
+        }
+        let fast = 1.0 + self.d4 * (rate / self.rate).max(1.0).ln();
+        ((self.d1 + self.d2 * (self.d3 * tension).exp()) * fast * (1.0 + self.d5 * heated)).max(LEAST_STRAIN)
+    }
+
+    /// The same in a rod that is pulled slowly.
     #[must_use]
     pub fn strain_of_a_rod(&self) -> f64 {
-        (self.d1 + self.d2 * (self.d3 * ROD).exp()).max(LEAST_STRAIN)
+        self.strain(ROD, 0.0, 0.0)
     }
 
     /// What is wrong with it: the strain at failure of a rod is to be positive, and to fall with the tension.

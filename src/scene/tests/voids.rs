@@ -43,6 +43,12 @@ fn a_flow_stress_needs_a_metal_and_sound_numbers() {
             ["materials.m.flow.melting_temperature", "room_temperature"],
         ),
         (law(metal, &melting(", taylor_quinney = 1.5")), ["materials.m.flow.taylor_quinney", "from 0 to 1"]),
+        (
+            with(
+                "[materials.m]\nvon_mises = { young_modulus = 1e3, poisson_ratio = 0.3, yield_stress = 1.0 }\nflow = true\n",
+            ),
+            ["materials.m.flow", "expected table"],
+        ),
         (with("[materials.m]\nrubber = {}\nflow = true\n"), ["materials.m.flow", "unknown field `flow`"]),
         (with("[materials.m]\nsteel = {}\nfracture = true\nflow = false\n"), ["johnson_cook.d5", "give `flow`"]),
         (
