@@ -126,7 +126,7 @@ impl Units {
 /// follows from its compressive strength f and friction angle a: f (1 - sin a) / (2 cos a). The fracture energy of a brittle one follows from its
 /// fracture toughness K: K^2 (1 - nu^2) / E. [Dowling 2013, table 8.2, unless a preset says otherwise]
 #[rustfmt::skip]
-pub const PRESETS: [Preset; 9] = [
+pub const PRESETS: [Preset; 10] = [
     Preset::new("rubber", "neo_hookean", 1100.0, [62, 60, 66], "Natural rubber.",
         &[("young_modulus", 5e6), ("poisson_ratio", 0.45)]),
     Preset::new("steel", "von_mises", 7850.0, [150, 158, 168], "Structural steel: yields at 250 MPa in a rod, hardening 0.98 GPa.",
@@ -140,6 +140,9 @@ pub const PRESETS: [Preset; 9] = [
     Preset::new("concrete", "drucker_prager", 2400.0, [158, 152, 142], "Concrete of a compressive strength of 30 MPa.",
         &[("young_modulus", 3e10), ("poisson_ratio", 0.2), ("friction_angle", 37.0), ("cohesion", 7.5e6)])
         .may_break(2.9e6, 76.0, Softening::Exponential, "CEB-FIP Model Code 1990, C30, aggregate of 16 mm"),
+    Preset::new("brick", "drucker_prager", 1900.0, [164, 84, 62], "Solid clay brick of a compressive strength of 20 MPa.",
+        &[("young_modulus", 1.67e10), ("poisson_ratio", 0.15), ("friction_angle", 37.0), ("cohesion", 5e6)])
+        .may_break(2e6, 80.0, Softening::Exponential, "units of walls, Lourenco and Rots, J. Eng. Mech. 123 (1997) 660; typical compressive strength and density"),
     Preset::new("ice", "drucker_prager", 917.0, [196, 224, 240], "Ice of a compressive strength of 10 MPa.",
         &[("young_modulus", 9.3e9), ("poisson_ratio", 0.33), ("friction_angle", 45.0), ("cohesion", 2.1e6)])
         .may_break(1.43e6, 0.96, Softening::Linear, "Petrovic, J. Mater. Sci. 38 (2003) 1; K_Ic 0.1 MPa m^1/2"),

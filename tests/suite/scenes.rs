@@ -183,6 +183,7 @@ scenes! {
     lifting_cylinder_to_its_end: "paper/fig17_lifting_cylinder.toml" [small];
     mach_diamond_to_its_end: "paper/fig18_mach_diamond_2d.toml" [small] takes "20 s";
     perforated_plate: "demos/perforated_plate_2d.toml" [small] takes "62 s";
+    ice_ball: "demos/ice_ball_2d.toml" [small] takes "60 s";
     glass_front: "demos/glass_front_2d.toml" takes "47 s";
     sonic_boom: "demos/sonic_boom_2d.toml" takes "54 s";
     shaped_cavity: "demos/shaped_cavity_2d.toml" takes "60 s";

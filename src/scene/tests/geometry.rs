@@ -359,6 +359,15 @@ fn obstacles_thinner_than_a_cell_are_told() {
     assert_eq!(lost(thick, "cells"), None);
 }
 
+/// Rows that all have as many cells near a wall must not hide what lies in them.
+#[test]
+fn a_long_wall_at_a_side_is_not_told() {
+    let cell = 2.0 / 1600.0;
+    let wall = format!("box = {{ center = [{}, 0.5], size = [{}, 1.0] }}", 2.0 - 1.5 * cell, 3.0 * cell);
+    let text = format!("{BASE}[[obstacles]]\nname = \"o\"\nshape = {{ {wall} }}\n");
+    assert_eq!(parse(&text, &["domain.cells=[1600, 800]"]).thin_obstacles(), []);
+}
+
 /// An outlet keeps the gas of the start beyond it, while a stream along it may become another one.
 #[test]
 fn outlets_along_changing_streams_are_told() {

@@ -20,6 +20,8 @@ const LOST: f64 = 0.01;
 const FINE: [u32; 3] = [16, 8, 4];
 /// Relative error of a thickness.
 const EXACT: f64 = 0.01;
+/// 2^64 over the golden ratio: high bits of its multiples are spread evenly.
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 /// Steps from a point to the deepest place near it, at most.
 const STEPS: usize = 60;
 
@@ -78,7 +80,11 @@ impl Scene {
             let place = |o: &[f64; 3]| std::array::from_fn(|d| center[d] + o[d] * self.domain.spacing());
             offsets.iter().map(place).filter(|point| shape.distance(*point) < 0.0).collect::<Vec<[f64; 3]>>()
         };
-        let points: Vec<_> = near.par_iter().step_by(stride).flat_map_iter(points_in).collect();
+        // one cell of each stretch, from no fixed place: a row has as many cells as the next one
+        let shifted = |k: usize| k * stride + ((k as u64).wrapping_mul(GOLDEN) >> 33) as usize % stride;
+        let chosen = (0..near.len().div_ceil(stride)).map(shifted).filter(|&k| k < near.len());
+        let points: Vec<_> =
+            chosen.collect::<Vec<_>>().into_par_iter().flat_map_iter(|k| points_in(&near[k])).collect();
         let looked_at: Vec<_> = points.iter().step_by(points.len().div_ceil(POINTS).max(1)).collect();
         // beside what the cells hold a stair may leave points out: what counts is the middle between the surfaces
         let middles = looked_at.iter().map(|point| self.middle_near(shape, **point));
