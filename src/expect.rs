@@ -170,6 +170,28 @@ impl Budget {
         }
     }
 
+    /// What differs from another one.
+    #[must_use]
+    pub fn over(&self, other: &Self) -> Self {
+        self.plus(other, -1.0)
+    }
+
+    /// With so many times another one; place and least entropy stay.
+    #[must_use]
+    pub fn plus(&self, other: &Self, times: f64) -> Self {
+        let sum = |own: f64, other: f64| own + times * other;
+        Self {
+            gas_mass: sum(self.gas_mass, other.gas_mass),
+            gas_mass_with_crossed: sum(self.gas_mass_with_crossed, other.gas_mass_with_crossed),
+            solid_mass: sum(self.solid_mass, other.solid_mass),
+            energy: sum(self.energy, other.energy),
+            momentum: std::array::from_fn(|axis| sum(self.momentum[axis], other.momentum[axis])),
+            gas_budget: std::array::from_fn(|part| sum(self.gas_budget[part], other.gas_budget[part])),
+            particles: sum(self.particles as f64, other.particles as f64) as u64,
+            ..*self
+        }
+    }
+
     /// Relative change since `start`.
     pub fn drift_since(&self, start: &Self) -> BTreeMap<String, f64> {
         let relative = |now: f64, then: f64| if then == 0.0 { 0.0 } else { (now - then) / then };

@@ -5,6 +5,7 @@ mod charges;
 mod elastic;
 mod fault;
 mod history;
+mod joined;
 mod least_step;
 mod live;
 mod pace;
@@ -27,6 +28,7 @@ use crate::stage::{
 use crate::state::constants::NO_FAULT;
 use crate::state::{Control, Phase, State};
 pub use charges::Released;
+pub use joined::place_taken;
 use least_step::LeastStep;
 pub use live::Blast;
 use live::ByHand;

@@ -16,6 +16,7 @@ pub(super) fn view(options: Option<&ViewOptions>, cli: &Cli) -> Result<()> {
         name: scene.scene.clone(),
         changes: super::scenes::changes(scene, &[]),
         resolution: scene.resolution,
+        ..Request::default()
     });
     if let Some(request) = &request {
         // Mistakes are told here, where they were made.

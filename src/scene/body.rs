@@ -51,6 +51,9 @@ pub struct Body {
     /// A prescribed motion of the clamped part, or of the whole body where nothing is clamped.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,
+    /// Whether it has joined the scene at work: it takes the place of no body at the start, and none takes its place.
+    #[serde(skip)]
+    pub joined: bool,
 }
 
 /// Where the particles of a body lie at the start.

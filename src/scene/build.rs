@@ -255,6 +255,7 @@ impl Body {
             clamped: None,
             cracks: Vec::new(),
             motion: None,
+            joined: false,
         }
     }
 

@@ -182,7 +182,7 @@ impl Simulation {
     }
 
     /// The buffers that carry the state, by names that are unique.
-    fn carried(&self) -> Vec<(String, &Allocation)> {
+    pub(super) fn carried(&self) -> Vec<(String, &Allocation)> {
         let mut named: Vec<(String, &Allocation)> = Vec::new();
         for buffer in self.buffers.iter().filter(|buffer| carries(&buffer.label)) {
             let label = buffer.label.replace(' ', "_");

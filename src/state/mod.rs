@@ -133,8 +133,13 @@ impl State {
                 *own = beyond;
             }
         }
-        [self.params.least_entropy, self.params.species_least_entropy] =
-            gas::least_entropies(scene, self.start_entropy);
+        self.keep_entropy(scene, self.start_entropy);
+    }
+
+    /// Takes the least entropies of another start.
+    pub(crate) fn keep_entropy(&mut self, scene: &Scene, start: [f64; 2]) {
+        self.start_entropy = start;
+        [self.params.least_entropy, self.params.species_least_entropy] = gas::least_entropies(scene, start);
     }
 
     /// Fills buffers from a scene.

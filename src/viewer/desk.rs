@@ -33,6 +33,8 @@ pub(super) struct Desk {
     outbox: Arc<Mutex<Outbox>>,
     gpu: Option<Gpu>,
     session: Option<Session>,
+    /// Its scene as the window knows it.
+    told: Option<Arc<Scene>>,
     /// Where screenshots and recordings of the scene go.
     folder: PathBuf,
     /// Where scenes are saved, and the beginning of their names.
@@ -73,6 +75,7 @@ impl Desk {
             outbox,
             gpu: None,
             session: None,
+            told: None,
             folder: PathBuf::from(OUT),
             saved: (PathBuf::from(OUT), String::new()),
             look: None,
@@ -154,6 +157,7 @@ impl Desk {
             Command::Change(scene) => self.change(*scene),
             Command::Rewind(time) => self.rewind(time),
             Command::Detonate(strike) => self.strike(&strike),
+            Command::Add(at, addition) => self.add(at, &addition),
             Command::Hold(at) => self.hold(at),
             Command::Lead(at) => {
                 self.lead(at);
@@ -227,7 +231,7 @@ impl Desk {
             device: gpu.info.name.clone(),
             software: gpu.is_software(),
         });
-        self.look = Some(look);
+        (self.look, self.told) = (Some(look), Some(Arc::clone(session.scene())));
         self.session = Some(session);
         (self.phase, self.replay) = (Phase::Ready, request.run().is_some());
         (self.stale, self.budget, self.rate) = (true, Budget::default(), Rate::default());
@@ -325,7 +329,6 @@ impl Desk {
         self.replay = false;
         session.change(scene, &mut self.records)?;
         self.stale = true;
-        lock(&self.outbox).changed = Some(Arc::clone(session.scene()));
         Ok(())
     }
 
@@ -366,6 +369,7 @@ impl Desk {
             playing: self.playing,
             replay: self.replay,
             finished: session.is_some_and(Session::finished),
+            particles: session.map_or(0, Session::particles),
             time: session.map_or(0.0, Session::time),
             step: session.map_or(0, Session::step_count),
             steps_per_second: if self.playing { self.rate.value() } else { 0.0 },
@@ -381,6 +385,11 @@ impl Desk {
         };
         let mut outbox = lock(&self.outbox);
         outbox.status = status;
+        let scene = session.map(Session::scene);
+        if let Some(scene) = scene.filter(|scene| self.told.as_ref().is_some_and(|told| !Arc::ptr_eq(told, scene))) {
+            outbox.changed = Some(Arc::clone(scene));
+            self.told = outbox.changed.clone();
+        }
         outbox.records.append(&mut self.records);
     }
 }

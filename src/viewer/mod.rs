@@ -4,8 +4,9 @@
 //! interface and nothing else. So the window answers however long a step takes, and outlives a lost device. It shows the bytes of
 //! [`crate::render::Picture`]s: what is seen is what `run` writes.
 //!
-//! What can be tested without a window knows none: [`session`], [`camera`], [`pick`], [`budget`], [`charge`], [`hold`], [`keys`].
+//! What can be tested without a window knows none: [`session`], [`adding`], [`camera`], [`pick`], [`budget`], [`charge`], [`hold`], [`keys`].
 
+pub mod adding;
 mod app;
 mod bars;
 mod browse;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::adding::{Added, Addition};
 use super::past;
 use crate::Result;
 use crate::diagnostics::StepRecord;
@@ -10,7 +11,7 @@ use crate::render::Picture;
 use crate::scene::{Camera, Changes, Field, RenderSettings, SMALL, Scene};
 
 /// A scene to open: file or name of a shipped one, and what to change about it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// Path of a scene file, name of a shipped scene, or folder of a run.
     pub name: String,
@@ -18,6 +19,8 @@ pub struct Request {
     pub changes: Changes,
     /// Cells along the longest axis, if not the scene's own.
     pub resolution: Option<u32>,
+    /// Bodies that were added in the window.
+    pub added: Added,
 }
 
 impl Request {
@@ -36,10 +39,11 @@ impl Request {
             return past::of_run(run, &self.changes).map(|recorded| recorded.scene);
         }
         let scene = Scene::find(&self.name, &self.changes)?;
-        match self.resolution {
-            Some(cells) => scene.with_resolution(cells),
-            None => Ok(scene),
-        }
+        let scene = match self.resolution {
+            Some(cells) => scene.with_resolution(cells)?,
+            None => scene,
+        };
+        self.added.to(scene)
     }
 
     /// The same at its small size, if it has one and is not that.
@@ -140,6 +144,8 @@ pub enum Command {
     Rewind(f64),
     /// Set energy free at a point of the picture.
     Detonate(Strike),
+    /// Add a body where a place of the picture is, in shares of its width and height from the top left corner.
+    Add([f64; 2], Box<Addition>),
     /// Hold the body at a place of the picture, in shares of its width and height from the top left corner.
     Hold([f64; 2]),
     /// Lead the body that is held to a place of the picture.
@@ -187,6 +193,8 @@ pub struct Status {
     pub replay: bool,
     /// Whether the end of the scene's run is reached.
     pub finished: bool,
+    /// Number of particles at the start, with those of bodies that were added.
+    pub particles: u64,
     /// Simulated time \[s\].
     pub time: f64,
     /// Steps done.

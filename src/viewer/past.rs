@@ -46,13 +46,15 @@ pub(super) struct Kept {
     pub(super) step: u64,
     /// What the steps up to it amount to.
     pub(super) summary: Summary,
+    /// Bodies that had joined the scene.
+    pub(super) joined: usize,
     place: Place,
 }
 
 impl Kept {
     /// A state in memory.
-    pub(super) fn of(saved: Saved, summary: Summary) -> Self {
-        Self { time: saved.time, step: saved.step, summary, place: Place::Memory(Box::new(saved)) }
+    pub(super) fn of(saved: Saved, summary: Summary, joined: usize) -> Self {
+        Self { time: saved.time, step: saved.step, summary, joined, place: Place::Memory(Box::new(saved)) }
     }
 
     /// The state, of at most so many bytes.
@@ -216,13 +218,15 @@ pub(super) fn of_run(run: &Path, changes: &Changes) -> Result<Recorded> {
         let About { host, summary, start_budget } =
             toml::from_str(&about).map_err(|error| Error::spoilt(&path, error))?;
         start = Some(start_budget);
-        kept.push(Kept { time: own.time, step, summary, place: Place::File(path, Box::new(host)) });
+        let place = Place::File(path, Box::new(host));
+        kept.push(Kept { time: own.time, step, summary, joined: 0, place });
     }
     let earlier = earlier.into_iter().map(|(_, path)| path);
     for path in light.into_iter().map(|(_, path)| path).chain(earlier) {
         let (own, _) = container::read_texts(&path)?;
         if kept.iter().all(|other: &Kept| other.step != own.step) {
-            kept.push(Kept { time: own.time, step: own.step, summary: Summary::default(), place: Place::Light(path) });
+            let (summary, place) = (Summary::default(), Place::Light(path));
+            kept.push(Kept { time: own.time, step: own.step, summary, joined: 0, place });
         }
     }
     kept.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -234,7 +238,7 @@ mod tests {
     use super::*;
 
     fn at(time: f64) -> Kept {
-        Kept::of(Saved { time, step: time as u64, host: Host::default(), arrays: Vec::new() }, Summary::default())
+        Kept::of(Saved { time, step: time as u64, host: Host::default(), arrays: Vec::new() }, Summary::default(), 0)
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! One open scene: simulation and renderer on one device. No thread and no window: tests drive it as the worker does.
 
 mod hand;
+mod joins;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,6 +18,7 @@ use crate::simulation::{Saved, Simulation};
 use crate::state::MemoryPlan;
 use crate::{Error, Result};
 use hand::Held;
+use joins::Joins;
 
 /// Time to run towards when the end of the scene's run has been passed \[s\].
 const NEVER: f64 = 1e30;
@@ -46,6 +48,16 @@ pub struct Session {
     held: Option<Held>,
     /// Bodies that pictures leave out.
     hidden: Vec<usize>,
+    /// Bodies that have joined the scene.
+    joins: Joins,
+}
+
+/// A state that was read: what the steps up to it amount to, where it lay, how many bodies had joined.
+struct Read {
+    state: Found,
+    summary: Summary,
+    path: Option<PathBuf>,
+    joined: usize,
 }
 
 impl Session {
@@ -72,7 +84,7 @@ impl Session {
             // a branch of another run begins later, from a state that is not here
             None if begins => {
                 let saved = session.simulation.save()?;
-                session.past.keep(Kept::of(saved, Summary::default()));
+                session.past.keep(Kept::of(saved, Summary::default(), 0));
             }
             None => {}
         }
@@ -109,6 +121,7 @@ impl Session {
             touched,
             held,
             hidden,
+            joins: Joins::default(),
         })
     }
 
@@ -170,7 +183,7 @@ impl Session {
     /// [`Error::Diverged`]; driver errors.
     pub fn advance(&mut self, steps: u32, records: &mut Vec<StepRecord>) -> Result<()> {
         self.whole()?;
-        self.past.forget_after(self.time());
+        self.forget_later();
         let before = records.len();
         self.pull(records)?;
         let outcome = self.simulation.advance_batch_of(records, steps);
@@ -191,7 +204,7 @@ impl Session {
 
     fn keep_this(&mut self) -> Result<()> {
         let saved = self.simulation.save()?;
-        self.past.keep(Kept::of(saved, self.summary.clone()));
+        self.past.keep(Kept::of(saved, self.summary.clone(), self.joins.now()));
         Ok(())
     }
 
@@ -229,14 +242,16 @@ impl Session {
     }
 
     /// A state that is kept; one of an earlier program may have more arrays than this one asks for.
-    fn read(&self, kept: &Kept) -> Result<(Found, Summary, Option<PathBuf>)> {
+    fn read(&self, kept: &Kept) -> Result<Read> {
         let most = 2 * self.simulation.saved_bytes().max(self.most_light());
-        Ok((kept.state(most)?, kept.summary.clone(), kept.path()))
+        let (state, summary, path) = (kept.state(most)?, kept.summary.clone(), kept.path());
+        Ok(Read { state, summary, path, joined: kept.joined })
     }
 
     /// Takes a state from where it lay.
-    fn take(&mut self, (state, summary, path): (Found, Summary, Option<PathBuf>)) -> Result<()> {
+    fn take(&mut self, Read { state, summary, path, joined }: Read) -> Result<()> {
         (self.touched, self.held) = (false, None);
+        self.be_joined_by(joined)?;
         let taken = match state {
             Found::Whole(saved) => self.set(&saved, summary),
             Found::Light(stored) => self.show(&stored),

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Align2, Event, Panel as EguiPanel, RichText, Ui as EguiUi};
 
+use super::adding::Added;
 use super::bars;
 use super::browse::Browse;
 use super::gallery::Gallery;
@@ -159,7 +160,15 @@ impl Ui {
     /// Opens the scene again from its start, with the look that it has in the window.
     fn restart(&mut self) {
         let look = self.view.as_ref().map(|view| view.look.clone());
-        if let Some(request) = self.request.clone() {
+        if let Some(mut request) = self.request.clone() {
+            if let Some(view) = &mut self.view {
+                let clear = std::mem::take(&mut view.panel.adding.clear);
+                request.added = if clear { Added::default() } else { request.added.of(&view.scene) };
+                if let Err(error) = if request.added.bodies.is_empty() { Ok(()) } else { request.load().map(|_| ()) } {
+                    self.notes.push((Instant::now(), Note { weight: Weight::Wrong, text: error.to_string() }));
+                    return;
+                }
+            }
             self.play_when_open = self.status.playing || self.view.is_none();
             self.open(request, look);
         }
@@ -217,6 +226,9 @@ impl Ui {
         self.ask_for_path(root);
         if self.help {
             help::show(root.ctx(), &mut self.help);
+        }
+        if self.view.as_ref().is_some_and(|view| view.panel.adding.clear) {
+            self.restart();
         }
         if let Some(view) = &mut self.view {
             self.pace = view.pace;

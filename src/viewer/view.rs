@@ -1,10 +1,12 @@
 //! The page of an open scene: the picture, what the mouse does to it, and what is asked of the worker.
 
+mod mouse;
+
 use std::cmp::Ordering;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use egui::{ColorImage, Event, Pos2, Rect, Response, Sense, TextureHandle, TextureOptions, Ui, Vec2};
+use egui::{ColorImage, Pos2, Rect, Response, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 
 use super::camera;
 use super::charge::Charge;
@@ -12,7 +14,7 @@ use super::click::{self, Change, Click};
 use super::grab::Grab;
 use super::history::History;
 use super::keys::Action;
-use super::model::{Command, Look, Opened, Outbox, Pace, Shown, Spot, Status, Strike};
+use super::model::{Command, Look, Opened, Outbox, Pace, Phase, Shown, Spot, Status, Strike};
 use super::panel::{Panel, Picked, amount};
 use super::theme;
 use crate::math::plain;
@@ -113,13 +115,34 @@ impl View {
             self.stages = stages;
         }
         if let Some(scene) = outbox.changed {
-            self.scene = scene;
-            self.panel.body.settle();
+            self.change_to(scene);
+        }
+        if outbox.status.phase == Phase::Ready {
+            self.opened.particles = outbox.status.particles;
         }
         if let Some(shown) = outbox.shown {
             self.shown = Some(shown);
             self.texture = None;
         }
+    }
+
+    /// The scene is another one: of bodies that have joined it the numbers of the file are those that they joined with.
+    fn change_to(&mut self, scene: Arc<Scene>) {
+        let (count, known) = (scene.bodies.len(), self.opened.scene.bodies.len());
+        if count != known {
+            let file = Arc::make_mut(&mut self.opened.scene);
+            file.bodies.truncate(count);
+            file.bodies.extend(scene.bodies.iter().skip(known).cloned());
+            for (name, material) in &scene.materials {
+                file.materials.entry(name.clone()).or_insert_with(|| material.clone());
+            }
+        }
+        if self.panel.body.body.is_some_and(|body| body >= count) {
+            self.panel.body = Picked::of(None);
+        }
+        self.hidden.retain(|body| *body < count);
+        self.panel.body.settle();
+        self.scene = scene;
     }
 
     /// A body that was clicked on is picked; a click on gas sets a probe, one on a probe takes it away.
@@ -273,44 +296,6 @@ impl View {
         ui.painter().image(texture.id(), target, whole, egui::Color32::WHITE);
     }
 
-    fn mouse(&mut self, ui: &Ui, response: &Response, place: Rect) {
-        let (modifiers, scroll) = ui.input(|input| (input.modifiers, input.smooth_scroll_delta.y));
-        let height = f64::from(place.height().max(1.0));
-        let struck = modifiers.command || clicked_with_command(ui) || self.panel.detonates;
-        self.commands.extend(self.grab.hear(ui, response, place, !struck));
-        self.grab.paint(ui, place, self.held);
-        if self.dimension() > 1 {
-            let may = !struck && !modifiers.shift;
-            self.commands.extend(self.click.hear(ui, response, place, may));
-        }
-        if response.dragged() && !struck && !self.grab.holds() {
-            let delta = response.drag_delta();
-            let drag = [f64::from(delta.x) / height, f64::from(delta.y) / height];
-            if drag != [0.0; 2] {
-                let turns = response.dragged_by(egui::PointerButton::Primary) && !modifiers.shift;
-                if turns && self.dimension() == 3 {
-                    self.move_camera(|camera| camera::orbit(camera, drag));
-                } else {
-                    self.move_camera(|camera| camera::pan(camera, drag));
-                }
-            }
-        }
-        let Some(pointer) = response.hover_pos() else { return };
-        let middle = place.center();
-        if response.hovered() && scroll != 0.0 {
-            let at = [f64::from(pointer.x - middle.x) / height, f64::from(pointer.y - middle.y) / height];
-            let notches = f64::from(scroll / POINTS_PER_NOTCH);
-            self.move_camera(|camera| camera::zoom(camera, notches, at));
-        }
-        if response.double_clicked() && !struck {
-            self.fit();
-        }
-        self.detonate(ui, response, place, struck.then_some(pointer));
-        if struck && response.hovered() {
-            ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
-        }
-    }
-
     /// Where the pointer rests, asks what lies there, and shows it beside the pointer.
     fn under_pointer(&mut self, ui: &Ui, response: &Response, place: Rect) {
         let (Some(pointer), Some(shown)) = (response.hover_pos().filter(|_| !response.dragged()), &self.shown) else {
@@ -332,30 +317,6 @@ impl View {
         lines.extend(spot.value.map(|value| format!("{}: {}", caption(shown.look.field), plain(value))));
         lines.extend(spot.body.clone());
         theme::tag(ui, pointer, &lines.join("\n"));
-    }
-
-    /// Charges a blast while the button is held over a place, and sets it off where it is let go.
-    fn detonate(&mut self, ui: &Ui, response: &Response, place: Rect, struck: Option<Pos2>) {
-        let (pressed, released) = ui.input(|input| (input.pointer.primary_pressed(), input.pointer.primary_released()));
-        if pressed && struck.is_some() && response.contains_pointer() {
-            self.charge.begin();
-        }
-        let source = self.panel.blast.source();
-        if let (Some(grown), Some(pointer)) = (self.charge.now().filter(|grown| *grown > 1.0), response.hover_pos()) {
-            let text = amount(source.times(grown), self.scene.domain.axes());
-            theme::tag(ui, pointer, &text);
-        }
-        if self.charge.now().is_some() {
-            ui.ctx().request_repaint();
-        }
-        // Press and release may come in one frame, and Ctrl may be up by then.
-        let grown = if released { self.charge.end() } else { None };
-        let clicked = struck.filter(|_| response.clicked()).map(|_| 1.0);
-        if let (Some(grown), Some(pointer)) = (grown.or(clicked), response.hover_pos()) {
-            let share = (pointer - place.min) / place.size();
-            let at = [f64::from(share.x), f64::from(share.y)];
-            self.commands.push(Command::Detonate(Strike { at, source: source.times(grown) }));
-        }
     }
 
     /// Tells the worker what pictures should show, when that changes.
@@ -382,12 +343,4 @@ impl View {
         let settings = RenderSettings { size: self.look.settings.size, ..self.opened.scene.own_look() };
         self.look = Look { field: self.opened.look.field, settings };
     }
-}
-
-/// Whether Ctrl was held at a click of this frame; it may be up again by now.
-fn clicked_with_command(ui: &Ui) -> bool {
-    ui.input(|input| {
-        let held = |event: &Event| matches!(event, Event::PointerButton { modifiers, .. } if modifiers.command);
-        input.events.iter().any(held)
-    })
 }

@@ -34,6 +34,8 @@ mod gpu;
 mod hand;
 mod hardware;
 mod images;
+#[cfg(feature = "viewer")]
+mod joins;
 mod kernels;
 mod keys;
 mod launches;

@@ -154,7 +154,9 @@ impl Scene {
         let mut found = Vec::new();
         for (index, body) in self.bodies.iter().enumerate() {
             let obstacles = self.obstacles.iter().map(|obstacle| (&obstacle.name, &obstacle.shape));
-            let before = obstacles.chain(self.bodies[..index].iter().map(|other| (&other.name, &other.shape)));
+            let of_start = |other: &&Body| !body.joined && !other.joined;
+            let others = self.bodies[..index].iter().filter(of_start).map(|other| (&other.name, &other.shape));
+            let before = obstacles.chain(others);
             for (by, other) in before.filter(|(_, other)| touch(&body.shape, other)) {
                 let share = self.common_share(body, other);
                 if share > 0.0 {
@@ -189,7 +191,8 @@ impl Scene {
     fn claim(&self, index: usize) -> Claim<'_> {
         let body = &self.bodies[index];
         let obstacles = self.obstacles.iter().map(|obstacle| &obstacle.shape);
-        let before = obstacles.chain(self.bodies[..index].iter().map(|body| &body.shape));
+        let of_start = |other: &&Body| !body.joined && !other.joined;
+        let before = obstacles.chain(self.bodies[..index].iter().filter(of_start).map(|body| &body.shape));
         Claim { body, before: before.filter(|shape| touch(&body.shape, shape)).collect() }
     }
 

@@ -1,5 +1,6 @@
 //! What the mouse does to the scene: blasts, and bodies that are held and let go.
 
+use super::super::adding::Addition;
 use super::super::model::{Strike, Weight};
 use super::super::worker::lock;
 use super::Desk;
@@ -14,6 +15,16 @@ impl Desk {
         (self.stale, self.news) = (true, true);
         let place = place.map(plain)[..session.scene().domain.axes()].join(", ");
         self.note(Weight::Fine, format!("{} J at ({place}) m", plain(energy)));
+        Ok(())
+    }
+
+    /// Adds a body to the scene as it stands.
+    pub(super) fn add(&mut self, at: [f64; 2], addition: &Addition) -> Result<()> {
+        let (Some(session), Some(look)) = (&mut self.session, &self.look) else { return Ok(()) };
+        let (name, place) = session.add(at, addition, look, &mut self.records)?;
+        (self.replay, self.stale, self.news) = (false, true, true);
+        let place = place.map(short)[..session.scene().domain.axes()].join(", ");
+        self.note(Weight::Fine, format!("`{name}` of {} at ({place}) m; Left takes it back", addition.material));
         Ok(())
     }
 
@@ -40,11 +51,15 @@ impl Desk {
         let Some(session) = &mut self.session else { return Ok(()) };
         if let Some(thrown) = session.let_go(&mut self.records)? {
             let axes = session.scene().domain.axes();
-            let short = |value: f64| plain(format!("{value:.2e}").parse().unwrap_or(value));
             let thrown = thrown.map(short)[..axes].join(", ");
             (self.stale, self.news) = (true, true);
             self.note(Weight::Fine, format!("thrown with a momentum of ({thrown}) kg m/s"));
         }
         Ok(())
     }
+}
+
+/// A number with three digits.
+fn short(value: f64) -> String {
+    plain(format!("{value:.2e}").parse().unwrap_or(value))
 }

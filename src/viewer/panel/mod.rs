@@ -1,5 +1,6 @@
 //! The panel beside the picture: look, blast, parameters, plots, stages, camera, scene.
 
+pub(super) mod add;
 mod body;
 mod camera;
 mod curve;
@@ -10,8 +11,9 @@ pub(super) mod plots;
 
 use std::sync::Arc;
 
-use egui::{CollapsingHeader, DragValue, Grid, RichText, ScrollArea, Ui};
+use egui::{CollapsingHeader, DragValue, Grid, RichText, ScrollArea, Slider, Ui};
 
+use super::adding::AIR;
 use super::model::{Command, Source, Status};
 use super::theme;
 use super::view::View;
@@ -39,12 +41,11 @@ pub(super) struct Panel {
     measures: bool,
     /// The body that was picked.
     pub(super) body: Picked,
+    /// The body that clicks add.
+    pub(super) adding: add::Adding,
     /// A probe was set, and its curve is to be seen.
     pub(super) probe_is_new: bool,
 }
-
-/// Pressures of air \[Pa\] in scenes in kg, m and s.
-const AIR: std::ops::Range<f64> = 1e3..1e7;
 
 /// What a click sets off: a mass of TNT \[kg\], or an energy \[J\] within a radius \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +55,8 @@ pub(super) struct Numbers {
     mass: f64,
     /// Whether it is the mass that counts.
     by_mass: bool,
+    /// Energy and mass at first.
+    first: [f64; 2],
 }
 
 impl Numbers {
@@ -67,8 +70,9 @@ impl Numbers {
         let energy = BLAST * scene.gas.ambient.pressure / (scene.gas.gamma - 1.0) * volume;
         // Two digits are enough to begin with.
         let digit = 10.0_f64.powf(energy.log10().floor() - 1.0);
-        let mass = (energy / digit).round() * digit / TNT;
-        Self { energy: (energy / digit).round() * digit, radius, mass, by_mass: !scene.charges.is_empty() }
+        let energy = (energy / digit).round() * digit;
+        let mass = energy / TNT;
+        Self { energy, radius, mass, by_mass: !scene.charges.is_empty(), first: [energy, mass] }
     }
 
     /// What a click sets off.
@@ -87,6 +91,7 @@ impl Panel {
             range: look::Range::of(&scene.render),
             measures: false,
             body: Picked::default(),
+            adding: add::Adding::of(scene),
             probe_is_new: false,
         }
     }
@@ -94,6 +99,7 @@ impl Panel {
     /// Takes over what stays when a scene starts again.
     pub(super) fn keep(&mut self, old: Self) {
         (self.open, self.measures) = (old.open, old.measures);
+        self.adding.armed = old.adding.armed;
     }
 
     /// Whether the stages of steps are measured.
@@ -115,6 +121,7 @@ pub(super) fn show(ui: &mut Ui, view: &mut View, status: &Status) {
             section(ui, "Body", true, |ui| body::show(ui, view));
         }
         if view.dimension() > 1 {
+            section(ui, "Add a body", true, |ui| add::show(ui, view));
             section(ui, "Planes and lines", false, |ui| extras::planes_and_lines(ui, view));
         }
         if view.dimension() == 3 {
@@ -180,20 +187,38 @@ fn detonate(ui: &mut Ui, view: &mut View) {
         ui.checkbox(&mut blast.by_mass, "TNT by mass").on_hover_text("for scenes in kg, m and s");
     }
     rows(ui, "blast", |ui| {
+        let [energy, mass] = blast.first;
         if blast.by_mass {
             ui.label("TNT");
-            ui.add(positive(&mut blast.mass, &format!("kg{per}")));
+            amount_of(ui, &mut blast.mass, mass, &format!("kg{per}"));
             ui.end_row();
             return;
         }
         ui.label("energy");
-        ui.add(positive(&mut blast.energy, &format!("J{per}")));
+        amount_of(ui, &mut blast.energy, energy, &format!("J{per}"));
         ui.end_row();
         ui.label("radius");
         ui.add(positive(&mut blast.radius, "m"));
         ui.end_row();
     });
     ui.checkbox(&mut view.panel.detonates, "a click detonates").on_hover_text("Ctrl+click always does");
+}
+
+/// What sliders of a blast reach, over what it is at first.
+const REACH: [f64; 2] = [1e-2, 1e3];
+
+/// A slider from a hundredth to a thousand times the first value, and the number, which may be typed and lie beyond.
+fn amount_of(ui: &mut Ui, value: &mut f64, first: f64, unit: &str) {
+    ui.horizontal(|ui| {
+        let mut share = *value / first;
+        let slider = Slider::new(&mut share, REACH[0]..=REACH[1]).logarithmic(true).show_value(false);
+        if ui.add(slider.clamping(egui::SliderClamping::Never)).changed() {
+            // three digits are enough
+            let digit = 10.0_f64.powf((share * first).log10().floor() - 2.0);
+            *value = (share * first / digit).round() * digit;
+        }
+        ui.add(positive(value, unit));
+    });
 }
 
 fn times(ui: &mut Ui, view: &mut View, status: &Status) {

@@ -53,11 +53,11 @@ impl Session {
     }
 
     /// Keeps the state before it is changed by hand, so that there is a way back to it.
-    fn keep_before(&mut self, records: &mut Vec<StepRecord>) -> Result<()> {
+    pub(super) fn keep_before(&mut self, records: &mut Vec<StepRecord>) -> Result<()> {
         let before = records.len();
         self.simulation.settle(records)?;
         self.note(&records[before..]);
-        self.past.forget_after(self.time());
+        self.forget_later();
         if self.past.has(self.time(), self.step_count()) { Ok(()) } else { self.keep_this() }
     }
 
@@ -67,7 +67,7 @@ impl Session {
     }
 
     /// The line of sight through a place of a picture, in shares of its width and height.
-    fn ray(&self, at: [f64; 2], look: &Look) -> Ray {
+    pub(super) fn ray(&self, at: [f64; 2], look: &Look) -> Ray {
         let [width, height] = look.settings.size.map(f64::from);
         self.renderer.ray(&look.settings, self.time(), [at[0] * width, at[1] * height])
     }
@@ -172,7 +172,7 @@ impl Session {
     }
 
     /// The particles of bodies that are not hidden.
-    fn seen(&self) -> Result<Vec<ParticleSample>> {
+    pub(super) fn seen(&self) -> Result<Vec<ParticleSample>> {
         let mut particles = self.simulation.snapshot()?.particles;
         particles.retain(|particle| !self.hidden.contains(&(particle.body as usize)));
         Ok(particles)
