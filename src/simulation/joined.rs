@@ -130,6 +130,8 @@ impl Simulation {
             let mut words = array.words.clone();
             let length = buffer.bytes as usize / 4;
             match name {
+                // of gas alone the marks of the ring are others
+                "cells" if alone => continue,
                 "cells" => covered.iter().for_each(|(slot, word)| words[*slot] = *word),
                 "conserved" | "energy" | "owed_flow" | "owed_energy" => {
                     let width = if name.ends_with("flow") || name == "conserved" { 4 } else { 1 };
