@@ -21,7 +21,7 @@ use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::snapshot::{Snapshot, kind};
 use crate::state::Grid;
-use crate::state::cut::gas_shares;
+use crate::state::cut;
 
 /// What must stay constant without driven parts: everything inside plus what has crossed the boundary.
 /// Summed on the CPU in double precision, so that the sum itself loses nothing.
@@ -73,7 +73,8 @@ impl Budget {
         let cells = readback::read(gpu, &state.interface.cells)?;
         let owed = readback::read(gpu, &state.gas.owed_flow)?;
         let owed_energy = readback::read(gpu, &state.gas.owed_energy)?;
-        let shares = gas_shares(&state.grid, &scene.cut_geometry());
+        let geometry = cut::left(&state.grid, scene.cut_geometry(), &cells, state.has_solids());
+        let shares = cut::gas_shares(&state.grid, &geometry);
         let mut budgets = owed.iter().zip(&owed_energy);
         let everywhere = owed.len() == cells.len();
         let mut budget = Self {

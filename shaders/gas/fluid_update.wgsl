@@ -81,7 +81,7 @@ fn push_listed(slot: u32) {
     let kind = kind_of(cells[slot]);
     if kind == SOLID { return; }
     let c = cell_of(slot);
-    if kind == GAS && beside_obstacle(cells[slot]) {
+    if kind == GAS && beside_obstacle(slot, cells[slot]) {
         conserved[slot] += vec4f(0.0, cut_impulse(slot) * control.dt / params.spacing);
         return;
     }

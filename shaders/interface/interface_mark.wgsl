@@ -41,6 +41,9 @@ fn blocked_fraction(volume: f32) -> f32 {
     return min(pi * pow(3.0 * volume / (4.0 * pi), 2.0 / 3.0) / (params.spacing * params.spacing), 1.0);
 }
 
+// Of gas, in scenes whose obstacles cut cells: below what marks a cut cell.
+const MOST_BLOCKED = 0.999;
+
 // After `interface_walls`.
 @compute @workgroup_size(WORKGROUP)
 fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
@@ -63,14 +66,16 @@ fn interface_kind(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
         }
     }
     let kind = select(GAS, SOLID, solid);
-    cells[slot] = word_with_blocked(kind | (before << 2u), blocked_fraction(max(fill[slot].x, wall)));
+    var blocked = blocked_fraction(max(fill[slot].x, wall));
+    // A cut cell is marked as what no particle makes of gas [whole_cells.wgsl].
+    if CUT && kind == GAS { blocked = select(min(blocked, MOST_BLOCKED), 1.0, is_cut(slot)); }
+    cells[slot] = word_with_blocked(kind | (before << 2u), blocked);
 }
 
-// Gas alone in the cell, and its state is its own.
-fn is_plain(slot: u32) -> bool {
-    if kind_of(cells[slot]) != GAS { return false; }
-    return !CUT || atomicLoad(&extra[slot]) == 0u;
-}
+fn is_cut(slot: u32) -> bool { return CUT && (atomicLoad(&extra[cut_place(slot)]) & ~CUT_NEAR) != 0u; }
+
+// No obstacle in the cell.
+fn is_plain(slot: u32) -> bool { return kind_of(cells[slot]) != WALL && !is_cut(slot); }
 
 // Whether no obstacle reaches the cells c + first .. c + last that lie inside.
 fn clear_of_obstacles(c: vec3i, first: i32, last: i32) -> bool {

@@ -9,6 +9,7 @@
 #include "shared/gas_at.wgsl"
 #include "interface/owed_species.wgsl"
 #include "interface/sides.wgsl"
+#include "interface/uncovered.wgsl"
 
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 @group(0) @binding(2) var<storage, read_write> conserved: array<vec4f>;
@@ -39,58 +40,24 @@ const IN_THE_OPEN = Bounds(-0.5, 0.3);
 // came without mass.
 const ENCLOSED = Bounds(0.25, 0.1);
 
-struct Sum { flow: vec4f, energy: f32, species: vec2f, count: f32 }
-
 // What a SOLID slot holds of the second gas. One that has just been covered has the volume fraction of its gas still.
 fn covered_species(slot: u32) -> vec2f {
     if SPECIES && previous_kind_of(cells[slot]) == GAS { return summed_species(gas_at(slot)); }
     return species_now(slot);
 }
 
-fn add_if_old_gas(sum: ptr<function, Sum>, c: vec3i) {
-    if !inside(c) { return; }
-    let slot = slot_of(c);
-    if previous_kind_of(cells[slot]) != GAS { return; }
-    (*sum).flow += conserved[slot];
-    (*sum).energy += energy[slot];
-    (*sum).species += summed_species(gas_at(slot));
-    (*sum).count += 1.0;
-}
-
-// Mean of the cells that were gas before: face neighbours, else the 3^DIM block, else the 5^DIM block.
-fn fill_from_neighbours(c: vec3i) -> Sum {
-    var sum: Sum;
-    for (var a = 0u; a < DIM; a++) {
-        add_if_old_gas(&sum, c - axis(a));
-        add_if_old_gas(&sum, c + axis(a));
-    }
-    if sum.count > 0.0 { return sum; }
-    for (var far = 1; far <= 2; far++) {
-        let r = far * reach();
-        for (var z = -r.z; z <= r.z; z++) {
-            for (var y = -r.y; y <= r.y; y++) {
-                for (var x = -r.x; x <= r.x; x++) { add_if_old_gas(&sum, c + vec3i(x, y, z)); }
-            }
-        }
-        if sum.count > 0.0 { return sum; }
-    }
-    return sum;
-}
-
-// A pocket with no gas around: gas at the ghost pressure, isentropic from the ambient state, moving with the solid.
-fn trapped_gas(c: vec3i, slot: u32) -> Gas {
-    var pressure = 0.0;
-    for (var k = 0u; k < corner_count(); k++) { pressure += ghost[slot_of(c + corner_offset(k))]; }
-    pressure = max(pressure / f32(corner_count()), 1e-3 * params.ambient_pressure);
-    let density = params.ambient_density * pow(pressure / params.ambient_pressure, 1.0 / gamma_of(params.ambient_volume));
-    return gas_from_primitive(density, node[slot].xyz, pressure, vec2f(density * params.ambient_share, params.ambient_volume), 0.0);
-}
-
 // At the start bodies cover no gas.
 @compute @workgroup_size(WORKGROUP)
 fn ledger_start(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = thread_index(group, lane);
-    if slot >= params.slots || kind_of(cells[slot]) != SOLID { return; }
+    if slot >= params.slots { return; }
+    // Nor do obstacles where bodies make them whole.
+    if CUT && kind_of(cells[slot]) == GAS {
+        owed_flow[slot] = vec4f(0.0);
+        owed_energy[slot] = 0.0;
+        owe_species(slot, vec2f(0.0));
+    }
+    if kind_of(cells[slot]) != SOLID { return; }
     conserved[slot] = vec4f(0.0);
     energy[slot] = 0.0;
     hold_species(slot, vec2f(0.0));
@@ -117,6 +84,9 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     hold_species(slot, filled.species);
 }
 
+// Whether an obstacle cuts a GAS cell, see whole_cells.wgsl: no body is near, and it takes nothing that others owe.
+fn is_cut(word: u32) -> bool { return CUT && kind_of(word) == GAS && !has(word, INTERIOR) && blocked_of(word) == 1.0; }
+
 fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
     var count = 0u;
     let slot = slot_of(c);
@@ -124,7 +94,8 @@ fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
         let a = face / 2u;
         let up = (face & 1u) == 1u;
         if !inside(select(c - axis(a), c + axis(a), up)) { continue; }
-        count += u32(kind_of(cells[select(slot - step_of(a), slot + step_of(a), up)]) == kind);
+        let word = cells[select(slot - step_of(a), slot + step_of(a), up)];
+        count += u32(kind_of(word) == kind && !is_cut(word));
     }
     return count;
 }
@@ -139,6 +110,7 @@ fn at_surface(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && neigh
 
 // Part of what it owes that a gas cell with so many gas neighbours settles now.
 fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
+    if is_cut(cells[slot]) { return 0.0; }
     let gas = Gas(conserved[slot], energy[slot], species_now(slot), unburned_at(slot));
     let before = internal_energy(gas);
     let all = with_part(gas, slot, 1.0);
@@ -238,7 +210,7 @@ fn incoming(slot: u32, kind: u32) -> Books {
         let other = select(slot + step_of(a), slot - step_of(a), up);
         let kind_there = kind_of(cells[other]);
         var takes = false;
-        if kind_there == GAS && kind == GAS { takes = followers(other) == 0u; }
+        if kind_there == GAS && kind == GAS { takes = followers(other) == 0u && !is_cut(cells[slot]); }
         if kind_there == GAS && kind == SOLID { takes = goes_on(other, a, up); }
         if kind_there == SOLID { takes = takes_from(slot, other, a, up, kind, surface); }
         if !takes { continue; }

@@ -110,11 +110,14 @@ fn is_still(slot: u32) -> bool {
 
 // Cut cells: the surface of an obstacle leaves gas in a part of them. Small parts share one state with a neighbour, their cluster:
 // what changes one of them changes all by the same amount. Mirror of src/state/cut.rs.
-// Without bodies the first block of extra holds the number of a slot's entry, counted from 1, and the table stands
-// behind the lists.
+// Without bodies the first block of extra holds the number of a slot's entry, counted from 1, and the table stands behind the lists. With bodies
+// the block stands before the table, behind the number of entries, and CUT_NEAR marks slots with an obstacle around them. Cells that a
+// body comes near have no entry any more [interface/whole_cells.wgsl].
+
+fn cut_number(slot: u32) -> u32 { return extra[cut_place(slot)]; }
 
 fn cut_entry(slot: u32) -> u32 {
-    if CUT { return extra[slot]; }
+    if CUT { return cut_number(slot) & ~CUT_NEAR; }
     return 0u;
 }
 
@@ -124,37 +127,32 @@ fn cut_vector(entry: u32, field: u32) -> vec3f {
     return vec3f(cut_value(entry, field), cut_value(entry, field + 1u), cut_value(entry, field + 2u));
 }
 
-// Gas in a GAS cell, and in all cells that share its state, in cells.
-fn gas_share(slot: u32) -> f32 {
+// A field of a slot, as bits; of one that is not cut another value.
+fn cut_field(slot: u32, field: u32, without: u32) -> u32 {
     let entry = cut_entry(slot);
-    if entry == 0u { return 1.0; }
-    return cut_value(entry, CUT_SHARE);
+    if entry == 0u { return without; }
+    return cut_word(entry, field);
 }
 
-fn cluster_share(slot: u32) -> f32 {
-    let entry = cut_entry(slot);
-    if entry == 0u { return 1.0; }
-    return cut_value(entry, CUT_CLUSTER_SHARE);
-}
+fn share_of(slot: u32, field: u32) -> f32 { return bitcast<f32>(cut_field(slot, field, bitcast<u32>(1.0))); }
+
+// Gas in a GAS cell, and in all cells that share its state, in cells.
+fn gas_share(slot: u32) -> f32 { return share_of(slot, CUT_SHARE); }
+fn cluster_share(slot: u32) -> f32 { return share_of(slot, CUT_CLUSTER_SHARE); }
 
 // The slots of a cluster in order, the same for each of them; NO_EXTRA after the last.
-fn cluster_first(slot: u32) -> u32 {
-    let entry = cut_entry(slot);
-    if entry == 0u { return slot; }
-    return cut_word(entry, CUT_FIRST);
-}
+fn cluster_first(slot: u32) -> u32 { return cut_field(slot, CUT_FIRST, slot); }
+fn cluster_next(slot: u32) -> u32 { return cut_field(slot, CUT_NEXT, NO_EXTRA); }
 
-fn cluster_next(slot: u32) -> u32 {
-    let entry = cut_entry(slot);
-    if entry == 0u { return NO_EXTRA; }
-    return cut_word(entry, CUT_NEXT);
-}
-
-// Open share of a face of a GAS cell.
+// Open share of a face of a GAS cell. A cell that is whole for a body's sake has the share of the cut cell beyond.
 fn aperture(slot: u32, n: u32, up: bool) -> f32 {
     let entry = cut_entry(slot);
-    if entry == 0u { return 1.0; }
-    return cut_value(entry, CUT_APERTURE + 2u * n + u32(up));
+    if entry != 0u { return cut_value(entry, CUT_APERTURE + 2u * n + u32(up)); }
+    if CUT && SOLIDS {
+        let beyond = cut_entry(slot_of(cell_of(slot) + select(-1, 1, up) * axis(n)));
+        if beyond != 0u { return cut_value(beyond, CUT_APERTURE + 2u * n + u32(!up)); }
+    }
+    return 1.0;
 }
 
 // Mean of the linear shape function of a corner of a face over the face's open part.

@@ -165,6 +165,9 @@ fn kind_of(word: u32) -> u32 { return word & 3u; }
 fn is_mixed(word: u32) -> bool {
     return has(word, NODE_GAS | NODE_SOLID) && !has(word, NODE_REGULAR) && !(SOLIDS && has(word, NODE_DEEP));
 }
+// Place of a slot's number among the cut cells, in extra: without bodies in the first block, else before the table [shared/domain.wgsl].
+fn cut_place(slot: u32) -> u32 { return select(slot, params.table_at + slot - part(1u, 0u), SOLIDS); }
+
 fn previous_kind_of(word: u32) -> u32 { return (word >> 2u) & 3u; }
 fn has(word: u32, flag: u32) -> bool { return (word & flag) != 0u; }
 fn blocked_of(word: u32) -> f32 { return f32(word >> 16u) / 65535.0; }

@@ -10,7 +10,7 @@ override SOLIDS: bool;          // the scene has bodies
 override QUADRATIC: bool;       // gas element pair B2B1 (true) or B1B0 (false)
 override PREDICTOR: bool;       // consistent predictor of the intermediate pressure
 override CONSISTENT: bool;      // gas is carried by what the solve sees of its velocity, see gas/carrier.wgsl; gas only
-override CUT: bool;             // obstacles cut cells; gas only, B1B0
+override CUT: bool;             // obstacles cut cells; B1B0
 override SPECIES: bool;         // the scene has a second gas
 override PRODUCTS: bool;        // which is what an explosive leaves, see below
 override ARS: bool;             // two solves per step, see below

@@ -151,8 +151,11 @@ fn face_holds(node: vec3i, n: u32, up: bool) -> bool { return node[n] == 0 || no
 // The pressure system at obstacles: the velocity is constant in the gas of a cell, so a cell feels the integral of the pressure
 // gradient over its gas, and no pressure acts through the surface. A cluster moves as one.
 
-// Whether a GAS cell has obstacles around it; the node at its centre then sees its own cell alone.
-fn beside_obstacle(word: u32) -> bool { return CUT && !has(word, NODE_REGULAR); }
+// Whether a node has obstacles around it, and no body; it then sees its own cell alone.
+fn beside_obstacle(slot: u32, word: u32) -> bool {
+    if !CUT || has(word, NODE_REGULAR) { return false; }
+    return !SOLIDS || (!has(word, NODE_SOLID) && cut_number(slot) >= CUT_NEAR);
+}
 
 // Coefficient of a vertex on a node next to it, in units of face_area().
 fn coefficient(j: vec3i, v: vec3i) -> vec3f {

@@ -76,7 +76,12 @@ fn regular_rows(slot: u32, v: vec3i) -> f32 {
     return low.y * below.x + high.x * above.x + low.z * below.y - high.z * above.y;
 }
 
-fn velocity_at(nodes: u32, j: vec3i) -> vec3f { return work[part(nodes, slot_of(j))].xyz; }
+// Velocity of a node that sees more than its own cell; cut_rows has the others.
+fn velocity_at(nodes: u32, j: vec3i) -> vec3f {
+    let slot = slot_of(j);
+    if CUT && nodes == GAS_NODE && beside_obstacle(slot, cells[slot]) { return vec3f(0.0); }
+    return work[part(nodes, slot)].xyz;
+}
 
 // What a line of nodes gives to a vertex through the faces between cells of one kind and another: the transpose of faces_between.
 fn rows_of_faces(own: mat2x4f, other: mat2x4f, weights: Weights, y: Step, z: Step, ends: f32, mean_y: vec2f, mean_z: vec2f) -> f32 {
@@ -123,11 +128,12 @@ fn mixed_rows(v: vec3i, own: u32, body: u32, closed: u32, nodes: u32, quadratic:
     return rows;
 }
 
-// The vertex near an obstacle.
+// The vertex near an obstacle; with bodies the nodes that see their own cell alone.
 fn cut_rows(v: vec3i) -> f32 {
     var sum = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
         let j = v - corner_offset(k);
+        if SOLIDS && !beside_obstacle(slot_of(j), cells[slot_of(j)]) { continue; }
         sum += dot(work[part(GAS_NODE, slot_of(j))].xyz, coefficient(j, v));
     }
     return sum;
@@ -140,10 +146,8 @@ fn gather_rows(slot: u32, word: u32) -> Rows {
     let regular = !is_listed() || has(word, VERTEX_REGULAR);
     for (var turn = 0u; turn < when(regular); turn++) { rows.own = regular_rows(slot, v); }
     if !is_listed() { return rows; }
-    if CUT {
-        if has(word, VERTEX_GAS) && !regular { rows.own = cut_rows(v); }
-        return rows;
-    }
+    for (var turn = 0u; turn < when(CUT && has(word, VERTEX_GAS) && !regular); turn++) { rows.own = cut_rows(v); }
+    if CUT && !SOLIDS { return rows; }
     let deep = SOLIDS && has(word, VERTEX_DEEP);
     let mixed = has(word, VERTEX_GAS | VERTEX_SOLID) && !regular && !deep;
     for (var turn = 0u; turn < when(deep); turn++) { rows.own = wide_rows(slot, v, SOLID_NODE, true); }

@@ -57,14 +57,19 @@ fn narrow_square(v: vec3i, corner: vec3i) -> f32 {
     return rounded(work[part(GAS_NODE, slot_of(v - corner))].w * dot(entry, entry));
 }
 
+// Whether cut_square has a node of a vertex.
+fn sees_one_cell(j: vec3i) -> bool { return !SOLIDS || beside_obstacle(slot_of(j), cells[slot_of(j)]); }
+
 // The same near an obstacle; the coefficients on one cluster add up first.
 fn cut_square(v: vec3i) -> f32 {
     var sum = 0.0;
     for (var k = 0u; k < corner_count(); k++) {
         let j = v - corner_offset(k);
+        if !sees_one_cell(j) { continue; }
         let own = coefficient(j, v);
         for (var l = 0u; l < corner_count(); l++) {
             let other = v - corner_offset(l);
+            if !sees_one_cell(other) { continue; }
             if cluster_first(slot_of(other)) != cluster_first(slot_of(j)) { continue; }
             sum += work[part(GAS_NODE, slot_of(j))].w * dot(own, coefficient(other, v));
         }
@@ -106,7 +111,10 @@ fn inverse_masses(v: vec3i, j: i32, k: i32, solid: bool) -> vec4f {
         let at = v - vec3i(i - 1, j, k);
         if !in_ring(at) { continue; }
         let slot = slot_of(at);
-        if !solid { masses[i] = work[part(GAS_NODE, slot)].w; }
+        if !solid {
+            if CUT && beside_obstacle(slot, cells[slot]) { continue; }
+            masses[i] = work[part(GAS_NODE, slot)].w;
+        }
         else if has(cells[slot], NODE_SOLID) { masses[i] = work[part(SOLID_NODE, slot)].w; }
     }
     return masses;
@@ -155,8 +163,10 @@ fn find_diagonal(slot: u32) {
     let scale = control.dt * face_area() * control.dt * face_area();
     let v = cell_of(slot);
     let regular = !is_listed() || has(word, VERTEX_REGULAR);
-    if CUT && is_listed() && !regular {
-        inverse_diagonal[slot] = inverse(stiffness[slot] + scale * cut_square(v));
+    var cut = 0.0;
+    for (var turn = 0u; turn < when(CUT && is_listed() && !regular); turn++) { cut = cut_square(v); }
+    if CUT && !SOLIDS && is_listed() && !regular {
+        inverse_diagonal[slot] = inverse(stiffness[slot] + scale * cut);
         return;
     }
     let deep = SOLIDS && is_listed() && has(word, VERTEX_DEEP);
@@ -165,7 +175,7 @@ fn find_diagonal(slot: u32) {
     if is_listed() { squares = mixed_squares(v, apart, select(corner_count(), 0u, regular || deep)); }
     for (var turn = 0u; turn < when(regular); turn++) { squares.own = regular_square(v); }
     for (var turn = 0u; turn < when(deep); turn++) { squares.own = wide_square(v, SOLID_NODE, true); }
-    inverse_diagonal[slot] = inverse(stiffness[slot] + scale * squares.own);
+    inverse_diagonal[slot] = inverse(stiffness[slot] + scale * (squares.own + cut));
     if apart {
         // where h has a row, the preconditioner of the surface stands in for the diagonal
         let alone = extra[slot] >= params.surface_rows;

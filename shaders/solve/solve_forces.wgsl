@@ -217,10 +217,10 @@ fn listed_forces(slot: u32) {
     let c = cell_of(slot);
     let inverse_mass = work[part(GAS_NODE, slot)].w;
     let regular = !BODIES_ONLY && has(word, NODE_REGULAR);
-    if CUT && !regular {
+    if beside_obstacle(slot, word) {
         var force = vec3f(0.0);
         if kind_of(word) == GAS && inside(c) { force = cut_force(slot); }
-        work[part(GAS_NODE, slot)] = vec4f(force * face_area() * inverse_mass, inverse_mass);
+        if !BODIES_ONLY { work[part(GAS_NODE, slot)] = vec4f(force * face_area() * inverse_mass, inverse_mass); }
         return;
     }
     let deep = SOLIDS && has(word, NODE_DEEP);

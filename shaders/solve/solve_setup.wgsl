@@ -67,7 +67,7 @@ fn find_mass(slot: u32) {
     var mass = 0.0;
     let c = cell_of(slot);
     if !is_listed() { mass = interior_mass(slot); }
-    else if beside_obstacle(cells[slot]) {
+    else if beside_obstacle(slot, cells[slot]) {
         if kind_of(cells[slot]) == GAS { mass = conserved[slot].x * cluster_share(slot); }
     } else if has(cells[slot], NODE_GAS) && !is_image(c) && !is_joined(c) {
         var around = vec4f(0.0);    // pairs across the node by how many axes they lie off

@@ -125,9 +125,17 @@ fn meets_free_node(v: vec3i) -> bool {
     return false;
 }
 
+// Whether one of the cells at a vertex is cut: then no body is near.
+fn meets_cut_cell(v: vec3i) -> bool {
+    for (var k = 0u; k < corner_count(); k++) {
+        if cut_entry(slot_of(v - corner_offset(k))) != 0u { return true; }
+    }
+    return false;
+}
+
 fn listed_vertex(slot: u32) {
     let word = cells[slot];
-    if CUT && !has(word, VERTEX_REGULAR) {
+    if CUT && !has(word, VERTEX_REGULAR) && (!SOLIDS || meets_cut_cell(cell_of(slot))) {
         cut_vertex(slot);
         return;
     }

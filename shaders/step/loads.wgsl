@@ -197,7 +197,7 @@ fn load_faces(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     if kind == SOLID && body > 0u { add_faces_of_body(body - 1u, c); }
     if obstacle == 0u { return; }
     if kind == WALL { add_collected(obstacle - 1u, c, slot); }
-    if kind == GAS && beside_obstacle(cells[slot]) { add_cut_surface(obstacle - 1u, c, slot); }
+    if kind == GAS && beside_obstacle(slot, cells[slot]) { add_cut_surface(obstacle - 1u, c, slot); }
 }
 
 // One workgroup: force and power, moment about the low corner and force of the pressure alone, area.

@@ -33,6 +33,8 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "interface/parting.wgsl",
     "interface/sides.wgsl",
     "interface/thin_walls.wgsl",
+    "interface/uncovered.wgsl",
+    "interface/whole_cells.wgsl",
     "materials/drucker_prager.wgsl",
     "materials/fixed_corotated.wgsl",
     "materials/hencky.wgsl",

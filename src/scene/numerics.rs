@@ -141,7 +141,7 @@ pub enum Pair {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Obstacles {
-    /// The surface cuts cells, and gas fills a part of them: in gas alone with `b1b0`.
+    /// The surface cuts cells, and gas fills a part of them, but for cells near bodies: with `b1b0`.
     Cut,
     /// Whole cells, those whose centre lies inside: slanted walls are staircases.
     Cells,

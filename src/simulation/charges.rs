@@ -11,7 +11,7 @@ use crate::gpu::readback;
 use crate::scene::{Charge, Conserved, CutGeometry, Scene, random};
 use crate::snapshot::kind;
 use crate::state::Grid;
-use crate::state::cut::gas_shares;
+use crate::state::cut;
 
 /// Shells of the near field.
 const SHELLS: usize = 1024;
@@ -247,8 +247,8 @@ impl Simulation {
         let words = readback::read(gpu, &self.state.interface.cells)?;
         let slots = self.state.grid.slots();
         let mut species = self.state.gas.read_species(gpu, slots)?;
-        let geometry = scene.cut_geometry();
-        let shares = gas_shares(&self.state.grid, &geometry);
+        let geometry = cut::left(&self.state.grid, scene.cut_geometry(), &words, self.state.has_solids());
+        let shares = cut::gas_shares(&self.state.grid, &geometry);
         let volume = scene.domain.cell_volume();
         let mut cells = due.cells(scene, self, &words);
         join_clusters(&mut cells, &cut_clusters(&self.state.grid, &geometry), &shares);

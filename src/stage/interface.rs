@@ -21,6 +21,8 @@ pub struct InterfaceStage {
 
 #[derive(Debug)]
 struct Solids {
+    /// Where obstacles cut cells.
+    whole: Option<Bound>,
     fill: Bound,
     walls: Bound,
     kind: Bound,
@@ -42,7 +44,9 @@ impl InterfaceStage {
         let fill = |entry: &str| state.bind("interface/interface.wgsl", entry, &[], &[]);
         let ledger = |entry: &str| state.bind("interface/ledger.wgsl", entry, &[], &[]);
         let solids = if state.has_solids() {
+            let whole = |entry: &str| state.bind("interface/whole_cells.wgsl", entry, &[], &[]);
             Some(Solids {
+                whole: state.cuts().then(|| whole("interface_whole")).transpose()?,
                 fill: fill("interface_fill")?,
                 walls: mark("interface_walls")?,
                 kind: mark("interface_kind")?,
@@ -66,7 +70,8 @@ impl InterfaceStage {
     /// Marks the start: without bodies these marks stay; with bodies the cells they cover lose their gas.
     pub fn record_start(&self, pass: &mut Pass, state: &State) {
         if let Some(solids) = &self.solids {
-            for kernel in [&solids.fill, &solids.walls, &solids.kind, &solids.start] {
+            let kinds = [&solids.fill, &solids.walls, &solids.kind, &solids.start];
+            for kernel in solids.whole.iter().chain(kinds) {
                 pass.dispatch(kernel, &state.extent(Phase::Begin, Over::Slots));
             }
         }
@@ -87,9 +92,9 @@ impl InterfaceStage {
     pub fn record(&self, pass: &mut Pass, state: &State) {
         let Some(solids) = &self.solids else { return };
         pass.stage(Stage::Interface.name());
-        pass.dispatch(&solids.fill, &state.extent(Phase::Begin, Over::Slots));
-        pass.dispatch(&solids.walls, &state.extent(Phase::Begin, Over::Slots));
-        pass.dispatch(&solids.kind, &state.extent(Phase::Begin, Over::Slots));
+        for kernel in solids.whole.iter().chain([&solids.fill, &solids.walls, &solids.kind]) {
+            pass.dispatch(kernel, &state.extent(Phase::Begin, Over::Slots));
+        }
         pass.dispatch(&self.flags, &state.extent(Phase::Begin, Over::Slots));
         self.scan.record_with(pass, &state.scan_extents(Phase::Begin));
         pass.dispatch(&solids.extra, &state.extent(Phase::Begin, Over::Slots));

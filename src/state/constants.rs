@@ -14,6 +14,8 @@ pub const SOLID: u32 = 1;
 pub const WALL: u32 = 2;
 /// Outside of an inlet or outlet side.
 pub const GHOST: u32 = 3;
+/// What marks a cut cell in scenes with bodies: gas whose faces are all blocked.
+pub const CUT_MARK: u32 = 0xffff << 16;
 
 /// What a rule prescribes beyond a side; the position is the number on the device.
 pub const RULES: [&str; 6] = ["FIXED", "SUBSONIC", "TOTAL", "PRESSURE", "ATTENUATED", "FAR"];
@@ -63,7 +65,7 @@ const COUNTED: [(&str, &[&str]); 3] =
     [("RULE", &RULES), ("INTERFACE", &INTERFACES), ("PHASE", &["IDLE", "SOLVE", "BETWEEN", "SUBSTEP", "ELASTIC"])];
 
 /// Single numbers.
-const NUMBERS: [(&str, u32); 26] = [
+const NUMBERS: [(&str, u32); 27] = [
     ("GAS", GAS),
     ("SOLID", SOLID),
     ("WALL", WALL),
@@ -71,6 +73,7 @@ const NUMBERS: [(&str, u32); 26] = [
     ("RULE_SHIFT", RULE_SHIFT),
     ("MAX_OPENINGS", super::MAX_OPENINGS as u32),
     ("MAX_BODIES", crate::scene::MAX_BODIES as u32),
+    ("CUT_NEAR", super::cut::NEAR),
     ("CUT_WIDTH", super::cut::WIDTH as u32),
     ("PARTIALS", PARTIALS),
     ("SCAN_DISPATCHES", SCAN_DISPATCHES as u32),

@@ -1,16 +1,20 @@
 //! The table of cut cells, as shaders read it, and the gas that they hold at the start.
 
-use super::Grid;
-use crate::scene::{Conserved, CutGeometry, Scene};
+use super::{Grid, Params, constants};
+use crate::gpu::{Buffer, Gpu};
+use crate::scene::{Conserved, CutCell, CutGeometry, Scene};
 
 /// Words of one entry; the positions are those of [`FIELDS`].
-pub const WIDTH: usize = 34;
+pub const WIDTH: usize = 36;
+
+/// Of a slot's number: an obstacle lies in the block of three cells each way around it. Set where there are bodies.
+pub const NEAR: u32 = 1 << 31;
 
 /// What an entry holds and where. SHARE: gas in the cell; CLUSTER_SHARE: in all cells that share its state; FIRST: slot of the first
 /// of these; NEXT: slot of the next one; CENTER: means of x, y, z over the gas, in cells from the centre; MIXED: of yz, zx, xy;
 /// APERTURE: open share of the faces x-, x+, y-, ...; MIDDLE: their centroids, and across each face the mean product of the two
-/// coordinates along it.
-pub const FIELDS: [(&str, u32); 8] = [
+/// coordinates along it; SLOT: its own; WHOLE: 1 if it is gas where a body makes it whole.
+pub const FIELDS: [(&str, u32); 10] = [
     ("SHARE", 0),
     ("CLUSTER_SHARE", 1),
     ("FIRST", 2),
@@ -19,6 +23,8 @@ pub const FIELDS: [(&str, u32); 8] = [
     ("MIXED", 7),
     ("APERTURE", 10),
     ("MIDDLE", 16),
+    ("SLOT", 34),
+    ("WHOLE", 35),
 ];
 
 fn slots(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
@@ -26,10 +32,84 @@ fn slots(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
 }
 
 /// For every slot the number of its entry, counted from 1; 0 for plain cells.
-pub fn entries(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
+fn entries(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
     let mut entries = vec![0; grid.slots()];
     for (place, slot) in slots(grid, geometry).into_iter().enumerate() {
         entries[slot as usize] = place as u32 + 1;
+    }
+    entries
+}
+
+/// What `extra` holds of cut cells: without bodies the numbers of the slots in the first block and the table behind the lists; with bodies,
+/// for which the first block has another use, behind the lists the number of cut cells, those of the slots, and the table.
+#[derive(Debug)]
+pub struct CutWords {
+    first_block: Vec<u32>,
+    behind_at: u32,
+    behind: Vec<u32>,
+    table_at: u32,
+}
+
+/// The words of cut cells; `end`: place behind the lists.
+pub fn words(grid: &Grid, geometry: &CutGeometry, bodies: bool, end: u32) -> CutWords {
+    let none = CutWords { first_block: Vec::new(), behind_at: end, behind: Vec::new(), table_at: end };
+    let table = table(grid, geometry);
+    match (table.is_empty(), bodies) {
+        (true, _) => none,
+        (_, false) => CutWords { first_block: entries(grid, geometry), behind: table, ..none },
+        (_, true) => {
+            let mut behind = vec![geometry.cells.len() as u32];
+            behind.extend(marked_entries(grid, geometry));
+            let table_at = end + behind.len() as u32;
+            behind.extend(table);
+            CutWords { behind, table_at, ..none }
+        }
+    }
+}
+
+impl CutWords {
+    /// Words behind the lists.
+    pub fn length(&self) -> usize {
+        self.behind.len()
+    }
+
+    /// Parameters that know the place of the table.
+    pub fn placed(&self, params: Params) -> Params {
+        Params { table_at: self.table_at, ..params }
+    }
+
+    /// Writes all of them.
+    pub fn write(&self, gpu: &Gpu, extra: &Buffer<u32>) {
+        for (at, words) in [(0, &self.first_block), (self.behind_at, &self.behind)] {
+            if !words.is_empty() {
+                extra.write(gpu, at as usize, words);
+            }
+        }
+    }
+}
+
+/// The numbers of all slots, with [`NEAR`] at each that has an obstacle around it; beyond a side, around the cell before it.
+fn marked_entries(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
+    let mut entries = entries(grid, geometry);
+    let cells = grid.cells.map(|n| n as i32);
+    let place = |cell: [i32; 3]| (cell[0] + cells[0] * (cell[1] + cells[1] * cell[2])) as usize;
+    let mut obstacle = geometry.walls.clone();
+    for cut in &geometry.cells {
+        obstacle[place(cut.cell.map(|c| c as i32))] = true;
+    }
+    let ring = grid.padding().map(|n| n as i32);
+    let around = |at: i32, axis: usize| (at - ring[axis]).max(0)..(at + ring[axis] + 1).min(cells[axis]);
+    for z in -ring[2]..cells[2] + ring[2] {
+        for y in -ring[1]..cells[1] + ring[1] {
+            for x in -ring[0]..cells[0] + ring[0] {
+                let [nx, ny, nz] = std::array::from_fn(|d| [x, y, z][d].clamp(0, cells[d] - 1));
+                let mut near =
+                    around(nz, 2).flat_map(|k| around(ny, 1).flat_map(move |j| around(nx, 0).map(move |i| [i, j, k])));
+                if near.any(|cell| obstacle[place(cell)]) {
+                    entries[grid.slot([x, y, z])] |= NEAR;
+                }
+            }
+        }
     }
     entries
 }
@@ -41,6 +121,29 @@ pub fn gas_shares(grid: &Grid, geometry: &CutGeometry) -> Vec<f64> {
         shares[slot as usize] = cut.part.volume;
     }
     shares
+}
+
+/// The cut cells that are left by the words of all slots: in a scene with bodies some are whole.
+pub fn left(grid: &Grid, geometry: CutGeometry, words: &[u32], bodies: bool) -> CutGeometry {
+    if !bodies {
+        return geometry;
+    }
+    let slots = slots(grid, &geometry);
+    let mut left = CutGeometry { walls: geometry.walls, ..CutGeometry::default() };
+    for cluster in geometry.clusters.iter().filter(|cluster| is_cut(words[slots[cluster[0]] as usize])) {
+        let first = left.cells.len();
+        for &place in cluster {
+            left.cells.push(CutCell { cluster: left.clusters.len(), ..geometry.cells[place] });
+            left.held.push(geometry.held[place]);
+        }
+        left.clusters.push((first..left.cells.len()).collect());
+    }
+    left
+}
+
+/// Whether a word is that of a cut cell, in a scene with bodies.
+fn is_cut(word: u32) -> bool {
+    word & constants::CUT_MARK == constants::CUT_MARK && word & 3 == constants::GAS
 }
 
 /// Momentum of the gas of the start `[density, momentum, energy]` \[kg m s^-1\].
@@ -63,7 +166,7 @@ pub fn momentum(scene: &Scene, geometry: &CutGeometry, gas: &[Conserved]) -> [f6
 }
 
 /// The entries, one after the other.
-pub fn table(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
+fn table(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
     let slots = slots(grid, geometry);
     let mut table = Vec::with_capacity(WIDTH * slots.len());
     for (place, cut) in geometry.cells.iter().enumerate() {
@@ -77,6 +180,7 @@ pub fn table(grid: &Grid, geometry: &CutGeometry) -> Vec<u32> {
         table.extend(cut.part.mixed.map(word));
         table.extend(cut.part.apertures.map(word));
         table.extend(cut.part.middles.iter().flatten().map(|&value| word(value)));
+        table.extend([slots[place], u32::from(geometry.whole_gas(place))]);
     }
     table
 }

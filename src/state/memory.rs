@@ -58,7 +58,8 @@ impl MemoryPlan {
         let count = particles as u64;
         let solid = if particles == 0 { 1 } else { slots };
         let parts = |array: &str| super::arrays::parts(array, scene) as u64 * slots;
-        let table = super::cut::WIDTH as u64 * cut_cells;
+        let numbers = if particles > 0 && cut_cells > 0 { slots + 1 } else { 0 };
+        let table = super::cut::WIDTH as u64 * cut_cells + numbers;
         let mut plan = Self {
             cells: scene.domain.cells.iter().map(|&n| u64::from(n)).product(),
             particles: count,

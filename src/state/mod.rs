@@ -160,9 +160,10 @@ impl State {
             species_least_entropy,
             ..Params::new(scene, &grid, &limits, &DeviceLimits::new(gpu.settings == Settings::Software, capacity))
         };
-        let (table, mut overrides) = (cut::table(&grid, &geometry), params::overrides(scene, !start.is_empty()));
+        let cut = cut::words(&grid, &geometry, !start.is_empty(), params.table_at);
+        let (params, mut overrides) = (cut.placed(params), params::overrides(scene, !start.is_empty()));
         overrides.extend(loads::overrides(scene, &start_gas, &openings));
-        overrides.extend(switches(&supports, &openings, table.is_empty()));
+        overrides.extend(switches(&supports, &openings, geometry.cells.is_empty()));
         let state = State {
             gpu: gpu.clone(),
             grid,
@@ -177,7 +178,7 @@ impl State {
             motions: Buffer::from_slice(gpu, "motions", &supports.motions)?,
             materials: Buffer::uniform(gpu, "materials", MAX_MATERIALS * MATERIAL_WIDTH)?,
             gas: GasState::new(gpu, scene, &grid, start.len())?,
-            interface: Interface::new(gpu, &params, grid.dimension, !start.is_empty(), table.len())?,
+            interface: Interface::new(gpu, &params, grid.dimension, !start.is_empty(), cut.length())?,
             particles: Particles::new(gpu, slots, &start, scene.consistent(), scene.elastic_vectors())?,
             pressure: Buffer::new(gpu, "pressure", unknowns + slots)?,
             stiffness: Buffer::new(gpu, "stiffness", unknowns)?,
@@ -199,11 +200,8 @@ impl State {
             overrides,
         };
         state.fill(gpu, scene);
-        state.fill_gas(gpu, scene, &openings, &start_gas, &geometry.walls);
-        if !table.is_empty() {
-            state.interface.extra.write(gpu, 0, &cut::entries(&grid, &geometry));
-            state.interface.extra.write(gpu, params.table_at as usize, &table);
-        }
+        state.fill_gas(gpu, scene, &openings, &start_gas, &geometry);
+        cut.write(gpu, &state.interface.extra);
         Ok(state)
     }
 
@@ -215,7 +213,14 @@ impl State {
     }
 
     /// Initial gas and kinds of all slots.
-    fn fill_gas(&self, gpu: &Gpu, scene: &Scene, openings: &Openings, gas: &[Conserved], walls: &[bool]) {
+    fn fill_gas(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        openings: &Openings,
+        gas: &[Conserved],
+        geometry: &crate::scene::CutGeometry,
+    ) {
         let (grid, slots, gases) = (&self.grid, self.grid.slots(), scene.gas.equation_of_state());
         let mut conserved = vec![[0.0f32; 4]; slots];
         let mut energy = vec![0.0f32; slots];
@@ -223,6 +228,7 @@ impl State {
         let mut species = if gases.species.is_some() { vec![vec![0.0f32; slots]; 2] } else { Vec::new() };
         let (burn, full) = (scene.burn_starts(), gases.full_charge());
         let mut cells = vec![constants::GAS; slots];
+        let walls = &geometry.walls;
         let (padding, stride) = (grid.padding(), grid.strides());
         for z in 0..stride[2] as i32 {
             for y in 0..stride[1] as i32 {
@@ -251,6 +257,9 @@ impl State {
                 }
             }
         }
+        for cut in geometry.cells.iter().filter(|_| self.has_solids()) {
+            cells[grid.slot(cut.cell.map(|c| c as i32))] |= constants::CUT_MARK;
+        }
         if !self.maps.is_empty() {
             self.maps.write(gpu, 0, &gas::first_maps(&conserved, &pressure));
         }
@@ -266,6 +275,11 @@ impl State {
     /// Whether something may flow through sides.
     pub fn is_open(&self) -> bool {
         self.overrides.iter().any(|(name, value)| *name == "RULES_USED" && *value > 0.0)
+    }
+
+    /// Whether obstacles cut cells.
+    pub fn cuts(&self) -> bool {
+        self.overrides.iter().any(|(name, value)| *name == "CUT" && *value > 0.0)
     }
 
     /// Whether the scene has bodies.

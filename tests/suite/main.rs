@@ -16,6 +16,7 @@ mod cold;
 mod common;
 mod contacts;
 mod cut;
+mod cut_bodies;
 mod determinism;
 mod dust;
 mod earlier;

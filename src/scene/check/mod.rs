@@ -26,6 +26,9 @@ const FEWEST_CELLS: u32 = 3;
 const MOST_SLOTS: u64 = i32::MAX as u64;
 /// Edges of a cell may differ by this much, relative: what decimal numbers in a file lose.
 const CUBE_TOLERANCE: f64 = 1e-6;
+/// What `obstacles = "cut"` is for.
+const CUT_CELLS_NEED: &str = "\"cut\" needs the pair b1b0; with bodies also the default coupling, ghost and solid_update, \
+    no dust and no explosive that burns on the grid";
 
 /// Everything that is wrong with a scene.
 pub(crate) fn findings(scene: &Scene) -> Vec<Finding> {
@@ -187,7 +190,7 @@ impl Check<'_> {
         }
         if numerics.paper.obstacles == Obstacles::Cut && !self.scene.cut() {
             let help = "give \"cells\", or \"auto\", which chooses for the scene";
-            self.add("numerics.paper.obstacles", "\"cut\" is for obstacles in gas alone, with the pair b1b0", help);
+            self.add("numerics.paper.obstacles", CUT_CELLS_NEED, help);
         }
         if numerics.expert.preconditioner == Preconditioner::Multigrid && self.scene.domain.dimension == 1 {
             let help = "give \"jacobi\", or \"auto\", which chooses for the scene";

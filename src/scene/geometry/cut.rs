@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::scene::geometry::polyhedron::{Part, corner, part};
-use crate::scene::{Obstacles, Pair, Scene};
+use crate::scene::{Obstacles, Pair, Paper, Scene};
 
 /// Vertices nearer to the surface than this share of a cell lie on it: no part of a cell is a sliver.
 const SNAP: f64 = 1e-3;
@@ -37,14 +37,40 @@ pub struct CutGeometry {
     pub cells: Vec<CutCell>,
     /// Cells that share one state: places in `cells`, ascending. Each cell is in one of them, most alone.
     pub clusters: Vec<Vec<usize>>,
+    /// Which of `cells` are walls where cells are whole: an obstacle holds their centre.
+    pub held: Vec<bool>,
+}
+
+impl CutGeometry {
+    /// Whether a cut cell is gas where its cluster is whole: all whose centre is free, or else the one with most gas.
+    pub(crate) fn whole_gas(&self, place: usize) -> bool {
+        let cluster = &self.clusters[self.cells[place].cluster];
+        let volume = |at: &usize| self.cells[*at].part.volume;
+        let largest = cluster.iter().copied().max_by(|a, b| volume(a).total_cmp(&volume(b)));
+        !self.held[place] || (cluster.iter().all(|&at| self.held[at]) && largest == Some(place))
+    }
 }
 
 impl Scene {
     /// Whether obstacles act by their true surface.
     #[must_use]
     pub fn cut(&self) -> bool {
-        let able = self.bodies.is_empty() && self.numerics.pair == Pair::B1b0 && !self.obstacles.is_empty();
+        let able = self.numerics.pair == Pair::B1b0 && !self.obstacles.is_empty() && self.cuts_beside_bodies();
         able && self.numerics.paper.obstacles != Obstacles::Cells
+    }
+
+    /// Whether nothing forbids cut cells in a scene with bodies: forms of the coupling that the paper compares, dust, explosives.
+    fn cuts_beside_bodies(&self) -> bool {
+        let paper = &self.numerics.paper;
+        let default = Paper::default();
+        let usual = [
+            paper.coupling == default.coupling,
+            paper.ghost == default.ghost,
+            paper.solid_update == default.solid_update,
+            self.gas.dust.is_none(),
+            self.gas.products().is_none(),
+        ];
+        self.bodies.is_empty() || usual.iter().all(|usual| *usual)
     }
 
     /// Whether an obstacle fills the cell around a point, or a part of it.
@@ -223,6 +249,8 @@ impl Cutter<'_> {
                 geometry.clusters.len() - 1
             });
             geometry.clusters[cluster].push(place);
+            let center = self.scene.domain.cell_center(self.cell_at(index));
+            geometry.held.push(self.scene.obstacle_distance(center) < 0.0);
             geometry.cells.push(CutCell { cell: self.cell_at(index), part, cluster });
         }
         geometry
