@@ -76,7 +76,6 @@ impl Budget {
         let geometry = cut::left(&state.grid, scene.cut_geometry(), &cells, state.has_solids());
         let shares = cut::gas_shares(&state.grid, &geometry);
         let mut budgets = owed.iter().zip(&owed_energy);
-        let everywhere = owed.len() == cells.len();
         let mut budget = Self {
             energy: stored,
             particles: state.params.particles.into(),
@@ -88,7 +87,7 @@ impl Budget {
             let inside = matches!((word & u32::from(kind::MASK)) as u8, kind::GAS | kind::SOLID);
             // What has crossed the boundary is kept per volume, like the gas; what is owed is not.
             let share = if inside { 1.0 } else { volume };
-            let entry = if everywhere || !inside { budgets.next() } else { None };
+            let entry = if owed.len() == cells.len() || !inside { budgets.next() } else { None };
             let (owed, owed_energy) = entry.map_or(([0.0; 4], 0.0), |(flow, energy)| (*flow, *energy));
             let room = volume * shares[slot];
             let covered = if word & u32::from(kind::MASK) == u32::from(kind::SOLID) {
