@@ -84,9 +84,7 @@ fn ledger_uncover(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation
     hold_species(slot, filled.species);
 }
 
-// Whether an obstacle cuts a GAS cell, see whole_cells.wgsl: no body is near, and it takes nothing that others owe.
-fn is_cut(word: u32) -> bool { return CUT && kind_of(word) == GAS && !has(word, INTERIOR) && blocked_of(word) == 1.0; }
-
+// Cells that obstacles cut do not count: no body is near, and they take nothing that others owe.
 fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
     var count = 0u;
     let slot = slot_of(c);
@@ -95,7 +93,7 @@ fn neighbours_of_kind(c: vec3i, kind: u32) -> u32 {
         let up = (face & 1u) == 1u;
         if !inside(select(c - axis(a), c + axis(a), up)) { continue; }
         let word = cells[select(slot - step_of(a), slot + step_of(a), up)];
-        count += u32(kind_of(word) == kind && !is_cut(word));
+        count += u32(kind_of(word) == kind && !is_cut_word(word));
     }
     return count;
 }
@@ -110,7 +108,7 @@ fn at_surface(slot: u32) -> bool { return kind_of(cells[slot]) == SOLID && neigh
 
 // Part of what it owes that a gas cell with so many gas neighbours settles now.
 fn settled_part(slot: u32, gas_neighbours: u32) -> f32 {
-    if is_cut(cells[slot]) { return 0.0; }
+    if is_cut_word(cells[slot]) { return 0.0; }
     let gas = Gas(conserved[slot], energy[slot], species_now(slot), unburned_at(slot));
     let before = internal_energy(gas);
     let all = with_part(gas, slot, 1.0);
@@ -210,7 +208,7 @@ fn incoming(slot: u32, kind: u32) -> Books {
         let other = select(slot + step_of(a), slot - step_of(a), up);
         let kind_there = kind_of(cells[other]);
         var takes = false;
-        if kind_there == GAS && kind == GAS { takes = followers(other) == 0u && !is_cut(cells[slot]); }
+        if kind_there == GAS && kind == GAS { takes = followers(other) == 0u && !is_cut_word(cells[slot]); }
         if kind_there == GAS && kind == SOLID { takes = goes_on(other, a, up); }
         if kind_there == SOLID { takes = takes_from(slot, other, a, up, kind, surface); }
         if !takes { continue; }

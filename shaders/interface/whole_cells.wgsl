@@ -73,7 +73,7 @@ fn interface_whole(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     if entry > extra[cut_place(0u) - 1u] || cut_word(entry, CUT_FIRST) != cut_word(entry, CUT_SLOT) { return; }
     let slot = cut_word(entry, CUT_SLOT);
     if cut_entry(slot) == 0u { return; }
-    let was = kind_of(cells[slot]) == GAS && blocked_of(cells[slot]) == 1.0;
+    let was = is_cut_word(cells[slot]);
     let share = cluster_share(slot);
     var near = false;
     var count = 0.0;

@@ -168,6 +168,10 @@ fn is_mixed(word: u32) -> bool {
 // Place of a slot's number among the cut cells, in extra: without bodies in the first block, else before the table [shared/domain.wgsl].
 fn cut_place(slot: u32) -> u32 { return select(slot, params.table_at + slot - part(1u, 0u), SOLIDS); }
 
+// Whether the word of a slot, in a scene with bodies, is that of a cell that an obstacle cuts: gas with all of its faces blocked, which no
+// particle makes of gas [interface/interface_mark.wgsl].
+fn is_cut_word(word: u32) -> bool { return CUT && kind_of(word) == GAS && !has(word, INTERIOR) && (word >> 16u) == 0xffffu; }
+
 fn previous_kind_of(word: u32) -> u32 { return (word >> 2u) & 3u; }
 fn has(word: u32, flag: u32) -> bool { return (word & flag) != 0u; }
 fn blocked_of(word: u32) -> f32 { return f32(word >> 16u) / 65535.0; }

@@ -63,7 +63,7 @@ impl Simulation {
     fn room_for(&self, now: &Scene, to: &Scene, seeds: &[Seed]) -> Result<()> {
         let name = to.bodies.last().map_or("", |body| body.name.as_str());
         if now.bodies.is_empty() && !now.obstacles.is_empty() {
-            let text = "gas alone flows around obstacles that cut cells, gas with bodies around whole cells";
+            let text = "gas alone keeps the cells that obstacles cut in another way than gas with bodies; add one to the scene file";
             return Err(Error::Usage(format!("`{name}` cannot join this scene: {text}")));
         }
         if seeds.is_empty() {
