@@ -134,7 +134,6 @@ pub fn left(grid: &Grid, geometry: CutGeometry, words: &[u32], bodies: bool) -> 
         let first = left.cells.len();
         for &place in cluster {
             left.cells.push(CutCell { cluster: left.clusters.len(), ..geometry.cells[place] });
-            left.held.push(geometry.held[place]);
         }
         left.clusters.push((first..left.cells.len()).collect());
     }

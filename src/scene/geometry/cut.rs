@@ -26,6 +26,8 @@ pub struct CutCell {
     pub part: Part,
     /// Place of its cluster.
     pub cluster: usize,
+    /// Whether an obstacle holds its centre: a wall where cells are whole.
+    pub walled: bool,
 }
 
 /// The obstacles on the grid.
@@ -37,8 +39,6 @@ pub struct CutGeometry {
     pub cells: Vec<CutCell>,
     /// Cells that share one state: places in `cells`, ascending. Each cell is in one of them, most alone.
     pub clusters: Vec<Vec<usize>>,
-    /// Which of `cells` are walls where cells are whole: an obstacle holds their centre.
-    pub held: Vec<bool>,
 }
 
 impl CutGeometry {
@@ -47,7 +47,8 @@ impl CutGeometry {
         let cluster = &self.clusters[self.cells[place].cluster];
         let volume = |at: &usize| self.cells[*at].part.volume;
         let largest = cluster.iter().copied().max_by(|a, b| volume(a).total_cmp(&volume(b)));
-        !self.held[place] || (cluster.iter().all(|&at| self.held[at]) && largest == Some(place))
+        let walled = |at: usize| self.cells[at].walled;
+        !walled(place) || (cluster.iter().all(|&at| walled(at)) && largest == Some(place))
     }
 }
 
@@ -249,9 +250,9 @@ impl Cutter<'_> {
                 geometry.clusters.len() - 1
             });
             geometry.clusters[cluster].push(place);
-            let center = self.scene.domain.cell_center(self.cell_at(index));
-            geometry.held.push(self.scene.obstacle_distance(center) < 0.0);
-            geometry.cells.push(CutCell { cell: self.cell_at(index), part, cluster });
+            let cell = self.cell_at(index);
+            let walled = self.scene.obstacle_distance(self.scene.domain.cell_center(cell)) < 0.0;
+            geometry.cells.push(CutCell { cell, part, cluster, walled });
         }
         geometry
     }
