@@ -133,7 +133,6 @@ fn cut_field(slot: u32, field: u32, without: u32) -> u32 {
     if entry == 0u { return without; }
     return cut_word(entry, field);
 }
-
 fn share_of(slot: u32, field: u32) -> f32 { return bitcast<f32>(cut_field(slot, field, bitcast<u32>(1.0))); }
 
 // Gas in a GAS cell, and in all cells that share its state, in cells.
@@ -144,24 +143,28 @@ fn cluster_share(slot: u32) -> f32 { return share_of(slot, CUT_CLUSTER_SHARE); }
 fn cluster_first(slot: u32) -> u32 { return cut_field(slot, CUT_FIRST, slot); }
 fn cluster_next(slot: u32) -> u32 { return cut_field(slot, CUT_NEXT, NO_EXTRA); }
 
-// Open share of a face of a GAS cell. A cell that is whole for a body's sake has the share of the cut cell beyond.
-fn aperture(slot: u32, n: u32, up: bool) -> f32 {
+// Whose face is that of a GAS cell? A cell that is whole for a body's sake has the one of the cut cell beyond.
+struct CutFace { entry: u32, face: u32 }
+fn cut_face(slot: u32, n: u32, up: bool) -> CutFace {
     let entry = cut_entry(slot);
-    if entry != 0u { return cut_value(entry, CUT_APERTURE + 2u * n + u32(up)); }
-    if CUT && SOLIDS {
-        let beyond = cut_entry(slot_of(cell_of(slot) + select(-1, 1, up) * axis(n)));
-        if beyond != 0u { return cut_value(beyond, CUT_APERTURE + 2u * n + u32(!up)); }
-    }
-    return 1.0;
+    if !CUT || !SOLIDS || entry != 0u { return CutFace(entry, 2u * n + u32(up)); }
+    return CutFace(cut_entry(slot_of(cell_of(slot) + select(-1, 1, up) * axis(n))), 2u * n + u32(!up));
+}
+
+// Open share of a face of a GAS cell.
+fn aperture(slot: u32, n: u32, up: bool) -> f32 {
+    let at = cut_face(slot, n, up);
+    if at.entry == 0u { return 1.0; }
+    return cut_value(at.entry, CUT_APERTURE + at.face);
 }
 
 // Mean of the linear shape function of a corner of a face over the face's open part.
 fn face_shape(slot: u32, n: u32, up: bool, corner: vec3i) -> f32 {
-    let entry = cut_entry(slot);
-    if entry == 0u { return 1.0 / f32(1u << (DIM - 1u)); }
+    let at = cut_face(slot, n, up);
+    if at.entry == 0u { return 1.0 / f32(1u << (DIM - 1u)); }
     let a = (n + 1u) % 3u;
     let b = (n + 2u) % 3u;
-    let middle = cut_vector(entry, CUT_MIDDLE + 3u * (2u * n + u32(up)));
+    let middle = cut_vector(at.entry, CUT_MIDDLE + 3u * at.face);
     let side = 2.0 * vec3f(corner) - 1.0;
     if DIM == 1u { return 1.0; }
     if DIM == 2u { return 0.5 + side[1u - n] * middle[1u - n]; }
@@ -170,11 +173,10 @@ fn face_shape(slot: u32, n: u32, up: bool, corner: vec3i) -> f32 {
 
 // -- Open sides --
 
-// The gas beyond open sides. Each GHOST slot of the ring names its rule in the word of the slot; walls have no rule.
-// Two things follow from a rule: the state beyond, which advection reads, and the velocity of the face as the pressure system
-// sees it, u = u0 + (p - p0) / Z along the outward normal. Z = rho c lets sound pass: what a wave would do beyond the side,
-// the face does [Poinsot and Lele 1992]. Where Z is infinite, the velocity is prescribed. 1 / Z adds to the diagonal, so
-// that the system stays symmetric positive definite.
+// The gas beyond open sides. Each GHOST slot of the ring names its rule in its word; walls have no rule. From a rule follow the state beyond,
+// which advection reads, and the velocity of the face as the pressure system sees it, u = u0 + (p - p0) / Z along the outward normal.
+// Z = rho c lets sound pass: what a wave would do beyond the side, the face does [Poinsot and Lele 1992]. Where Z is infinite, the velocity is
+// prescribed. 1 / Z adds to the diagonal, so the system stays symmetric positive definite.
 // RULES_USED names the rules of the scene, so that the others cost nothing.
 
 @group(0) @binding(14) var<uniform> openings: array<Opening, MAX_OPENINGS>;

@@ -24,7 +24,7 @@ fn face_pressure(c: vec3i, n: u32, up: bool, beyond: u32) -> f32 {
     let low = select(c, c + axis(n), up);
     let between_gas = beyond == GAS || is_image(select(c - axis(n), c + axis(n), up));
     if QUADRATIC && between_gas && wide_face_is_gas(low, n) { return wide_face_pressure(low, n); }
-    if CUT { return open_part_pressure(c, n, up); }
+    if CUT && beyond != SOLID { return open_part_pressure(c, n, up); }
     var at = face_vertices(low, n);
     for (var turn = 0u; turn < when(SOLIDS && beyond == SOLID); turn++) { at = interface_indices(at); }
     return mean2(mean2(pressure[at.x], pressure[at.y]), mean2(pressure[at.z], pressure[at.w]));

@@ -54,7 +54,7 @@ fn rest_stays_rest_between_cut_and_whole_cells() {
 }
 
 #[test]
-fn a_ball_that_hits_a_cut_obstacle_keeps_mass_and_energy() {
+fn a_ball_that_hits_a_cut_obstacle_keeps_mass_momentum_and_energy() {
     let Some(gpu) = gpu_or_skip() else { return };
     for (dimension, cells, until) in [(2, 32, 0.5), (3, 14, 0.3)] {
         let blast = "[[gas.regions]]\nshape = { half_space = { point = [0.15, 0.0], normal = [1.0, 0.0] } }\n\
@@ -70,8 +70,11 @@ fn a_ball_that_hits_a_cut_obstacle_keeps_mass_and_energy() {
         assert!(left < first && first <= all && left > 0, "{left} of {first} of {all} are cut");
         let mut summary = brisance::expect::Summary::default();
         summary.add(&records);
-        let drift = Budget::read(&simulation, &scene, summary.stored_energy()).unwrap().drift_since(&start);
-        eprintln!("{dimension}D: {left} of {first} of {all} cut, {drift:?}");
+        let end = Budget::read(&simulation, &scene, summary.stored_energy()).unwrap();
+        let missing = end.over(&start).momentum.iter().map(|part| part.abs()).fold(0.0, f64::max);
+        let drift = end.drift_since(&start);
+        eprintln!("{dimension}D: {left} of {first} of {all} cut, momentum {missing:.1e} missing, {drift:?}");
+        assert!(missing < 1e-6, "{missing:.1e}");
         assert!(drift["gas_mass"].abs() < 1e-6, "{drift:?}");
         assert!(drift["energy"].abs() < 2e-2, "{drift:?}");
         let gas = simulation.snapshot().unwrap();
