@@ -11,7 +11,7 @@ const LENGTH: usize = 4 << 20;
 /// How often the array is copied.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounds {
-    /// Copies per submission, so that its launch does not count.
+    /// Copies per submission, so that its launch does not count; one in software, where a copy takes a thousand launches.
     copies: u32,
     /// Submissions after the first, of which the fastest counts: others share the machine.
     rounds: u32,
@@ -30,7 +30,7 @@ impl Rounds {
 /// If the device has no room for two arrays, or a driver error.
 pub fn copy_bandwidth(gpu: &Gpu, Rounds { copies, rounds }: Rounds) -> Result<f64> {
     let most = (gpu.limits.max_storage_buffer_binding_size.min(gpu.limits.max_buffer_size) / 16) as usize;
-    let wanted = if gpu.settings == Settings::Software { LENGTH } else { 4 * LENGTH };
+    let (wanted, copies) = if gpu.settings == Settings::Software { (LENGTH, 1) } else { (4 * LENGTH, copies) };
     let length = wanted.min(most);
     let from = Buffer::<[f32; 4]>::new(gpu, "copy source", length)?;
     let to = Buffer::<[f32; 4]>::new(gpu, "copy target", length)?;
