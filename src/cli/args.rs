@@ -320,6 +320,8 @@ fn kelvin(text: &str) -> Result<f64, String> {
 pub enum Scale {
     /// The variant `small` of scenes that have one; minutes on a processor
     Small,
+    /// The variant `gallery` of scenes that have one, else `small`; a quarter of an hour each on a processor
+    Gallery,
     /// As the scene is; for a GPU
     Full,
 }
@@ -330,6 +332,7 @@ impl Scale {
     pub fn name(self) -> &'static str {
         match self {
             Scale::Small => "small",
+            Scale::Gallery => "gallery",
             Scale::Full => "full",
         }
     }

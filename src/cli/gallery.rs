@@ -15,7 +15,7 @@ use super::interrupt;
 use super::progress::clock;
 use super::{open_device, run};
 use crate::export::atomic;
-use crate::scene::{self, SMALL, Scene};
+use crate::scene::{self, GALLERY, SMALL, Scene, is_size};
 use crate::{Error, Result, input};
 
 /// Folders of the scenes that are shown when nobody asks for others.
@@ -133,11 +133,16 @@ fn entries(options: &GalleryOptions) -> Result<Vec<Entry>> {
     Ok(found)
 }
 
-/// One entry for each variant of a scene beside its small size, or for the scene itself.
+/// One entry for each variant of a scene beside its sizes, or for the scene itself.
 fn variants_of(scene: &str, wanted: Option<&str>, scale: Scale) -> Result<Vec<Entry>> {
     let read = Scene::find(scene, &[])?;
-    let size = (scale == Scale::Small && read.variants.contains_key(SMALL)).then(|| SMALL.to_owned());
-    let known: Vec<&str> = read.variants.keys().map(String::as_str).filter(|name| *name != SMALL).collect();
+    let sizes: &[&str] = match scale {
+        Scale::Small => &[SMALL],
+        Scale::Gallery => &[GALLERY, SMALL],
+        Scale::Full => &[],
+    };
+    let size = sizes.iter().find(|name| read.variants.contains_key(**name)).map(|&name| name.to_owned());
+    let known: Vec<&str> = read.variants.keys().map(String::as_str).filter(|name| !is_size(name)).collect();
     let chosen: Vec<Option<&str>> = match wanted {
         Some(name) if known.contains(&name) => vec![Some(name)],
         Some(name) => {

@@ -79,7 +79,7 @@ pub use dust::Dust;
 pub use expectation::{Expect, ExpectedBody, ExpectedOrder, ExpectedProbe, Quantity};
 pub use file::earlier::FORM;
 pub use file::shipped::{STANDARD_INPUT, Shipped, scene_file, shipped, shipped_named, stem};
-pub use file::variants::{Changes, SMALL};
+pub use file::variants::{Changes, GALLERY, SMALL, is_size};
 pub use font::Font;
 pub use fracture::{Breaking, Tearing};
 pub use gauge::{Gauge, GaugePlace, Side};

@@ -7,7 +7,7 @@ use egui::{RichText, ScrollArea, Ui, Vec2};
 use super::model::Request;
 use super::theme;
 use crate::gpu::Gpu;
-use crate::scene::{Changes, SMALL, Shipped, shipped};
+use crate::scene::{Changes, SMALL, Shipped, is_size, shipped};
 
 /// Groups in the order of the page, with what they are; other folders follow.
 const GROUPS: [(&str, &str); 5] = [
@@ -183,7 +183,7 @@ fn card(ui: &mut Ui, entry: &Entry, size: Vec2, small: bool) -> Option<Request> 
             for name in &entry.variants {
                 let hint = format!("{} --variant {name}", entry.name);
                 if ui.add(egui::Button::new(RichText::new(name).small()).small()).on_hover_text(hint).clicked() {
-                    chosen = Some(entry.request(small && name != SMALL, Some(name)));
+                    chosen = Some(entry.request(small && !is_size(name), Some(name)));
                 }
             }
         });

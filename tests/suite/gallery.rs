@@ -24,6 +24,8 @@ size = [64, 48]
 min_pressure = 0.5
 [variants.small]
 domain.cells = [4]
+[variants.gallery]
+domain.cells = [6]
 [variants.dense]
 gas.ambient.density = 2.0
 [variants.wrong]
@@ -69,16 +71,19 @@ fn a_gallery_shows_every_variant_and_says_which_failed() {
 }
 
 #[test]
-fn a_gallery_takes_scenes_at_full_size_and_knows_its_names() {
+fn a_gallery_takes_scenes_at_the_size_asked_for_and_knows_its_names() {
     let Some(folder) = folder_or_skip() else { return };
     std::fs::write(folder.path().join("tube.toml"), SCENE.split("[variants.wrong]").next().unwrap()).unwrap();
-    let output = gallery(folder.path(), &["tube.toml", "--scale", "full", "-q"]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let report = std::fs::read_to_string(folder.path().join("shown/tube-dense/report.json")).unwrap();
-    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
-    assert_eq!(report["scene"]["domain"]["cells"][0], 8);
+    for (scale, cells) in [("full", 8), ("gallery", 6), ("small", 4)] {
+        let output = gallery(folder.path(), &["tube.toml", "--scale", scale, "-q", "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(printed(&output)["scenes"].as_array().unwrap().len(), 1, "a size is no entry of its own");
+        let report = std::fs::read_to_string(folder.path().join("shown/tube-dense/report.json")).unwrap();
+        let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+        assert_eq!(report["scene"]["domain"]["cells"][0], cells);
+    }
 
-    for (name, part) in [("tube.toml:thick", "dense"), ("nowhere", "no shipped scene")] {
+    for (name, part) in [("tube.toml:thick", "there are: dense\n"), ("nowhere", "no shipped scene")] {
         let output = gallery(folder.path(), &[name]);
         let text = String::from_utf8_lossy(&output.stderr);
         assert!(matches!(output.status.code(), Some(2 | 3)) && text.contains(part), "{text}");

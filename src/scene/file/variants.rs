@@ -11,6 +11,15 @@ use crate::spelling::did_you_mean;
 /// The variant that every large scene has for devices without a GPU.
 pub const SMALL: &str = "small";
 
+/// The variant of scenes that are too large for a processor whose pictures still show what happens: a quarter of an hour.
+pub const GALLERY: &str = "gallery";
+
+/// Whether a variant is another size of a scene, not another experiment.
+#[must_use]
+pub fn is_size(variant: &str) -> bool {
+    [SMALL, GALLERY].contains(&variant)
+}
+
 /// Changes to a scene: first its variants, then keys, both in their order. A list of keys is one, too.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
