@@ -106,8 +106,11 @@ pub struct StepRecord {
     pub plastic_heat: f32,
     /// Energy that cracks have taken since the start, with the heat of plastic flow of what is damaged \[J\].
     pub fracture_energy: f32,
-    /// Mass of the particles that have broken \[kg\].
+    /// Mass of the particles that have broken and are still there \[kg\].
     pub broken_mass: f32,
+    /// Mass of the broken particles that were taken out since the start (`debris = "drop"`) \[kg\].
+    #[serde(default)]
+    pub dropped_mass: f32,
     /// Mass of the second gas, what is owed included, and what of it has left since the start \[kg\].
     #[serde(default)]
     pub species_mass: [f32; 2],
@@ -145,7 +148,7 @@ pub struct StepRecord {
     pub gas_kinetic: f32,
     /// Mass that cells owe or have too much of, whatever its sign \[kg\].
     pub owed_either: f32,
-    /// Elastic energy and heat in what has left the domain since the start \[J\].
+    /// Elastic energy and heat in what has left the domain or was dropped since the start \[J\].
     pub gone_energy: f32,
     /// Least p / rho^gamma of the gas \[Pa (m^3/kg)^gamma\].
     pub min_entropy: f32,
@@ -210,6 +213,7 @@ impl StepRecord {
             plastic_heat: solid_heat[3],
             fracture_energy: cracks[0],
             broken_mass: cracks[1],
+            dropped_mass: raw[15][0],
             species_mass: [cracks[2], cracks[3]],
             dust_mass: [raw[14][1], raw[14][2], raw[14][3]],
             given: total([0.0, given[0], given[1], given[2]], given[3]),

@@ -21,9 +21,9 @@ use crate::gpu::{Allocation, Detail, Gpu, Pass, Settings, Times, readback, watch
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 use crate::stage::{
-    Carried, CarrierVelocity, CoupledSolve, Decision, Dust, ElasticFirst, ElasticReaction, ElasticSolve, FluidUpdate,
-    G2p, GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven, P2g,
-    ParticleSort, Still, Supports, TimeStep, Totals, Transfer,
+    Carried, CarrierVelocity, CoupledSolve, Debris, Decision, Dust, ElasticFirst, ElasticReaction, ElasticSolve,
+    FluidUpdate, G2p, GasAdvection, Gauges, InterfaceStage, IntermediatePressure, Loads, Maps, MpmGridUpdate, OddEven,
+    P2g, ParticleSort, Still, Supports, TimeStep, Totals, Transfer,
 };
 use crate::state::constants::NO_FAULT;
 use crate::state::{Control, Phase, State};
@@ -63,6 +63,7 @@ pub struct Simulation {
     fluid_update: FluidUpdate,
     mpm_grid_update: Option<MpmGridUpdate>,
     g2p: Option<G2p>,
+    debris: Option<Debris>,
     odd_even: Option<OddEven>,
     totals: Totals,
     loads: Option<Loads>,
@@ -134,6 +135,7 @@ impl Simulation {
             fluid_update: FluidUpdate::new(&state, scene)?,
             mpm_grid_update: solids.then(|| MpmGridUpdate::new(&state)).transpose()?,
             g2p: solids.then(|| G2p::new(&state, transfer)).transpose()?,
+            debris: Debris::new(&state, scene)?,
             odd_even: scene.filter().map(|filter| OddEven::new(&state, filter.share)).transpose()?,
             totals: Totals::new(&state)?,
             loads: Loads::new(&state)?,
@@ -164,9 +166,7 @@ impl Simulation {
         gpu.finish_kernels()?;
         let mut pass = Pass::new(gpu, "start");
         simulation.time_step.decide(&mut pass, Decision::Start);
-        if let Some(particle_sort) = &simulation.particle_sort {
-            particle_sort.record(&mut pass, &simulation.state);
-        }
+        simulation.particle_sort.iter().for_each(|sort| sort.record(&mut pass, &simulation.state));
         simulation.interface.record_start(&mut pass, &simulation.state);
         simulation.time_step.decide(&mut pass, Decision::Listed);
         pass.submit()?;
@@ -217,9 +217,8 @@ impl Simulation {
         }
         self.record_elastic(pass); // (6) elasticity, walls; (7) grid to particles
         self.time_step.decide(pass, Decision::Finish);
-        if let Some(odd_even) = &self.odd_even {
-            odd_even.record(pass, state);
-        }
+        self.debris.iter().for_each(|debris| debris.record(pass, state));
+        self.odd_even.iter().for_each(|odd_even| odd_even.record(pass, state));
     }
 
     /// One Runge-Kutta stage of the advection, and before it the carrier of the state that it starts from.

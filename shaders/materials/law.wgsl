@@ -20,6 +20,8 @@ struct MaterialParams {
     void_heat: f32,             // Growth of the strain at failure from the start to melting, see JohnsonCook: d5 [1]
     heating: f32,               // Share of the way to melting per plastic work and mass [kg J^-1]
     flow: vec4f,                // Flow stress, see Flow: exponent of the strain, 0 for linear hardening; rate [1], reference rate [s^-1], softening [1]
+    rubble: f32,                // Growth of the yield stress of what has crumbled over minus the trace of the Kirchhoff stress; 0 for what does not crumble [1]
+    debris: u32,                // Debris as a number
 }
 // End of what is generated.
 

@@ -77,9 +77,14 @@ const END_OF_TAIL = 0.999;
 
 fn can_break(m: MaterialParams) -> bool { return FRACTURE && m.tensile_strength > 0.0; }
 
+// The bit of a particle's word that says that it has crumbled.
+const CRUMBLED = 0x80000000u;
+// Logarithm of a volume by which what crumbles has opened then: its crack is half a cell wide.
+const CRUMBLES = 0.3;
+
 // Strength of a particle: the material's times the factor in the high half of the particle's word, 0 for none.
 fn strength_of(m: MaterialParams, word: f32) -> f32 {
-    let factor = bitcast<u32>(word) >> 16u;
+    let factor = (bitcast<u32>(word) & ~CRUMBLED) >> 16u;
     return m.tensile_strength * select(f32(factor) / f32(STRENGTH_UNIT), 1.0, factor == 0u);
 }
 
@@ -165,4 +170,15 @@ fn without_tension(m: MaterialParams, h: mat3x3f, open: f32, q: f32) -> Opened {
     // The ghost pressure of the volume that is taken out goes with it.
     let gone = ghost_pressure_of(m, swelling_of(m, moved, q)) - ghost_pressure_of(m, swelling_of(m, h, q));
     return Opened(moved, opened, q + gone);
+}
+
+// What has crumbled bears shear by friction alone: plastic flow on a cone without cohesion. [Drucker & Prager 1952]
+fn slid(m: MaterialParams, h: mat3x3f) -> PlasticReturn {
+    var cone = m;
+    cone.lambda = whole_lambda(m);
+    cone.yield_stress = 0.0;
+    cone.hardening = 0.0;
+    cone.friction = m.rubble;
+    cone.flow = vec4f(0.0);
+    return plastic_flow(h, 0.0, cone);
 }

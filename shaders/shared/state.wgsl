@@ -105,7 +105,7 @@ struct Control {
     dense: atomic<u32>,         // Cells whose products are denser than their law allows, this step
     clamped: atomic<u32>,       // Particles held back at a wall, this step
     unsorted: atomic<u32>,      // 1 if a particle may have left its cell since they were sorted
-    escaped: atomic<u32>,       // Particles that left through an open side, since the start
+    escaped: atomic<u32>,       // Particles that left through an open side or were dropped as debris, since the start
     extra: u32,                 // Vertices that carry P, h and Q apart, this step
     iterations: u32,            // Iterations of all solves of the last step
     residual: f32,              // Relative residual of the last solve

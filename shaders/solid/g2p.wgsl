@@ -110,12 +110,21 @@ fn mean_driver(x: vec3f) -> f32 {
     return sum;
 }
 
-// What has broken gives way instead of bearing tension. Returns the deformation that is left.
-fn give_way(p: u32, h: mat3x3f, m: MaterialParams) -> mat3x3f {
+// What has broken gives way instead of bearing tension. Returns the deformation that is left, and what friction has taken [J m^-3].
+fn give_way(p: u32, h: mat3x3f, m: MaterialParams, friction: ptr<function, f32>) -> mat3x3f {
     let opened = without_tension(m, h, affine[3u * p + 1u].w, affine[3u * p].w);
     affine[3u * p].w = opened.ghost;
     affine[3u * p + 1u].w = opened.open;
-    return opened.deformation;
+    let word = bitcast<u32>(affine[3u * p + 2u].w) | select(0u, CRUMBLED, m.rubble > 0.0 && opened.open > CRUMBLES);
+    affine[3u * p + 2u].w = bitcast<f32>(word);
+    var left = opened.deformation;
+    for (var turn = 0u; turn < when((word & CRUMBLED) != 0u); turn++) {
+        let part = elastic_part(m);
+        let before = elastic_energy(m.kind, left, part);
+        left = slid(m, left).deformation;
+        *friction += before - elastic_energy(m.kind, left, part);
+    }
+    return left;
 }
 
 // Stress that is left of `tau`, driver for the nodes, and energy per volume at rest that damage has taken in a sub-step.
@@ -171,7 +180,8 @@ fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool, time: f32) 
     let returned = return_map(material.kind, trial, select(affine[3u * p + 1u].w, 0.0, broken), flowing);
     *h = returned.deformation;
     // a loop: a software device would run a branch for all lanes
-    for (var turn = 0u; turn < when(broken); turn++) { *h = give_way(p, *h, material); }
+    var friction = 0.0;
+    for (var turn = 0u; turn < when(broken); turn++) { *h = give_way(p, *h, material, &friction); }
     let volume = 1.0 + swelling(*h);
     if !(volume > 0.0) || is_broken(volume) || is_broken(v.x + v.y + v.z) {
         atomicMin(&control.fault, (STAGE_G2P << 27u) | p);
@@ -179,7 +189,7 @@ fn strain(p: u32, h: ptr<function, mat3x3f>, v: vec3f, stored: bool, time: f32) 
     }
     var tau = elastic_stress(material, *h, affine[3u * p].w);
     var driver = 0.0;
-    var heat = stress[2u * p].w;
+    var heat = stress[2u * p].w + velocity[p].w * friction;
     if breaks {
         let fractured = fracture(p, material, *h, tau, returned.plastic_strain, time);
         tau = fractured.stress;

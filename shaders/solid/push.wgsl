@@ -48,6 +48,6 @@ fn push_change(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
 @compute @workgroup_size(WORKGROUP)
 fn push_weigh(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     for (var p = thread_index(group, lane); p < params.particles; p += striding_threads()) {
-        if bitcast<u32>(deformation[3u * p].w) == push.body { position[p].w = push.change.x * velocity[p].w; }
+        if bitcast<u32>(deformation[3u * p].w) == push.body && deformation[3u * p + 1u].w > 0.0 { position[p].w = push.change.x * velocity[p].w; }
     }
 }

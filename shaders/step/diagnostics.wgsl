@@ -119,7 +119,7 @@ fn first_slot(is_least: bool, slot: u32) -> f32 {
 fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var body = vec4f(0.0);
     var heat = vec4f(0.0);
-    var gone = 0.0;     // elastic energy and heat in what has left the domain [J]
+    var gone = vec2f(0.0);      // elastic energy and heat in what is no longer there [J]; mass of what was dropped
     var speed = 0.0;
     var cracks = vec4f(0.0);    // heat of what is damaged; mass of what has broken
     for (var p = thread_index(group, lane); p < params.particles; p += striding_threads()) {
@@ -133,7 +133,7 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
         let damage = select(0.0, deformation[3u * p + 2u].w, FRACTURE);
         if damage > 0.0 { stored.x -= velocity[p].w * damage * tension_of(material, h, q, elastic_stress(material, h, q)).energy; }
         if deformation[3u * p + 1u].w == 0.0 {
-            gone += stored.x + stored.y + stored.z;
+            gone += vec2f(stored.x + stored.y + stored.z, max(-mass, 0.0));
             continue;
         }
         body += mass * vec4f(1.0, v);
@@ -149,7 +149,7 @@ fn totals_particles(@builtin(workgroup_id) group: vec3u, @builtin(local_invocati
     put(6u, at, lane, workgroup_sum4(lane, body));
     put(7u, at, lane, workgroup_sum4(lane, heat));
     put(8u, at, lane, workgroup_max4(lane, vec4f(speed, 0.0, 0.0, 0.0)));
-    let left = workgroup_sum4(lane, vec4f(0.0, 0.0, gone, 0.0));
+    let left = workgroup_sum4(lane, vec4f(0.0, 0.0, gone));
     if lane == 0u { partials[10u * PARTIALS + at] += left; }
     let broken = workgroup_sum4(lane, cracks);
     if lane == 0u {
@@ -192,6 +192,7 @@ fn totals_record(@builtin(local_invocation_index) lane: u32) {
     history[base + 5u].w = bitcast<f32>(atomicLoad(&coldest_slot));
     control.sound = history[base + 7u].z;
     history[base + 7u].z = bitcast<f32>(atomicLoad(&control.raised));
+    history[base + 15u] = vec4f(history[base + 12u].w, 0.0, 0.0, 0.0);
     history[base + 12u].w = bitcast<f32>(control.extra);
     history[base + 14u].x = bitcast<f32>(atomicLoad(&control.dense));
     let unit = borrowed_unit();

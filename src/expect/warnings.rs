@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Budget, Ending, Summary};
 use crate::diagnostics::{StepRecord, Total};
+use crate::material::{Fracture, Material};
 use crate::math::plain;
 use crate::scene::{Body, Scene, Warned};
 use crate::state::Grid;
@@ -94,7 +95,7 @@ pub const RULES: [Rule; 11] = [
     },
     Rule {
         name: Warned::LostBodies,
-        quantity: "bodies of which no particle is left in the domain, over bodies",
+        quantity: "bodies of which no particle is left in the domain, over bodies; those that drop their debris are not counted",
         limit: 0.0,
         reason: "what has left pushes no gas; the sums keep what it took along",
         advice: "enlarge the domain, make the side a \"wall\", or expect it with the reason",
@@ -315,7 +316,11 @@ fn names(scene: &Scene, bodies: impl Iterator<Item = usize>) -> String {
 
 fn lost(scene: &Scene, ending: &Ending<'_>) -> Option<(f64, String)> {
     let bodies = ending.snapshot.bodies(scene.bodies.len());
-    let lost: Vec<usize> = (0..bodies.len()).filter(|&index| bodies[index].particles == 0).collect();
+    let drops = |index: usize| {
+        let material = scene.materials.get(&scene.bodies[index].material);
+        material.and_then(Material::fracture).is_some_and(Fracture::drops_debris)
+    };
+    let lost: Vec<usize> = (0..bodies.len()).filter(|&index| bodies[index].particles == 0 && !drops(index)).collect();
     let share = lost.len() as f64 / bodies.len() as f64;
     (!bodies.is_empty()).then(|| (share, names(scene, lost.into_iter())))
 }

@@ -95,6 +95,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "shared/reduce.wgsl",
     "shared/state.wgsl",
     "shared/system.wgsl",
+    "solid/debris.wgsl",
     "solid/elastic_balance.wgsl",
     "solid/elastic_control.wgsl",
     "solid/elastic_first.wgsl",

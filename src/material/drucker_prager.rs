@@ -23,13 +23,18 @@ pub(super) const KIND: Kind = Kind {
     keeps_volume: false,
     energy: Hyperelastic::Hencky,
     constants: |values| {
-        let (sine, cosine) = values[2].to_radians().sin_cos();
         // |dev tau| <= yield_stress - friction tr(tau)
-        let scale = 2.0 * (2.0_f64 / 3.0).sqrt() / (3.0 - sine);
+        let friction = cone_slope(values[2]);
         Constants {
-            yield_stress: 3.0 * scale * values[3] * cosine,
-            friction: scale * sine,
+            yield_stress: 3.0 * friction * values[3] / values[2].to_radians().tan(),
+            friction,
             ..Constants::elastic(values[0], values[1], values[4])
         }
     },
 };
+
+/// Slope of the cone of an angle of internal friction \[degrees\]: length of the deviator over minus the trace of the Kirchhoff stress.
+pub(super) fn cone_slope(angle: f64) -> f64 {
+    let sine = angle.to_radians().sin();
+    2.0 * (2.0_f64 / 3.0).sqrt() * sine / (3.0 - sine)
+}

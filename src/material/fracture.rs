@@ -6,12 +6,16 @@ use schemars::JsonSchema;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::drucker_prager::cone_slope;
 use super::{JohnsonCook, Material, MaterialParams};
 
 /// Cells that a band of cracking particles is wide, as far as its energy goes.
 pub const BAND: f64 = 3.9;
 /// Driver at full damage over that at the onset, at least: a smaller ratio would let stress grow with damage.
 pub const LEAST_RATIO: f64 = 1.02;
+
+/// Angle of internal friction of rubble \[degrees\].
+const RUBBLE_ANGLE: f64 = 35.0;
 
 /// How the stress across a crack falls as it opens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -33,6 +37,17 @@ pub enum AtCoarse {
     Strength,
     /// The fracture energy; the material is weaker.
     Energy,
+}
+
+/// What becomes of broken particles that no whole one is near.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Debris {
+    /// They stay.
+    #[default]
+    Keep = 0,
+    /// They are taken out; the sums keep what they had.
+    Drop = 1,
 }
 
 /// Scatter of the strength by flaws. [Weibull 1951]
@@ -67,6 +82,12 @@ pub(super) struct FractureKeys {
     at_coarse: AtCoarse,
     /// Scatter of the strength.
     weibull: Option<Weibull>,
+    /// Whether what has opened by half a cell bears shear by friction alone, as sand does.
+    #[serde(default)]
+    rubble: bool,
+    /// What becomes of broken particles with no whole one within a cell.
+    #[serde(default)]
+    debris: Debris,
     /// It breaks by voids in place of a tensile strength, for laws that yield; those of the preset when left out.
     johnson_cook: Option<JohnsonCook>,
 }
@@ -126,6 +147,10 @@ pub struct Fracture {
     /// Scatter of the strength.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weibull: Option<Weibull>,
+    /// Whether what has opened by half a cell bears shear by friction alone.
+    pub rubble: bool,
+    /// What becomes of broken particles with no whole one within a cell.
+    pub debris: Debris,
     /// How voids grow in what breaks by them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub johnson_cook: Option<JohnsonCook>,
@@ -214,6 +239,12 @@ impl Fracture {
         if let Some(mistake) = voids.and_then(|voids| voids.mistake()) {
             return Err(mistake);
         }
+        if keys.rubble && voids.is_some() {
+            return Err(
+                "`rubble` beside `johnson_cook` in `fracture`: metals tear and do not crumble, remove `rubble`"
+                    .to_owned(),
+            );
+        }
         let strength = match voids {
             Some(_) => Some(0.0),
             None => keys.tensile_strength.or_else(|| own(|p| p.tensile_strength).filter(|strength| *strength > 0.0)),
@@ -226,7 +257,15 @@ impl Fracture {
             softening: keys.softening.or(preset.map(|(own, _)| own.softening)).unwrap_or_default(),
             at_coarse: keys.at_coarse,
             weibull: keys.weibull,
+            rubble: keys.rubble,
+            debris: keys.debris,
         }))
+    }
+
+    /// Whether its debris is taken out.
+    #[must_use]
+    pub fn drops_debris(&self) -> bool {
+        self.debris == Debris::Drop
     }
 
     /// Largest cell at which both strength and energy hold `[m]`; `modulus`: of pressure waves, lambda + 2 mu `[Pa]`.
@@ -279,6 +318,11 @@ impl Material {
     pub fn params_with_fracture(&self, share: super::VolumeShare, cell: f64) -> MaterialParams {
         let params = self.params(share);
         let Some(fracture) = &self.fracture else { return params };
+        let params = MaterialParams {
+            rubble: if fracture.rubble { cone_slope(RUBBLE_ANGLE) as f32 } else { 0.0 },
+            debris: fracture.debris as u32,
+            ..params
+        };
         // The modulus that elastic force and ghost pressure have together.
         let modulus = f64::from(params.elastic_lambda) + f64::from(params.ghost_modulus) + 2.0 * f64::from(params.mu);
         let [strength, _] = fracture.at_cell(modulus, cell);

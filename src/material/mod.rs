@@ -21,7 +21,7 @@ mod wgsl;
 
 pub use energy::{Hyperelastic, Laws, Strained};
 pub use flow::{Flow, PresetFlow};
-pub use fracture::{AtCoarse, BAND, Fracture, LEAST_RATIO, Softening, Weibull};
+pub use fracture::{AtCoarse, BAND, Debris, Fracture, LEAST_RATIO, Softening, Weibull};
 pub use preset::{PRESETS, Preset, Units, kind_names};
 pub use voids::JohnsonCook;
 #[doc(hidden)]
@@ -191,7 +191,7 @@ pub struct Material {
 }
 
 structure! {
-    /// A material as the device sees it, 96 bytes.
+    /// A material as the device sees it, 112 bytes.
     #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
     pub MaterialParams as "MaterialParams" {
         /// Shear modulus `[Pa]`.
@@ -230,6 +230,12 @@ structure! {
         heating: f32,
         /// Flow stress, see [`Flow`]: exponent of the strain, 0 for linear hardening; rate `[1]`, reference rate `[s^-1]`, softening `[1]`.
         flow: vec4f,
+        /// Growth of the yield stress of what has crumbled over minus the trace of the Kirchhoff stress; 0 for what does not crumble `[1]`.
+        rubble: f32,
+        /// [`Debris`] as a number.
+        debris: u32,
+        /// Fills the last row.
+        unused: [u32; 2],
     }
 }
 

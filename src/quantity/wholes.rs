@@ -122,10 +122,11 @@ pub const STEP: &[Columns<StepRecord>] = lines! {
     One "owed_mass_of_either_sign", "|m_o|", "kg", "mass that is owed or too much, whatever its sign", |r| r.owed_either.into();
     One "min_entropy", "s_min", "Pa (m^3 kg^-1)^gamma", "least pressure over density to the power gamma", |r| r.min_entropy.into();
     One "solid_fracture_energy", "E_f", "J", "energy that cracks have taken since the start", |r| r.fracture_energy.into();
-    One "broken_mass", "m_b", "kg", "mass of the particles that have broken", |r| r.broken_mass.into();
+    One "broken_mass", "m_b", "kg", "mass of the particles that have broken and are still there", |r| r.broken_mass.into();
     One "dust_mass", "m_d", "kg", "dust in the gas", |r| r.dust_mass[0].into();
     One "loose_dust_mass", "m_l", "kg", "dust on the ground", |r| r.dust_mass[1].into();
     One "crossed_dust_mass", "m_dc", "kg", "dust that has left through the sides since the start", |r| r.dust_mass[2].into();
+    One "dropped_mass", "m_x", "kg", "mass of debris that was taken out since the start", |r| r.dropped_mass.into();
     Count "dense_cells", "N_d", "1", "cells denser than the law of the explosive allows", |r| r.dense.into();
 };
 

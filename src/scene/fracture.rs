@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Scene;
-use crate::material::BAND;
+use crate::material::{BAND, Fracture, Material};
 
 /// How a body that can break will do so on this grid.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -89,6 +89,12 @@ impl Scene {
     #[must_use]
     pub fn breaks(&self) -> bool {
         self.materials.values().any(|material| material.fracture().is_some())
+    }
+
+    /// Whether some material drops its debris.
+    #[must_use]
+    pub fn drops_debris(&self) -> bool {
+        self.materials.values().filter_map(Material::fracture).any(Fracture::drops_debris)
     }
 
     /// How the bodies that can break will do so.

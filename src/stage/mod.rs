@@ -19,8 +19,8 @@ pub use gas::{
 };
 pub use interface::InterfaceStage;
 pub use solid::{
-    ElasticFirst, ElasticReaction, ElasticSolve, G2p, MAX_ELASTIC_ITERATIONS, MpmGridUpdate, P2g, ParticleSort, Push,
-    Supports, Transfer,
+    Debris, ElasticFirst, ElasticReaction, ElasticSolve, G2p, MAX_ELASTIC_ITERATIONS, MpmGridUpdate, P2g, ParticleSort,
+    Push, Supports, Transfer,
 };
 pub use solve::CoupledSolve;
 pub use step::{Decision, Gauges, Loads, Maps, TimeStep, Totals};

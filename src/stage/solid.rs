@@ -1,5 +1,6 @@
 //! What happens to bodies, on particles and nodes.
 
+mod debris;
 mod elastic_first;
 mod elastic_reaction;
 mod elastic_solve;
@@ -10,6 +11,7 @@ mod particle_sort;
 mod push;
 mod supports;
 
+pub use debris::Debris;
 pub use elastic_first::ElasticFirst;
 pub use elastic_reaction::ElasticReaction;
 pub use elastic_solve::{ElasticSolve, MAX_ITERATIONS as MAX_ELASTIC_ITERATIONS};

@@ -27,7 +27,7 @@ pub const RULE_SHIFT: u32 = 16;
 /// Groups, at most, that leave one partial result each.
 pub const PARTIALS: u32 = 1024;
 /// vec4 entries of one record of the history ring.
-pub const HISTORY_WIDTH: u32 = 15;
+pub const HISTORY_WIDTH: u32 = 16;
 /// Blocks of partial results that the totals of a step take.
 pub const BLOCKS: u32 = 12;
 /// The block of the size of the right-hand side of a solve.
@@ -141,8 +141,9 @@ pub fn source_for(shader: &str) -> String {
 }
 
 /// Shaders that include `materials/law.wgsl`.
-const MATERIAL_SHADERS: [&str; 5] = [
+const MATERIAL_SHADERS: [&str; 6] = [
     "interface/interface.wgsl",
+    "solid/debris.wgsl",
     "solid/g2p.wgsl",
     "step/diagnostics.wgsl",
     "step/time_step.wgsl",

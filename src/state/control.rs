@@ -46,7 +46,7 @@ structure! {
         clamped: atomic_u32,
         /// 1 if a particle may have left its cell since they were sorted.
         unsorted: atomic_u32,
-        /// Particles that left through an open side, since the start.
+        /// Particles that left through an open side or were dropped as debris, since the start.
         escaped: atomic_u32,
         /// Vertices that carry P, h and Q apart, this step.
         extra: u32,

@@ -26,12 +26,12 @@ impl State {
 pub struct Particles {
     /// Number of particles.
     pub count: u32,
-    /// Position \[m\] and mass \[kg\].
+    /// Position \[m\] and mass \[kg\]: 0 once it has left the domain, negative once it was dropped as debris.
     pub position: Buffer<[f32; 4]>,
     /// Velocity \[m s^-1\] and volume at rest \[m^3\].
     pub velocity: Buffer<[f32; 4]>,
     /// Columns of the affine matrix \[s^-1\]; w: ghost pressure \[Pa\]; plastic strain, or what a broken one has opened by, as logarithm of a
-    /// volume; material index in the low half and what scatters its strength in the high half.
+    /// volume; material index in the low half, what scatters its strength above it, and in the highest bit whether it has crumbled.
     pub affine: Buffer<[f32; 4]>,
     /// Columns of the deformation gradient less the identity; w: body index, 1 while inside the domain or 2 if driven, damage.
     pub deformation: Buffer<[f32; 4]>,

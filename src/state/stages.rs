@@ -59,6 +59,7 @@ stages! {
         ["implicit_elasticity.md" "Implicit elasticity"]
     MpmGridUpdate "mpm_grid_update" "how do the nodes move?" ["solid_update.md" "Solid update"]
     G2p "g2p" "how do the particles move and deform?" ["laws.md" "Laws", "fracture.md" "Fracture"]
+    Debris "debris" "which debris is dropped?" ["fracture.md" "Fracture"]
     OddEven "odd_even" "which alternating pressure does the solve not see?" ["gas_at_rest.md" "Gas at rest"]
     Totals "totals" "what are the sums, loads, gauges and maps of the step?" ["../inside/warnings.md" "Warnings and sums"]
 }

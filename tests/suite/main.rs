@@ -17,6 +17,7 @@ mod common;
 mod contacts;
 mod cut;
 mod cut_bodies;
+mod debris;
 mod determinism;
 mod dust;
 mod earlier;

@@ -18,6 +18,8 @@ fn voids_need_flow_and_sound_numbers() {
         (law(metal, &voids(0.001, -1.0)), ["materials.m", "make it at least 0.01"]),
         (law(metal, &voids(0.1, 1.0)), ["materials.m", "johnson_cook.d3"]),
         (law(metal, &format!(", tensile_strength = 1e9{}", voids(0.1, 0.0))), ["materials.m", "remove the other"]),
+        (law(metal, &format!(", rubble = true{}", voids(0.1, 0.0))), ["materials.m", "remove `rubble`"]),
+        (law(metal, ", debris = \"burn\""), ["materials.m.fracture.debris", "there are `keep`, `drop`"]),
     ] {
         expect(&text, &[], &words);
     }
