@@ -28,7 +28,7 @@ use crate::stage::{
 use crate::state::constants::NO_FAULT;
 use crate::state::{Control, Phase, State};
 pub use charges::Released;
-pub use joined::place_taken;
+pub use joined::Places;
 use least_step::LeastStep;
 pub use live::Blast;
 use live::ByHand;

@@ -85,6 +85,8 @@ pub use fracture::{Breaking, Tearing};
 pub use gauge::{Gauge, GaugePlace, Side};
 pub use geometry::camera_file::CameraFile;
 pub use geometry::cut::{CutCell, CutGeometry};
+#[cfg(feature = "viewer")]
+pub(crate) use geometry::mesh::is_mesh_file;
 pub use geometry::mesh::{Mesh, Up};
 pub use geometry::named::Named;
 pub use geometry::polyhedron::Part;

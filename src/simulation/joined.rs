@@ -1,6 +1,6 @@
 //! A body joins a simulation at work: what there is goes on from where it is, and the gas that the body covers goes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::{Saved, SavedArray, Simulation};
 use crate::diagnostics::StepRecord;
@@ -74,7 +74,8 @@ impl Simulation {
             let text = format!("`{name}` finds no place here: {:.0} % of it lie in", 100.0 * overlap.share);
             return Err(Error::Usage(format!("{text} the obstacle `{}`", overlap.by)));
         }
-        let taken = place_taken(&self.state.grid, &self.snapshot()?.particles, seeds);
+        let particles = self.snapshot()?.particles;
+        let taken = Places::of(self.state.grid, &particles).taken(seeds);
         match taken.and_then(|body| now.bodies.get(body)) {
             Some(body) => Err(Error::Usage(format!("`{name}` finds no place here: `{}` is there", body.name))),
             None => Ok(()),
@@ -220,26 +221,44 @@ fn of_gas(name: &str, words: Vec<u32>, own: Vec<u32>, (slots, width): (usize, us
     all
 }
 
-/// The body whose particles are where others are to be.
-#[must_use]
-pub fn place_taken(grid: &Grid, particles: &[ParticleSample], seeds: &[Seed]) -> Option<usize> {
-    let edge = |volume: f64| volume.powf(1.0 / f64::from(grid.dimension));
-    let key = |point: [f64; 3]| point.map(|x| (x / f64::from(grid.spacing)).floor() as i64);
-    let mut near: BTreeMap<[i64; 3], Vec<(&ParticleSample, [f64; 3])>> = BTreeMap::new();
-    for particle in particles {
-        let place = grid.in_scene(particle.position);
-        near.entry(key(place)).or_default().push((particle, place));
+/// Where the particles of a scene are, cell by cell.
+#[derive(Debug)]
+pub struct Places<'p> {
+    grid: Grid,
+    near: HashMap<[i64; 3], Vec<(&'p ParticleSample, [f64; 3])>>,
+}
+
+impl<'p> Places<'p> {
+    /// Those of some particles.
+    #[must_use]
+    pub fn of(grid: Grid, particles: &'p [ParticleSample]) -> Self {
+        let mut places = Self { grid, near: HashMap::new() };
+        for particle in particles {
+            let place = grid.in_scene(particle.position);
+            places.near.entry(places.key(place)).or_default().push((particle, place));
+        }
+        places
     }
-    let reach = |axis: u32| if axis < grid.dimension { -1..=1 } else { 0..=0 };
-    let beside: Vec<[i64; 2]> = reach(2).flat_map(|z| reach(1).map(move |y| [y, z])).collect();
-    seeds.iter().find_map(|seed| {
-        let [x, y, z] = key(seed.position);
-        let all = beside.iter().flat_map(|by| reach(0).map(move |dx| [x + dx, y + by[0], z + by[1]]));
-        let mut close = all.filter_map(|at| near.get(&at)).flatten();
-        close.find_map(|(particle, place)| {
-            let away = (0..3).map(|d| (place[d] - seed.position[d]).powi(2)).sum::<f64>().sqrt();
-            let mean = 0.5 * (edge(seed.volume) + edge(particle.volume0.into()));
-            (away < NEAREST * mean).then_some(particle.body as usize)
+
+    fn key(&self, point: [f64; 3]) -> [i64; 3] {
+        point.map(|x| (x / f64::from(self.grid.spacing)).floor() as i64)
+    }
+
+    /// The body whose particles are where others are to be.
+    #[must_use]
+    pub fn taken(&self, seeds: &[Seed]) -> Option<usize> {
+        let edge = |volume: f64| volume.powf(1.0 / f64::from(self.grid.dimension));
+        let reach = |axis: u32| if axis < self.grid.dimension { -1..=1 } else { 0..=0 };
+        let beside: Vec<[i64; 2]> = reach(2).flat_map(|z| reach(1).map(move |y| [y, z])).collect();
+        seeds.iter().find_map(|seed| {
+            let [x, y, z] = self.key(seed.position);
+            let all = beside.iter().flat_map(|by| reach(0).map(move |dx| [x + dx, y + by[0], z + by[1]]));
+            let mut close = all.filter_map(|at| self.near.get(&at)).flatten();
+            close.find_map(|(particle, place)| {
+                let away = (0..3).map(|d| (place[d] - seed.position[d]).powi(2)).sum::<f64>().sqrt();
+                let mean = 0.5 * (edge(seed.volume) + edge(particle.volume0.into()));
+                (away < NEAREST * mean).then_some(particle.body as usize)
+            })
         })
-    })
+    }
 }

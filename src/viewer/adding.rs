@@ -1,10 +1,13 @@
 //! Bodies that are added in the window: what they are, and the scene with them.
 
+pub(super) mod mesh;
+
 use std::collections::BTreeMap;
 
 use crate::material::{Material, PRESETS, Units};
 use crate::scene::{Body, Scene, Seed, Shape};
 use crate::{Error, Result};
+pub use mesh::MeshFile;
 
 /// Pressures of air \[Pa\] in scenes in kg, m and s.
 pub(super) const AIR: std::ops::Range<f64> = 1e3..1e7;
@@ -20,6 +23,8 @@ pub enum Form {
     Ball,
     /// A cube; a square in 2D.
     Box,
+    /// What a mesh file encloses; in 2D what the plane through its middle cuts out of that.
+    Mesh,
 }
 
 /// A body to add.
@@ -27,8 +32,10 @@ pub enum Form {
 pub struct Addition {
     /// Its form.
     pub form: Form,
-    /// Diameter or edge \[m\].
+    /// Diameter, edge, or largest extent of a mesh \[m\].
     pub size: f64,
+    /// The mesh that was given last.
+    pub mesh: Option<MeshFile>,
     /// Name of a material of the scene, or of a preset.
     pub material: String,
 }
@@ -77,11 +84,16 @@ impl Addition {
         let domain = &scene.domain;
         let shortest = domain.size[..domain.axes()].iter().copied().fold(f64::INFINITY, f64::min);
         let size = (SIZE * shortest).max(LEAST_CELLS * domain.spacing());
-        let digit = 10.0_f64.powf(size.log10().floor() - 1.0);
         let first = scene.bodies.iter().find(|body| !body.is_driven()).map(|body| body.material.clone());
         let material = first.or_else(|| scene.materials.keys().next().cloned());
         let material = material.unwrap_or_else(|| PRESETS[0].name.to_owned());
-        Self { form: Form::default(), size: (size / digit).round() * digit, material }
+        Self { form: Form::default(), size: two_digits(size), mesh: None, material }
+    }
+
+    /// Has the form of a mesh, at a size that suits a scene.
+    pub(super) fn take(&mut self, mesh: MeshFile, scene: &Scene) {
+        self.size = two_digits(mesh.size_in(&scene.domain));
+        (self.form, self.mesh) = (Form::Mesh, Some(mesh));
     }
 
     /// Materials to choose from: those of the scene, then presets.
@@ -95,15 +107,21 @@ impl Addition {
     /// Half of its largest extent \[m\].
     #[must_use]
     pub fn reach(&self) -> f64 {
-        0.5 * self.size * if self.form == Form::Box { 3.0_f64.sqrt() } else { 1.0 }
+        match (self.form, &self.mesh) {
+            (Form::Mesh, Some(mesh)) => mesh.reach(self.size),
+            (Form::Box, _) => 0.5 * self.size * 3.0_f64.sqrt(),
+            _ => 0.5 * self.size,
+        }
     }
 
-    /// Its shape with the middle at a point \[m\].
-    fn shape(&self, scene: &Scene, point: [f64; 3]) -> Shape {
-        let edges = std::array::from_fn(|axis| if axis < scene.domain.axes() { self.size } else { f64::INFINITY });
-        match self.form {
-            Form::Ball => Shape::sphere(point, 0.5 * self.size),
-            Form::Box => Shape::cuboid(point, edges),
+    /// Its shape with the middle at a point \[m\], and the word that its name begins with.
+    fn shape(&self, scene: &Scene, point: [f64; 3]) -> (Shape, &str) {
+        let axes = scene.domain.axes();
+        let edges = std::array::from_fn(|axis| if axis < axes { self.size } else { f64::INFINITY });
+        match (self.form, &self.mesh) {
+            (Form::Mesh, Some(mesh)) => (mesh.placed(point, self.size, axes), &mesh.name),
+            (Form::Box, _) => (Shape::cuboid(point, edges), "box"),
+            _ => (Shape::sphere(point, 0.5 * self.size), "ball"),
         }
     }
 
@@ -132,10 +150,10 @@ impl Addition {
 
     fn with(&self, scene: &Scene, point: [f64; 3]) -> Result<Scene> {
         let mut scene = scene.clone();
-        let word = if self.form == Form::Ball { "ball" } else { "box" };
+        let (shape, word) = self.shape(&scene, point);
         let taken = |name: &String| scene.bodies.iter().any(|body| body.name == *name);
         let name = (1..).map(|number| format!("{word}_{number}")).find(|name| !taken(name)).unwrap_or_default();
-        let mut body = Body::new(name, self.shape(&scene, point), &self.material);
+        let mut body = Body::new(name, shape, &self.material);
         body.joined = true;
         let density = |same: bool| {
             let mut like = scene.bodies.iter().filter(|other| !same || other.material == body.material);
@@ -153,4 +171,9 @@ impl Addition {
         scene.bodies.push(body);
         Ok(scene)
     }
+}
+
+fn two_digits(size: f64) -> f64 {
+    let digit = 10.0_f64.powf(size.log10().floor() - 1.0);
+    (size / digit).round() * digit
 }

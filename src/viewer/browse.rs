@@ -1,10 +1,11 @@
-//! The file dialog: folders, scenes and runs below one that is typed or clicked on.
+//! The file dialog: folders, scenes, runs and meshes below one that is typed or clicked on.
 
 use std::path::{Path, PathBuf};
 
 use egui::{Align2, Button, Key, RichText, ScrollArea, TextEdit, Ui, Window};
 
 use super::theme;
+use crate::scene::is_mesh_file;
 
 /// What a run leaves in its folder, whatever else it writes.
 const OF_A_RUN: [&str; 2] = ["run.json", "report.json"];
@@ -15,6 +16,7 @@ enum Kind {
     Folder,
     Run,
     Scene,
+    Mesh,
 }
 
 /// The open dialog.
@@ -38,7 +40,7 @@ impl Browse {
     /// One frame: what is to be opened, if that was chosen.
     pub(super) fn show(&mut self, root: &Ui) -> Option<PathBuf> {
         let mut chosen = None;
-        let window = Window::new("Open a scene").collapsible(false).resizable(false);
+        let window = Window::new("Open a scene, a run or a mesh").collapsible(false).resizable(false);
         window.anchor(Align2::CENTER_TOP, [0.0, 60.0]).show(root.ctx(), |ui| {
             let hint = "path, or name of a shipped scene";
             let field = ui.add(TextEdit::singleline(&mut self.typed).hint_text(hint).desired_width(380.0));
@@ -71,7 +73,7 @@ impl Browse {
     /// Entries to click on; the one that was clicked.
     fn list(&self, ui: &mut Ui) -> Option<PathBuf> {
         if self.entries.is_empty() {
-            ui.label(RichText::new("no folders, scenes or runs here").color(theme::FAINT));
+            ui.label(RichText::new("no folders, scenes, runs or meshes here").color(theme::FAINT));
         }
         let mut clicked = None;
         for (kind, name) in &self.entries {
@@ -79,6 +81,7 @@ impl Browse {
                 Kind::Folder => RichText::new(format!("{name}/")).color(theme::FAINT),
                 Kind::Run => RichText::new(format!("{name}/  (a run)")),
                 Kind::Scene => RichText::new(name),
+                Kind::Mesh => RichText::new(format!("{name}  (a mesh)")),
             };
             if ui.add(Button::new(text).frame(false)).clicked() {
                 clicked = Some(self.folder.join(name));
@@ -104,7 +107,7 @@ fn is_run(folder: &Path) -> bool {
     OF_A_RUN.iter().any(|name| folder.join(name).is_file())
 }
 
-/// Folders, runs and scene files of a folder, by name; what is hidden is left out, and nothing where it cannot be read.
+/// Folders, runs, scene and mesh files of a folder, by name; what is hidden is left out, and nothing where it cannot be read.
 fn entries(folder: &Path) -> Vec<(Kind, String)> {
     let Ok(all) = std::fs::read_dir(folder) else { return Vec::new() };
     let entry = |path: PathBuf| {
@@ -113,6 +116,7 @@ fn entries(folder: &Path) -> Vec<(Kind, String)> {
             true if is_run(&path) => Kind::Run,
             true => Kind::Folder,
             false if path.extension().is_some_and(|end| end == "toml") => Kind::Scene,
+            false if is_mesh_file(&path) => Kind::Mesh,
             false => return None,
         };
         Some((kind, name))
@@ -133,13 +137,23 @@ mod tests {
         for name in ["b", "a", ".git", "past"] {
             std::fs::create_dir(place(name)).unwrap();
         }
-        for name in ["two.toml", "one.toml", ".hidden.toml", "picture.png", "past/run.json", "a/deep.toml"] {
+        for name in ["two.toml", "one.toml", ".hidden.toml", "picture.png", "cup.STL", "past/run.json", "a/deep.toml"] {
             std::fs::write(place(name), "").unwrap();
         }
         let mut browse = Browse::at(folder.path());
         let names: Vec<_> = browse.entries.iter().map(|(kind, name)| (*kind, name.as_str())).collect();
         let (plain, scene) = (Kind::Folder, Kind::Scene);
-        assert_eq!(names, [(plain, "a"), (plain, "b"), (Kind::Run, "past"), (scene, "one.toml"), (scene, "two.toml")]);
+        assert_eq!(
+            names,
+            [
+                (plain, "a"),
+                (plain, "b"),
+                (Kind::Run, "past"),
+                (scene, "one.toml"),
+                (scene, "two.toml"),
+                (Kind::Mesh, "cup.STL")
+            ]
+        );
         assert_eq!(browse.folder_or(Path::new("one.toml")), place("one.toml"));
         assert_eq!(browse.folder_or(Path::new("gas/sod")), PathBuf::from("gas/sod"), "a shipped scene");
         browse.go(&place("a"));

@@ -3,22 +3,22 @@
 mod ask;
 mod files;
 mod hand;
+mod opening;
 mod pace;
 mod rewind;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::budget::{Budget, Haste, Rate};
-use super::model::{Command, Look, Note, Opened, Outbox, Pace, Phase, Request, Shown, Status, Weight};
-use super::pictures;
+use super::model::{Answer, Command, Look, Note, Outbox, Pace, Phase, Shown, Status, Weight};
 use super::record::Recording;
 use super::session::Session;
 use super::worker::lock;
 use crate::diagnostics::StepRecord;
 use crate::gpu::{Gpu, GpuOptions};
-use crate::scene::{Scene, stem};
+use crate::scene::Scene;
 use crate::{Error, Result};
 use pace::LONGEST_LAG;
 
@@ -65,6 +65,8 @@ pub(super) struct Desk {
     recording: Option<Recording>,
     records: Vec<StepRecord>,
     phase: Phase,
+    /// A scene is being opened, and the window has no answer yet.
+    asked: bool,
     start: Instant,
 }
 
@@ -98,6 +100,7 @@ impl Desk {
             recording: None,
             records: Vec::new(),
             phase: Phase::Empty,
+            asked: false,
             start: Instant::now(),
         }
     }
@@ -129,7 +132,10 @@ impl Desk {
     /// Does what is asked for.
     pub(super) fn obey(&mut self, command: Command) {
         let outcome = match command {
-            Command::Open(request, look) => self.open(&request, look),
+            Command::Open(request, look) => {
+                self.open(&request, look);
+                Ok(())
+            }
             Command::Close => {
                 self.close();
                 Ok(())
@@ -158,6 +164,7 @@ impl Desk {
             Command::Rewind(time) => self.rewind(time),
             Command::Detonate(strike) => self.strike(&strike),
             Command::Add(at, addition) => self.add(at, &addition),
+            Command::ReadMesh(file, repair) => self.read_mesh(&file, repair),
             Command::Hold(at) => self.hold(at),
             Command::Lead(at) => {
                 self.lead(at);
@@ -201,50 +208,6 @@ impl Desk {
         }
         self.turned = self.now();
         outcome.unwrap_or_else(|error| self.report(error));
-    }
-
-    fn open(&mut self, request: &Request, look: Option<Box<Look>>) -> Result<()> {
-        self.close();
-        lock(&self.outbox).status.phase = Phase::Opening;
-        // mistakes are told before a device is opened
-        let scene = request.load()?;
-        let gpu = match &self.gpu {
-            Some(gpu) => gpu.clone(),
-            None => self.gpu.insert(Gpu::new(&self.options)?).clone(),
-        };
-        let session = match request.run() {
-            Some(run) => Session::open_run(&gpu, run, &request.changes)?,
-            None => Session::open(&gpu, scene)?,
-        };
-        let look = look.map_or_else(|| session.look(), |look| *look);
-        self.folder = pictures::folder().join(stem(&request.name));
-        // beside the file, whose meshes it may read
-        let beside = Path::new(&request.name).parent().filter(|_| Path::new(&request.name).is_file());
-        let shipped = Path::new(OUT).join(stem(&request.name));
-        self.saved = (beside.unwrap_or(&shipped).to_owned(), stem(&request.name).to_owned());
-        lock(&self.outbox).opened = Some(Opened {
-            request: request.clone(),
-            scene: Arc::clone(session.scene()),
-            particles: session.particles(),
-            fitted: session.fitted_camera(&look),
-            look: look.clone(),
-            device: gpu.info.name.clone(),
-            software: gpu.is_software(),
-        });
-        (self.look, self.told) = (Some(look), Some(Arc::clone(session.scene())));
-        self.session = Some(session);
-        (self.phase, self.replay) = (Phase::Ready, request.run().is_some());
-        (self.stale, self.budget, self.rate) = (true, Budget::default(), Rate::default());
-        Ok(())
-    }
-
-    fn close(&mut self) {
-        self.finish_recording();
-        // Buffers go before new ones come.
-        (self.session, self.shown) = (None, None);
-        (self.playing, self.steps_left, self.news, self.coarse) = (false, 0, false, false);
-        self.records.clear();
-        self.phase = Phase::Empty;
     }
 
     fn advance(&mut self) -> Result<()> {
@@ -359,6 +322,9 @@ impl Desk {
         self.close();
         self.phase = Phase::Failed;
         self.note(Weight::Wrong, reason.to_owned());
+        if self.asked {
+            self.answer(Answer::Failed);
+        }
     }
 
     /// Leaves the state of things in the outbox.

@@ -67,7 +67,7 @@ pub const HELP: [(&str, &str); 19] = [
     ("V", "start or stop recording"),
     ("P", "show or hide the panel"),
     ("H", "show or hide this help"),
-    ("Ctrl+O", "open a scene file"),
+    ("Ctrl+O", "open a scene or a mesh"),
     ("Esc", "close this help; back to the gallery"),
     ("Ctrl+Q", "quit"),
 ];
@@ -83,7 +83,7 @@ pub const MOUSE: [(&str, &str); 10] = [
     ("Click", "on a body: picks it for the panel; on gas: sets a probe; on a probe: takes it away"),
     ("Rest", "position, value in the plane, body"),
     ("Drag on the time line", "back to a state that is kept; from there the scene goes on"),
-    ("File dropped on the window", "opens it"),
+    ("File dropped on the window", "opens a scene; a mesh becomes the next body"),
 ];
 
 /// How far a key turns or shifts the view, in shares of the picture's height.

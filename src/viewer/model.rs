@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::adding::{Added, Addition};
+use super::adding::{Added, Addition, MeshFile};
 use super::past;
 use crate::Result;
 use crate::diagnostics::StepRecord;
@@ -146,6 +146,8 @@ pub enum Command {
     Detonate(Strike),
     /// Add a body where a place of the picture is, in shares of its width and height from the top left corner.
     Add([f64; 2], Box<Addition>),
+    /// Read a mesh file for a body to add; whether also one that is open or crosses itself.
+    ReadMesh(PathBuf, bool),
     /// Hold the body at a place of the picture, in shares of its width and height from the top left corner.
     Hold([f64; 2]),
     /// Lead the body that is held to a place of the picture.
@@ -174,8 +176,6 @@ pub enum Phase {
     /// No scene.
     #[default]
     Empty,
-    /// Reads, compiles, allocates.
-    Opening,
     /// A scene is open.
     Ready,
     /// The scene cannot go on; the last picture stays.
@@ -284,12 +284,25 @@ pub struct Spot {
     pub body: Option<String>,
 }
 
+/// What came of a scene that was to be opened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// It is open.
+    Opened,
+    /// It is not, and the scene before goes on.
+    Refused,
+    /// It is not, and no other one is.
+    Failed,
+}
+
 /// What the worker has for the window since the window last looked.
 #[derive(Debug, Default)]
 pub struct Outbox {
     /// What is true now.
     pub status: Status,
-    /// A scene was opened.
+    /// What came of scenes that were to be opened, one for each, in their order.
+    pub answers: Vec<Answer>,
+    /// The scene that was opened last.
     pub opened: Option<Opened>,
     /// The newest picture.
     pub shown: Option<Shown>,
@@ -305,6 +318,8 @@ pub struct Outbox {
     pub spot: Option<Spot>,
     /// What was picked.
     pub picked: Option<Spot>,
+    /// A mesh was read.
+    pub mesh: Option<MeshFile>,
     /// Whether there was a body where one was to be held.
     pub holds: Option<bool>,
     /// Lines for the user.

@@ -1,25 +1,27 @@
 //! The user interface: gallery or scene, the bars around it, messages. Keeps the worker's handle; knows nothing of windows.
 
+mod opening;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
+use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use egui::{Align2, Event, Panel as EguiPanel, RichText, Ui as EguiUi};
 
-use super::adding::Added;
 use super::bars;
 use super::browse::Browse;
 use super::gallery::Gallery;
 use super::help;
 use super::keys::{Action, action};
-use super::model::{Command, Look, Note, Pace, Phase, Request, Status, Weight};
+use super::model::{Command, Note, Pace, Phase, Request, Status, Weight};
 use super::progress;
 use super::theme;
 use super::view::View;
 use super::watch::Watch;
 use super::worker::Worker;
+use crate::scene::is_mesh_file;
+use opening::Asked;
 
 /// How long a message about something that went well stays.
 const FADES: Duration = Duration::from_secs(6);
@@ -37,10 +39,9 @@ pub(super) struct Ui {
     status: Status,
     /// Whether to run, asked for and not heard yet.
     wish: Option<bool>,
-    /// The worker has not answered the last request yet.
-    opening: bool,
+    /// Scenes that the worker is to open and has not answered for; none where nobody waits for it any more.
+    asked: VecDeque<Option<Asked>>,
     pace: Pace,
-    play_when_open: bool,
     notes: Vec<(Instant, Note)>,
     help: bool,
     /// What is smaller than the scene that could not be opened.
@@ -60,9 +61,8 @@ impl Ui {
             watch: None,
             status: Status::default(),
             wish: None,
-            opening: false,
+            asked: VecDeque::new(),
             pace: pace.unwrap_or(Pace::Lasting(PACE)),
-            play_when_open: true,
             notes: Vec::new(),
             help: false,
             offer: None,
@@ -70,7 +70,7 @@ impl Ui {
             quit: false,
         };
         if let Some(request) = request {
-            ui.open(request, None);
+            ui.open(request);
         }
         ui
     }
@@ -113,23 +113,7 @@ impl Ui {
         for note in outbox.notes.drain(..) {
             self.notes.push((Instant::now(), note));
         }
-        if let Some(opened) = outbox.opened.take() {
-            let panel = self.view.take().map(|view| view.panel);
-            let mut view = View::new(opened, self.pace);
-            if let Some(panel) = panel {
-                view.panel.keep(panel);
-            }
-            view.commands.push(Command::Measure(view.panel.measures()));
-            self.view = Some(view);
-        }
-        if self.opening && matches!(self.status.phase, Phase::Ready | Phase::Failed) {
-            self.opening = false;
-            let failed = self.request.as_ref().filter(|_| self.status.phase == Phase::Failed);
-            self.offer = failed.and_then(Request::small);
-            self.worker.send(Command::Pace(self.pace));
-            self.wish = Some(self.play_when_open && self.status.phase == Phase::Ready);
-            self.worker.send(Command::Play(self.wish == Some(true)));
-        }
+        self.heed(std::mem::take(&mut outbox.answers), outbox.opened.take());
         if let Some(view) = &mut self.view {
             view.receive(outbox);
         }
@@ -145,60 +129,14 @@ impl Ui {
         }
     }
 
-    /// Opens a scene; the look stays where the scene does.
-    fn open(&mut self, request: Request, look: Option<Look>) {
-        self.watch = request.file().map(Watch::new);
-        if look.is_none() {
-            self.view = None;
-        }
-        self.notes.clear();
-        self.worker.send(Command::Open(request.clone(), look.map(Box::new)));
-        (self.request, self.opening) = (Some(request), true);
-        self.status = Status { phase: Phase::Opening, ..Status::default() };
-    }
-
-    /// Opens the scene again from its start, with the look that it has in the window.
-    fn restart(&mut self) {
-        let look = self.view.as_ref().map(|view| view.look.clone());
-        if let Some(mut request) = self.request.clone() {
-            if let Some(view) = &mut self.view {
-                let clear = std::mem::take(&mut view.panel.adding.clear);
-                request.added = if clear { Added::default() } else { request.added.of(&view.scene) };
-                if let Err(error) = if request.added.bodies.is_empty() { Ok(()) } else { request.load().map(|_| ()) } {
-                    self.notes.push((Instant::now(), Note { weight: Weight::Wrong, text: error.to_string() }));
-                    return;
-                }
-            }
-            self.play_when_open = self.status.playing || self.view.is_none();
-            self.open(request, look);
-        }
-    }
-
-    /// Reloads a file that was saved; one with mistakes leaves the scene running and shows them.
-    fn reload_if_saved(&mut self) {
-        if !self.watch.as_mut().is_some_and(Watch::saved) {
-            return;
-        }
-        match self.request.as_ref().map(Request::load) {
-            Some(Ok(_)) => {
-                self.restart();
-                self.play_when_open = true;
-                self.tell("reloaded: the file was saved");
-            }
-            Some(Err(error)) => {
-                self.notes.retain(|(_, note)| note.weight == Weight::Fine);
-                self.notes.push((Instant::now(), Note { weight: Weight::Wrong, text: error.to_string() }));
-            }
-            None => {}
-        }
-    }
-
     fn back(&mut self) {
         if self.help || self.path.is_some() {
             (self.help, self.path) = (false, None);
         } else if self.request.is_some() {
             self.worker.send(Command::Close);
-            (self.view, self.request, self.watch, self.opening) = (None, None, None, false);
+            (self.view, self.request, self.watch) = (None, None, None);
+            // what comes of them is closed, too
+            self.asked.iter_mut().for_each(|asked| *asked = None);
             self.notes.clear();
         }
     }
@@ -214,8 +152,7 @@ impl Ui {
         if self.request.is_none() {
             let chosen = egui::CentralPanel::default().show(root, |ui| self.gallery.show(ui)).inner;
             if let Some(request) = chosen {
-                self.play_when_open = true;
-                self.open(request, None);
+                self.open(request);
             }
         } else {
             self.scene(root);
@@ -230,7 +167,12 @@ impl Ui {
         if self.view.as_ref().is_some_and(|view| view.panel.adding.clear) {
             self.restart();
         }
-        if let Some(view) = &mut self.view {
+        if self.view.as_mut().is_some_and(|view| std::mem::take(&mut view.panel.adding.browse)) {
+            self.path = Some(Browse::new());
+        }
+        // what is asked of a scene that another one may take the place of waits until that is known
+        let waits = self.is_opening();
+        if let Some(view) = self.view.as_mut().filter(|_| !waits) {
             self.pace = view.pace;
             for command in view.commands.drain(..) {
                 match command {
@@ -253,10 +195,10 @@ impl Ui {
             panel.show(root, |ui| super::panel::show(ui, view, &self.status));
         }
         let background = egui::Frame::new().fill(theme::BACKGROUND);
-        let mut asked_for = None;
+        let (opening, mut asked_for) = (self.is_opening(), None);
         egui::CentralPanel::no_frame().frame(background).show(root, |ui| match &mut self.view {
             Some(view) => view.show(ui),
-            None if self.opening => waiting(ui),
+            None if opening => waiting(ui),
             None => {
                 ui.add_space(0.7 * ui.available_height());
                 let small = self.offer.as_ref();
@@ -266,9 +208,9 @@ impl Ui {
             }
         });
         if let Some(small) = asked_for {
-            self.open(small, None);
+            self.open(small);
         }
-        if self.opening && self.view.is_some() {
+        if opening && self.view.is_some() {
             let place = egui::Area::new(egui::Id::unique("opening")).anchor(Align2::CENTER_CENTER, [0.0; 2]);
             place.show(root.ctx(), |ui| egui::Frame::popup(ui.style()).show(ui, waiting));
         }
@@ -311,26 +253,23 @@ impl Ui {
         }
     }
 
-    /// A scene file that was dropped on the window.
+    /// A scene or mesh file that was dropped on the window.
     fn dropped(&mut self, root: &EguiUi) {
         let (hovers, dropped) = root.input(|input| {
             let dropped = input.raw.dropped_files.first().map(|file| file.path().to_owned());
-            (!input.raw.hovered_files.is_empty(), dropped)
+            let is_mesh = |file: &egui::HoveredFile| file.path.as_deref().is_some_and(is_mesh_file);
+            (input.raw.hovered_files.first().map(is_mesh), dropped)
         });
-        if hovers {
+        if let Some(is_mesh) = hovers {
+            let text = if is_mesh { "add this mesh" } else { "open this scene" };
             let place = egui::Area::new(egui::Id::unique("drop")).anchor(Align2::CENTER_CENTER, [0.0; 2]);
             place.show(root.ctx(), |ui| {
-                egui::Frame::popup(ui.style()).show(ui, |ui| ui.label(RichText::new("open this scene").size(20.0)));
+                egui::Frame::popup(ui.style()).show(ui, |ui| ui.label(RichText::new(text).size(20.0)));
             });
         }
         if let Some(path) = dropped {
             self.open_path(&path);
         }
-    }
-
-    fn open_path(&mut self, path: &Path) {
-        self.play_when_open = true;
-        self.open(Request::of(&path.to_string_lossy()), None);
     }
 
     fn ask_for_path(&mut self, root: &EguiUi) {

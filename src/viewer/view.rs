@@ -104,12 +104,20 @@ impl View {
         if let Some(time) = outbox.rewound {
             self.history.forget_after(time);
         }
+        if outbox.rewound.is_some() || outbox.changed.is_some() {
+            // at the same time something else may lie under the pointer
+            (self.spot, self.asked) = (None, None);
+        }
         self.history.add(&outbox.records);
         self.spot = outbox.spot.or(self.spot.take());
         self.grab.answer(outbox.holds);
         (self.held, self.probes) = (outbox.status.held, outbox.status.probes);
         if let Some(spot) = outbox.picked {
             self.pick(&spot);
+        }
+        if let Some(mesh) = outbox.mesh {
+            self.panel.adding.take(mesh, &self.scene);
+            self.panel.open = true;
         }
         if let Some(stages) = outbox.stages {
             self.stages = stages;

@@ -62,22 +62,24 @@ pub(super) fn lock(outbox: &Mutex<Outbox>) -> MutexGuard<'_, Outbox> {
 
 fn work(mut desk: Desk, commands: &Receiver<Command>, wake: &dyn Fn()) {
     while let Some(batch) = listen(commands, desk.patience()) {
-        let turn = catch_unwind(AssertUnwindSafe(|| {
-            if !batch.is_empty() {
-                for command in batch {
-                    desk.obey(command);
-                }
-                // What follows may take long: the first step of a scene compiles kernels on some drivers.
-                desk.publish();
-                wake();
-            }
-            desk.work();
-        }));
-        if turn.is_err() {
-            desk.give_up("a bug stopped the simulation; the terminal says where");
+        let heard = !batch.is_empty();
+        // what follows a command that failed is heard, too
+        batch.into_iter().for_each(|command| guarded(&mut desk, |desk| desk.obey(command)));
+        if heard {
+            // What follows may take long: the first step of a scene compiles kernels on some drivers.
+            desk.publish();
+            wake();
         }
+        guarded(&mut desk, Desk::work);
         desk.publish();
         wake();
+    }
+}
+
+/// A panic ends the scene, and neither the worker nor the window.
+fn guarded(desk: &mut Desk, what: impl FnOnce(&mut Desk)) {
+    if catch_unwind(AssertUnwindSafe(|| what(desk))).is_err() {
+        desk.give_up("a bug stopped the simulation; the terminal says where");
     }
 }
 

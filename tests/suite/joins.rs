@@ -13,7 +13,7 @@ use crate::common::{folder_or_skip, gpu_or_skip};
 use crate::viewer::wait;
 
 /// A blast beside a body, or gas alone; an obstacle where there are bodies.
-fn text(dimension: usize, bodies: bool) -> String {
+pub(crate) fn text(dimension: usize, bodies: bool) -> String {
     let (cells, edges) = (vec![16; dimension], vec![1.0; dimension]);
     let at = |x: f64, y: f64| format!("{:?}", &[x, y, 0.5][..dimension]);
     let solids = format!(
@@ -36,17 +36,17 @@ fn text(dimension: usize, bodies: bool) -> String {
     )
 }
 
-fn scene(dimension: usize, bodies: bool) -> Scene {
+pub(crate) fn scene(dimension: usize, bodies: bool) -> Scene {
     Scene::parse(&text(dimension, bodies), "joins.toml", &[]).expect("the scene of the test is valid")
 }
 
 /// A ball of a preset whose name comes before that of the scene's own material.
 fn ball() -> Addition {
-    Addition { form: Form::Ball, size: 0.22, material: "rubber".to_owned() }
+    Addition { form: Form::Ball, size: 0.22, mesh: None, material: "rubber".to_owned() }
 }
 
 /// The place of the picture nearest to a point of the plane through the middle.
-fn place(session: &Session, x: f64, y: f64) -> [f64; 2] {
+pub(crate) fn place(session: &Session, x: f64, y: f64) -> [f64; 2] {
     let look = session.look();
     let mut best = ([0.5; 2], f64::INFINITY);
     for k in 0..3600 {
@@ -61,7 +61,7 @@ fn place(session: &Session, x: f64, y: f64) -> [f64; 2] {
     best.0
 }
 
-fn steps(session: &mut Session, count: usize) {
+pub(crate) fn steps(session: &mut Session, count: usize) {
     let mut records = Vec::new();
     while records.len() < count {
         session.advance(count as u32, &mut records).unwrap();

@@ -50,6 +50,8 @@ mod loads;
 mod map_coordinates;
 mod maps;
 mod materials;
+#[cfg(feature = "viewer")]
+mod mesh_joins;
 mod numerics;
 mod open_sides;
 mod pages;

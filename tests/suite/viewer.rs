@@ -7,7 +7,7 @@ use brisance::gpu::GpuOptions;
 use brisance::render::{Renderer, SceneBuffers};
 use brisance::scene::{Changes, Field, Scene};
 use brisance::simulation::Simulation;
-use brisance::viewer::model::{Command, Look, Outbox, Pace, Phase, Request, Shown, Source, Strike, Weight};
+use brisance::viewer::model::{Answer, Command, Look, Outbox, Pace, Phase, Request, Shown, Source, Strike, Weight};
 use brisance::viewer::record;
 use brisance::viewer::session::Session;
 use brisance::viewer::worker::Worker;
@@ -213,8 +213,23 @@ pub(crate) fn wait(worker: &Worker, seen: &mut Outbox, what: &str, done: impl Fn
     while !done(seen) {
         assert!(start.elapsed() < Duration::from_secs(120), "no {what}: {:?} {:?}", seen.status, seen.notes);
         std::thread::sleep(Duration::from_millis(10));
-        let Outbox { status, opened, shown, records, stages, changed, notes, rewound, spot, holds, picked } =
-            worker.take();
+        let Outbox {
+            status,
+            opened,
+            shown,
+            records,
+            stages,
+            changed,
+            notes,
+            rewound,
+            spot,
+            holds,
+            picked,
+            answers,
+            mesh,
+        } = worker.take();
+        seen.answers.extend(answers);
+        seen.mesh = mesh.or(seen.mesh.take());
         seen.holds = holds.or(seen.holds);
         seen.picked = picked.or(seen.picked.take());
         seen.status = status;
@@ -292,6 +307,46 @@ fn a_scene_that_is_wrong_says_so_and_the_next_one_opens() {
     assert!(seen.notes[0].text.contains("gamma") && seen.notes[0].weight == Weight::Wrong, "{:?}", seen.notes);
     worker.send(Command::Open(Request { resolution: Some(50), ..Request::of("gas/sod") }, None));
     wait(&worker, &mut seen, "scene", |seen| seen.status.phase == Phase::Ready && seen.shown.is_some());
+}
+
+/// Whatever is wrong about another one: the scene that is open runs on, as it was, and is recorded on.
+#[test]
+fn a_scene_that_is_wrong_leaves_the_one_before_running() {
+    let Some(folder) = folder_or_skip() else { return };
+    let [file, wrong, empty] = ["kept.toml", "wrong.toml", "empty"].map(|name| folder.path().join(name));
+    std::fs::write(&file, SPACE.replace("until = 0.4", "until = 4e3")).unwrap();
+    std::fs::write(&wrong, SPACE.replace("density = 1.0", "density = -1.0")).unwrap();
+    std::fs::create_dir(&empty).unwrap();
+    let worker = Worker::start(GpuOptions::default(), || {});
+    let mut seen = Outbox::default();
+    worker.send(Command::Pace(Pace::Fastest));
+    worker.send(Command::Open(Request::of(file.to_str().unwrap()), None));
+    worker.send(Command::Play(true));
+    wait(&worker, &mut seen, "scene at work", |seen| seen.status.step > 2 && seen.shown.is_some());
+    let large = Request { resolution: Some(12_000), ..Request::of(file.to_str().unwrap()) };
+    let [wrong, empty] = [&wrong, &empty].map(|path| Request::of(path.to_str().unwrap()));
+    let told = ["gas.ambient.density", "empty", "nowhere", "fewer cells"];
+    for (request, told) in [wrong, empty, Request::of("nowhere"), large].into_iter().zip(told) {
+        seen.notes.clear();
+        seen.answers.clear();
+        worker.send(Command::Open(request, None));
+        wait(&worker, &mut seen, "answer", |seen| !seen.answers.is_empty());
+        assert_eq!(seen.answers, [Answer::Refused], "{:?}", seen.notes);
+        let note = seen.notes[0].clone();
+        assert!(note.weight == Weight::Wrong && note.text.contains(told), "{told}: {}", note.text);
+        let step = seen.status.step;
+        wait(&worker, &mut seen, "more steps", |seen| seen.status.step > step + 2);
+        assert!(seen.status.playing && seen.status.phase == Phase::Ready, "{:?}", seen.status);
+        if told == "gas.ambient.density" {
+            let parts = ["wrong.toml:3:", "density = -1.0", "above 0"];
+            assert!(parts.iter().all(|part| note.text.contains(part)), "file, line and help: {}", note.text);
+        }
+    }
+    let opened = seen.opened.clone().unwrap();
+    assert_eq!(opened.request.name, file.to_str().unwrap());
+    worker.send(Command::Open(Request { resolution: Some(50), ..Request::of("gas/sod") }, None));
+    wait(&worker, &mut seen, "another scene", |seen| seen.answers.last() == Some(&Answer::Opened));
+    assert_eq!(seen.opened.unwrap().request.name, "gas/sod");
 }
 
 /// A recording begins with the picture in the window and counts every picture of steps.

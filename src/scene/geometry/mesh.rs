@@ -6,6 +6,8 @@
 mod camera;
 #[cfg(test)]
 mod corpus;
+#[cfg(feature = "viewer")]
+mod given;
 mod gltf;
 mod inspect;
 mod read;
@@ -24,6 +26,8 @@ use crate::scene::finding::Finding;
 use crate::scene::geometry::named::{one, placed_bounds, unplaced};
 use crate::scene::{shape, vector};
 pub(crate) use camera::{FileCamera, Sight, camera};
+#[cfg(feature = "viewer")]
+pub(crate) use given::is_mesh_file;
 use tree::Tree;
 
 /// Bytes that a mesh file may have.

@@ -1,5 +1,6 @@
 //! What the worker writes to the disk when asked: screenshots and recordings.
 
+use super::super::adding::mesh;
 use super::super::model::Weight;
 use super::super::record::{self, Recording};
 use super::Desk;
@@ -37,13 +38,15 @@ impl Desk {
         scene.render = RenderSettings { size: scene.render.size, views: scene.render.views, ..settings };
         scene.output.fields.retain(|field| *field != look.field);
         scene.output.fields.insert(0, look.field);
-        let text = toml::to_string(&scene).map_err(|error| Error::Scene(error.to_string()))?;
         let (folder, name) = &self.saved;
+        std::fs::create_dir_all(folder).map_err(|source| Error::io(folder, source))?;
+        let copied = mesh::bring_along(&mut scene.bodies, folder)?;
+        let text = toml::to_string(&scene).map_err(|error| Error::Scene(error.to_string()))?;
         let path = (1..).map(|k| folder.join(format!("{name}_saved_{k:03}.toml"))).find(|path| !path.exists());
         let path = path.unwrap_or_else(|| folder.join(name));
-        std::fs::create_dir_all(folder).map_err(|source| Error::io(folder, source))?;
         std::fs::write(&path, text).map_err(|source| Error::io(&path, source))?;
-        self.note(Weight::Fine, format!("saved {}", path.display()));
+        let beside: String = copied.iter().map(|file| format!(", with {}", file.display())).collect();
+        self.note(Weight::Fine, format!("saved {}{beside}", path.display()));
         Ok(())
     }
 

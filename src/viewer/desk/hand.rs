@@ -1,6 +1,8 @@
 //! What the mouse does to the scene: blasts, and bodies that are held and let go.
 
-use super::super::adding::Addition;
+use std::path::Path;
+
+use super::super::adding::{Addition, MeshFile};
 use super::super::model::{Strike, Weight};
 use super::super::worker::lock;
 use super::Desk;
@@ -25,6 +27,24 @@ impl Desk {
         (self.replay, self.stale, self.news) = (false, true, true);
         let place = place.map(short)[..session.scene().domain.axes()].join(", ");
         self.note(Weight::Fine, format!("`{name}` of {} at ({place}) m; Left takes it back", addition.material));
+        Ok(())
+    }
+
+    /// Reads a mesh for the next body. A wrong one leaves the form as it is.
+    pub(super) fn read_mesh(&mut self, file: &Path, repair: bool) -> Result<()> {
+        let Some(session) = &self.session else {
+            let text = "open a scene first; a mesh becomes a body of the scene that is open";
+            self.note(Weight::Wrong, format!("{}: {text}", file.display()));
+            return Ok(());
+        };
+        match MeshFile::read(file, session.scene(), repair) {
+            Ok(mesh) => {
+                let (name, triangles) = (&mesh.name, mesh.triangles);
+                self.note(Weight::Fine, format!("`{name}`, {triangles} triangles: a click in the picture adds it"));
+                lock(&self.outbox).mesh = Some(mesh);
+            }
+            Err(error) => self.note(Weight::Wrong, error.to_string()),
+        }
         Ok(())
     }
 

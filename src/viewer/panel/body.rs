@@ -137,7 +137,14 @@ fn slider(ui: &mut Ui, view: &mut View, body: usize, (number, text, meaning): (N
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use super::super::super::model::{Look, Opened, Pace, Request};
+    use super::super::super::session::Session;
+    use super::super::tests::drag;
     use super::*;
+    use crate::gpu::{Gpu, GpuOptions};
+    use crate::scene::Field;
 
     #[test]
     fn factors_are_over_the_scene_file() {
@@ -153,5 +160,62 @@ mod tests {
         let heavy = Number::Density.times(&twice, &scene, clay, 3.0);
         assert_eq!((Number::Density.of(&heavy, clay), Number::Density.of(&heavy, ring)), (Some(30.0), Some(5.0)));
         assert!(heavy.checked().is_ok() && Number::Stiffness.of(&heavy, ring) == Some(300.0));
+    }
+
+    /// A block of clay that flies apart and flows.
+    const CLAY: &str = "title = \"Clay\"\n\
+        domain = { dimension = 2, cells = [16, 16], size = [1.0, 1.0] }\n\
+        gas.ambient = { density = 1.0, pressure = 1.0 }\n\
+        time = { until = 0.1, frames = 1, fixed_step = 1.0e-3 }\n\
+        [materials.clay]\nvon_mises = { young_modulus = 200.0, poisson_ratio = 0.3, yield_stress = 3.0 }\n\
+        [[bodies]]\nname = \"block\"\nshape.box = { center = [0.5, 0.5], size = [0.4, 0.2] }\nmaterial = \"clay\"\n\
+        density = 10.0\nvelocity = [0.5, 0.0]\nspin = 8.0\n";
+
+    fn view(scene: &Scene) -> View {
+        let look = Look { field: Field::Density, settings: scene.own_look() };
+        let (request, scene) = (Request::of("clay"), Arc::new(scene.clone()));
+        let opened = Opened { request, scene, particles: 1, look, fitted: None, device: String::new(), software: true };
+        View::new(opened, Pace::Fastest)
+    }
+
+    /// From the slider to the state: what is let go changes what the next steps compute, into what a scene of such numbers computes.
+    #[test]
+    fn a_slider_changes_what_is_computed() {
+        let scene = Scene::parse(CLAY, "clay.toml", &[]).unwrap();
+        let mut moved = Vec::new();
+        for (number, text, meaning) in SLIDERS {
+            let mut view = view(&scene);
+            assert!(drag(|ui| {
+                slider(ui, &mut view, 0, (number, text, meaning));
+                !view.commands.is_empty()
+            }));
+            let [Command::Change(to)] = &view.commands[..] else { panic!("{text}: {:?}", view.commands) };
+            let factor = number.of(to, 0).unwrap() / number.of(&scene, 0).unwrap();
+            assert!(factor > 1.5 && factor < 10.0, "{text}: {factor}");
+            let others = SLIDERS.iter().filter(|(other, ..)| *other != number);
+            others.for_each(|(other, ..)| assert_eq!(other.of(to, 0), other.of(&scene, 0), "{text}"));
+            moved.push((text, to.clone()));
+        }
+        if std::env::var("BRISANCE_SKIP_GPU").is_ok_and(|value| value == "1") {
+            return;
+        }
+        let gpu = Gpu::new(&GpuOptions::default()).unwrap();
+        // velocities of the particles after some steps
+        let after = |from: &Scene, to: &Scene| {
+            let (mut session, mut records) = (Session::open(&gpu, from.clone()).unwrap(), Vec::new());
+            session.change(to.clone(), &mut records).unwrap();
+            while records.len() < 40 {
+                session.advance(40, &mut records).unwrap();
+            }
+            let particles = session.simulation().snapshot().unwrap().particles;
+            particles.iter().flat_map(|particle| particle.velocity).collect::<Vec<f32>>()
+        };
+        let away = |one: &[f32], other: &[f32]| one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        let plain = after(&scene, &scene);
+        for (text, to) in moved {
+            let (live, start) = (after(&scene, &to), after(&to, &to));
+            assert!(away(&live, &start) < 1e-3, "{text}: {} from a scene of such numbers", away(&live, &start));
+            assert!(away(&live, &plain) > 0.01, "{text}: {} from the scene before", away(&live, &plain));
+        }
     }
 }

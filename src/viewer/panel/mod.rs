@@ -11,7 +11,7 @@ pub(super) mod plots;
 
 use std::sync::Arc;
 
-use egui::{CollapsingHeader, DragValue, Grid, RichText, ScrollArea, Slider, Ui};
+use egui::{Align, CollapsingHeader, DragValue, Grid, RichText, ScrollArea, Slider, Ui};
 
 use super::adding::AIR;
 use super::model::{Command, Source, Status};
@@ -99,7 +99,7 @@ impl Panel {
     /// Takes over what stays when a scene starts again.
     pub(super) fn keep(&mut self, old: Self) {
         (self.open, self.measures) = (old.open, old.measures);
-        self.adding.armed = old.adding.armed;
+        self.adding.keep(old.adding);
     }
 
     /// Whether the stages of steps are measured.
@@ -121,7 +121,8 @@ pub(super) fn show(ui: &mut Ui, view: &mut View, status: &Status) {
             section(ui, "Body", true, |ui| body::show(ui, view));
         }
         if view.dimension() > 1 {
-            section(ui, "Add a body", true, |ui| add::show(ui, view));
+            let is_new = std::mem::take(&mut view.panel.adding.is_new);
+            section_to_see(ui, "Add a body", (true, is_new), |ui| add::show(ui, view));
             section(ui, "Planes and lines", false, |ui| extras::planes_and_lines(ui, view));
         }
         if view.dimension() == 3 {
@@ -140,10 +141,20 @@ pub(super) fn show(ui: &mut Ui, view: &mut View, status: &Status) {
 }
 
 fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {
-    CollapsingHeader::new(RichText::new(name).strong()).default_open(open).show_unindented(ui, |ui| {
+    section_to_see(ui, name, (open, false), content);
+}
+
+/// A section that is open at first, or that opens and comes into sight where it is to be seen.
+fn section_to_see(ui: &mut Ui, name: &str, (open, seen): (bool, bool), content: impl FnOnce(&mut Ui)) {
+    let header = CollapsingHeader::new(RichText::new(name).strong()).default_open(open).open(seen.then_some(true));
+    let shown = header.show_unindented(ui, |ui| {
         content(ui);
         ui.add_space(4.0);
     });
+    if seen {
+        shown.header_response.scroll_to_me(Some(Align::TOP));
+        ui.ctx().request_repaint();
+    }
 }
 
 /// A label before a widget, in columns.
@@ -281,7 +292,52 @@ fn about(ui: &mut Ui, view: &mut View) {
 
 #[cfg(test)]
 mod tests {
+    use egui::{Event, Modifiers, PointerButton, Pos2, RawInput};
+
     use super::*;
+
+    /// Drags whatever of some controls can be dragged, from row to row, until they say that something came of it.
+    pub(super) fn drag(mut show: impl FnMut(&mut Ui) -> bool) -> bool {
+        let context = egui::Context::default();
+        let mut frame = |events: Vec<Event>| {
+            let mut done = false;
+            // nothing is drawn here
+            context.run_ui(RawInput { events, ..RawInput::default() }, |ui| done |= show(ui)).textures_delta.clear();
+            done
+        };
+        frame(Vec::new());
+        (0..20u8).map(|row| 4.0 * f32::from(row)).any(|y| {
+            let [from, to] = [64.0, 80.0].map(|x| Pos2::new(x, y));
+            let press = |pos, pressed| {
+                let (button, modifiers) = (PointerButton::Primary, Modifiers::default());
+                Event::PointerButton { pos, button, pressed, modifiers }
+            };
+            let hand = [Event::PointerMoved(from), press(from, true), Event::PointerMoved(to), press(to, false)];
+            hand.map(|event| frame(vec![event])).contains(&true)
+        })
+    }
+
+    #[test]
+    fn the_slider_of_the_charge_is_what_goes_off() {
+        let scene = Scene::find("playground_2d", &[]).unwrap();
+        for by_mass in [false, true] {
+            let mut blast = Numbers { by_mass, ..Numbers::of(&scene) };
+            let (before, [energy, mass]) = (blast.source(), blast.first);
+            assert!(drag(|ui| {
+                if by_mass {
+                    amount_of(ui, &mut blast.mass, mass, "kg");
+                } else {
+                    amount_of(ui, &mut blast.energy, energy, "J");
+                }
+                blast.source() != before
+            }));
+            match (blast.source(), before) {
+                (Source::Energy(now, radius), Source::Energy(was, same)) => assert!(now > 2.0 * was && radius == same),
+                (Source::Tnt(now), Source::Tnt(was)) => assert!(now > 2.0 * was),
+                other => panic!("{other:?}"),
+            }
+        }
+    }
 
     #[test]
     fn numbers_are_short() {

@@ -9,7 +9,7 @@ use crate::diagnostics::StepRecord;
 use crate::expect::Budget;
 use crate::render::Renderer;
 use crate::scene::{Body, Material, Scene};
-use crate::simulation::{Simulation, place_taken};
+use crate::simulation::{Places, Simulation};
 use crate::state::MemoryPlan;
 use crate::viewer::adding::Addition;
 use crate::viewer::model::Look;
@@ -87,15 +87,23 @@ impl Session {
         let particles = if grid.dimension == 3 { self.seen()? } else { Vec::new() };
         let beside = || Error::Usage("the click is beside the domain; nothing was added".to_owned());
         let mut place = DVec3::from(pick::point(&ray, &grid, &particles).ok_or_else(beside)?);
-        let (view, spacing) = (DVec3::from(ray.direction).normalize(), f64::from(grid.spacing));
-        let mut tries = (2.0 * addition.reach() / (BACK * spacing)) as u32;
-        while grid.dimension == 3 && tries > 0 {
-            let seeds: Vec<_> = addition.seeds(&self.scene, place.into())?;
-            if place_taken(&grid, &particles, &seeds).is_none() {
-                break;
+        if grid.dimension < 3 {
+            return Ok(place.into());
+        }
+        let places = Places::of(grid, &particles);
+        let back = -BACK * f64::from(grid.spacing) * DVec3::from(ray.direction).normalize();
+        let tries = (2.0 * addition.reach() / back.length()) as u32;
+        let mut seeds = addition.seeds(&self.scene, place.into())?;
+        for _ in 0..tries {
+            // those that are moved show where room may be; the place's own have the last word
+            if places.taken(&seeds).is_none() {
+                seeds = addition.seeds(&self.scene, place.into())?;
+                if places.taken(&seeds).is_none() {
+                    break;
+                }
             }
-            place -= BACK * spacing * view;
-            tries -= 1;
+            place += back;
+            seeds.iter_mut().for_each(|seed| seed.position = (DVec3::from(seed.position) + back).into());
         }
         Ok(place.into())
     }

@@ -4,8 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::super::adding::{Form, MeshFile};
+use super::super::model::{Answer, Look, Opened, Outbox};
 use super::*;
 use crate::gpu::GpuOptions;
+use crate::scene::Field;
 
 /// A file as the window hands it over.
 #[derive(Debug)]
@@ -41,7 +44,7 @@ fn a_dropped_file_is_opened_and_its_mistakes_are_told() {
     let name = path.to_str().unwrap();
     frame(&mut ui, &context, &[name, "second.toml"]);
     assert_eq!(ui.request, Some(Request::of(name)), "the first of several files");
-    assert!(ui.opening && ui.watch.is_some());
+    assert!(ui.is_opening() && ui.watch.is_some());
     let start = Instant::now();
     while ui.notes.is_empty() {
         assert!(start.elapsed() < Duration::from_secs(30), "no word about the mistake");
@@ -51,4 +54,83 @@ fn a_dropped_file_is_opened_and_its_mistakes_are_told() {
     let (_, note) = &ui.notes[0];
     assert!(note.weight == Weight::Wrong && note.text.contains("dropped.toml"), "{}", note.text);
     assert_eq!(ui.status.phase, Phase::Failed);
+}
+
+/// It opens no scene; the form has it, and the next click adds it.
+#[test]
+fn a_dropped_mesh_becomes_the_next_body() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("Block.OBJ");
+    std::fs::write(&path, crate::viewer::adding::mesh::tests::BLOCK).unwrap();
+    let worker = Worker::start(GpuOptions::default(), || {});
+    let (mut ui, context) = (Ui::new(worker, None, None), egui::Context::default());
+    frame(&mut ui, &context, &[path.to_str().unwrap()]);
+    assert!(ui.request.is_none() && !ui.is_opening());
+    let start = Instant::now();
+    while ui.notes.is_empty() {
+        assert!(start.elapsed() < Duration::from_secs(30), "no word about the gallery");
+        std::thread::sleep(Duration::from_millis(10));
+        frame(&mut ui, &context, &[]);
+    }
+    assert!(ui.notes[0].1.text.contains("open a scene first"), "{}", ui.notes[0].1.text);
+    // the worker of this test opens nothing: what it would find is given
+    ui.open(Request::of("playground_2d"));
+    ui.heed(vec![Answer::Opened], Some(opened("playground_2d")));
+    let view = ui.view.as_mut().unwrap();
+    (view.panel.open, view.panel.adding.armed) = (false, false);
+    let mesh = MeshFile::read(&path, &view.scene, false).unwrap();
+    view.receive(Outbox { mesh: Some(mesh), ..Outbox::default() });
+    let adding = &view.panel.adding;
+    assert!(view.panel.open && adding.armed && adding.next.form == Form::Mesh, "{adding:?}");
+    assert!(adding.next.size > 3.0 * view.scene.domain.spacing());
+    frame(&mut ui, &context, &[]);
+    assert!(ui.path.is_none());
+    ui.view.as_mut().unwrap().panel.adding.browse = true;
+    frame(&mut ui, &context, &[]);
+    assert!(ui.path.is_some(), "the dialog");
+}
+
+fn opened(name: &str) -> Opened {
+    let request = Request::of(name);
+    let scene = Arc::new(request.load().unwrap());
+    let look = Look { field: Field::Density, settings: scene.own_look() };
+    Opened { request, scene, particles: 0, look, fitted: None, device: String::new(), software: true }
+}
+
+/// The scene that is open stays, and what is asked of it waits, until it is known what becomes of the next one.
+#[test]
+fn a_scene_stays_until_another_one_is_right() {
+    let worker = Worker::start(GpuOptions::default(), || {});
+    let mut ui = Ui::new(worker, None, None);
+    let request = |ui: &Ui| ui.request.as_ref().map(|request| request.name.clone());
+    let title = |ui: &Ui| ui.view.as_ref().map(|view| view.scene.title.clone());
+    // the worker of this test has no device: its answers are not listened to
+    ui.open(Request::of("gas/sod"));
+    assert_eq!((request(&ui).as_deref(), title(&ui), ui.is_opening()), (Some("gas/sod"), None, true));
+    ui.heed(vec![Answer::Opened], Some(opened("gas/sod")));
+    let first = title(&ui);
+    assert!(first.is_some() && !ui.is_opening() && ui.wish == Some(true));
+
+    ui.open_path(Path::new("wrong.toml"));
+    assert!(ui.is_opening());
+    ui.heed(vec![Answer::Refused], None);
+    assert_eq!((request(&ui).as_deref(), title(&ui), ui.is_opening()), (Some("gas/sod"), first.clone(), false));
+
+    // two at once: the first is wrong
+    ui.open_path(Path::new("wrong.toml"));
+    ui.open(Request::of("playground_2d"));
+    ui.heed(vec![Answer::Refused, Answer::Opened], Some(opened("playground_2d")));
+    assert_eq!(request(&ui).as_deref(), Some("playground_2d"));
+    assert!(title(&ui) != first && !ui.is_opening());
+
+    // whoever goes back to the gallery waits for nothing
+    ui.open(Request::of("gas/sod"));
+    ui.back();
+    assert!(!ui.is_opening());
+    ui.heed(vec![Answer::Opened], Some(opened("gas/sod")));
+    assert_eq!((request(&ui), title(&ui)), (None, None));
+
+    ui.open(Request::of("gas/sod"));
+    ui.heed(vec![Answer::Failed], None);
+    assert_eq!((request(&ui).as_deref(), title(&ui), ui.is_opening()), (Some("gas/sod"), None, false));
 }
