@@ -168,8 +168,11 @@ scenes! {
     stiff_plastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, stiff_plastic] takes "246 s";
     soft_plastic_cylinder: "paper/fig10_cylinder_flow.toml" [small, soft_plastic] takes "292 s";
     aeroplane_in_a_wind_tunnel: "paper/fig11_airplane.toml" [small] takes "188 s";
+    aeroplane_for_pictures: "paper/fig11_airplane.toml" [gallery] takes "24 min";
     cactus_forest: "paper/fig12_cactus_forest.toml" [small] takes "135 s";
+    cactus_forest_for_pictures: "paper/fig12_cactus_forest.toml" [gallery] takes "33 min";
     koalas_above_jets: "paper/fig19_koalas.toml" [small] takes "43 s";
+    koalas_for_pictures: "paper/fig19_koalas.toml" [gallery] takes "9 min";
     piston: "coupled/piston.toml";
     slab_at_rest: "coupled/slab_at_rest.toml", "time.until=1.5";
     shell_at_rest: "paper/fig13_ghost_update.toml", "time.until=3.0";
