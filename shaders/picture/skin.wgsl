@@ -28,6 +28,22 @@ fn first_sample(i: u32) -> vec2u {
     return vec2u(i % view.size.x, i / view.size.x) * view.samples + vec2u(0u, SAMPLE_MARGIN);
 }
 
+// Samples between particles in the plane that still belong to the area around them, from either side.
+const GAP: i32 = 2;
+
+// In the plane, a particle seen beside the samples of a ray: between the particles of a body there may be gaps as wide as a ray.
+fn particle_beside(first: vec2i) -> u32 {
+    if view.dimension == 3u { return NOTHING; }
+    let far = i32(view.samples) - 1 + GAP;
+    let middle = i32(view.samples) / 2;
+    var seen = NOTHING;
+    for (var k = 0; k < 9; k++) {
+        let step = vec2i(k % 3, k / 3);
+        seen |= particle_at(first + select(select(vec2i(middle), vec2i(far), step == vec2i(2)), vec2i(-GAP), step == vec2i(0)));
+    }
+    return seen;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn list_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, local);
@@ -38,6 +54,7 @@ fn list_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_
         let place = first + vec2u(s % view.samples, s / view.samples);
         seen |= nearest[place.x + sample_grid().x * place.y];
     }
+    seen |= particle_beside(vec2i(first));
     if seen != NOTHING {
         let slot = atomicAdd(&covered[0], 1u);
         atomicMax(&skin_groups[0], slot / WORKGROUP + 1u);
@@ -59,7 +76,7 @@ fn shade_skin(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
         let place = first + vec2u(s % view.samples, s / view.samples);
         let sample = place.x + sample_grid().x * place.y;
         if view.dimension < 3u {
-            let area = area_at(vec2i(place), 1.0);
+            let area = area_at(vec2i(place), f32(GAP));
             sum.color += area.w * area.rgb;
             sum.coverage += area.w;
         } else if nearest[sample] != NOTHING {
