@@ -29,7 +29,7 @@ fn first_sample(i: u32) -> vec2u {
 }
 
 // Samples between particles in the plane that still belong to the area around them, from either side.
-const GAP: i32 = 2;
+const GAP: i32 = 3;
 
 // In the plane, a particle seen beside the samples of a ray: between the particles of a body there may be gaps as wide as a ray.
 fn particle_beside(first: vec2i) -> u32 {
