@@ -313,21 +313,31 @@ fn message(ui: &mut EguiUi, note: &Note) -> bool {
     frame.show(ui, |ui| {
         ui.set_max_width(720.0);
         ui.horizontal_top(|ui| {
-            let text = RichText::new(note.text.trim_end());
             if wrong {
                 let scroll = egui::ScrollArea::both().min_scrolled_height(320.0).max_height(320.0).max_width(660.0);
-                scroll.show(ui, |ui| {
-                    let label =
-                        egui::Label::new(text.monospace()).selectable(true).wrap_mode(egui::TextWrapMode::Extend);
-                    ui.add(label);
-                });
+                scroll.show(ui, |ui| mistake(ui, note.text.trim_end()));
                 dismissed = ui.button("x").clicked();
             } else {
-                ui.label(text);
+                ui.label(RichText::new(note.text.trim_end()));
             }
         });
     });
     dismissed
+}
+
+/// A mistake line by line: what it says folds, a line of a file stays as it is, above the marks that point into it.
+fn mistake(ui: &mut EguiUi, text: &str) {
+    ui.set_max_width(650.0);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    for line in text.lines() {
+        let wrap = if is_of_file(line) { egui::TextWrapMode::Extend } else { egui::TextWrapMode::Wrap };
+        ui.add(egui::Label::new(RichText::new(line).monospace()).selectable(true).wrap_mode(wrap));
+    }
+}
+
+/// Whether a line of a message shows a line of a file, or points into one: its number stands before a bar.
+fn is_of_file(line: &str) -> bool {
+    line.trim_start().trim_start_matches(|c: char| c.is_ascii_digit()).trim_start().starts_with('|')
 }
 
 /// In place of a picture.

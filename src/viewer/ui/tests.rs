@@ -134,3 +134,29 @@ fn a_scene_stays_until_another_one_is_right() {
     ui.heed(vec![Answer::Failed], None);
     assert_eq!((request(&ui).as_deref(), title(&ui), ui.is_opening()), (Some("gas/sod"), None, false));
 }
+
+#[test]
+fn a_mistake_folds_and_a_line_of_a_file_does_not() {
+    let context = egui::Context::default();
+    let size = |text: &str| {
+        let mut size = egui::Vec2::ZERO;
+        let show = |root: &mut EguiUi| {
+            let shown = egui::ScrollArea::both().show(root, |ui| mistake(ui, text));
+            size = shown.content_size;
+        };
+        context.run_ui(egui::RawInput::default(), show).textures_delta.clear();
+        size
+    };
+    let [short, long] = [5, 60].map(|count| "close the surface ".repeat(count));
+    let line = size(&short).y;
+    let folded = size(&format!("  = {long}"));
+    assert!(folded.x <= 660.0 && folded.y > 1.5 * line, "{folded} for lines of {line}");
+    let marked = size(&format!("12 | {long}"));
+    assert!(marked.x > 1000.0 && marked.y < 1.5 * line, "{marked} for lines of {line}");
+    assert!(
+        is_of_file("   |     ^^^^")
+            && is_of_file("4 | x = 1")
+            && !is_of_file("error: a | b")
+            && !is_of_file("12 cells")
+    );
+}
